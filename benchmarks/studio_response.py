@@ -152,7 +152,7 @@ def main() -> None:
     out: dict[str, object] = {"start_to_address_s": served}
     arm, q = arms.load(chosen.arm), np.array(arms.about(chosen.arm).home) + 0.1
     with serve(arm, State(chosen.arm, arm.joint_names, tuple(q)), port=0) as studio:
-        studio.machine.evaluate(q, (), "relative-manipulability", "torque")
+        studio.machine.evaluate_live_reading(q, (), "relative-manipulability", "torque")
         out["numbers_per_s"] = live(studio.machine, q, chosen.seconds)
         chromium = shutil.which("chromium") or shutil.which("google-chrome")
         if chromium is not None:

@@ -11,7 +11,7 @@ from holdfast.kernels.gpu import arrays
 from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows
 from holdfast.kernels.llvm import machine_code
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.machine_code import MachineCode, object_code
+from holdfast.kernels.llvm.machine_code import MachineCode, compile_llvm_text
 
 
 class Status(int):
@@ -76,11 +76,11 @@ class FakeDriver:
         values, kinds = rest[-2]
         name = program.digest, state
         if name not in self.codes:
-            machine = TargetMachine(1, machine_code.detect_host().machine.fused)
+            machine = TargetMachine(1, machine_code.detect_processor().machine.fused)
             text = DeviceRows(program, machine, on_device=False).module_text()
             if state is not None:
                 text = DeviceLoop(program, state, machine, on_device=False).module_text()
-            self.codes[name] = MachineCode(object_code(text, 0))
+            self.codes[name] = MachineCode(compile_llvm_text(text, 0))
         row = ctypes.CFUNCTYPE(None, *kinds, ctypes.c_int64)(self.codes[name].address)
         for thread in range(rest[0] * rest[3]):
             row(*values, thread)

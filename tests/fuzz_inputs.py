@@ -650,7 +650,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.studies.assessment import load
     from holdfast.studies.designs.record_book.entries import load_record_file as read_record
     from holdfast.studies.study_files.results import read_assessment
-    from holdfast.teleop.records.verification import open_or_name_damage
+    from holdfast.teleop.records.verification import open_undamaged_records
     from holdfast.teleop.serve import texts
 
     def arm_of(path: Path) -> object:
@@ -727,7 +727,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     def records_of(path: Path) -> tuple[Any, ...]:
         for left in path.parent.glob("records.sqlite-*"):
             left.unlink()
-        with open_or_name_damage(path.parent) as records, np.errstate(all="ignore"):
+        with open_undamaged_records(path.parent) as records, np.errstate(all="ignore"):
             return teleop.trial_table(records), teleop.cycle_table(records), records.events(), records.subjects()
 
     sound_records = records_of(root / "experiment" / "records.sqlite")

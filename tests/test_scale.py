@@ -15,7 +15,7 @@ from holdfast.control.convergence.healthy_cost import measure_healthy_cost
 from holdfast.control.simulation import RunOutcome, simulate
 from holdfast.kinematics.solvers import solve_ik
 from holdfast.model.arm.task import as_task
-from holdfast.response.recovery.proofs.reach import prove_out_of_reach
+from holdfast.response.recovery.proofs.reach import prove_by_reach_bound
 from holdfast.studies.designs import design_space
 from holdfast.studies.designs.evaluation import Evaluator
 from holdfast.studies.designs.family import Family
@@ -254,4 +254,4 @@ def test_proofs_that_a_goal_is_out_of_reach(links, size):
     goal = np.eye(4)
     goal[0, 3] = 3 * size * (1 + 2e-7)
     free = np.ones(3, dtype=bool)
-    assert prove_out_of_reach(arm, free, np.zeros(3), goal, False, np.array([0.0, 0.0, 1.0]))
+    assert prove_by_reach_bound(arm, free, np.zeros(3), goal, False, np.array([0.0, 0.0, 1.0]))

@@ -7,7 +7,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from holdfast.interface.report import join_units
+from holdfast.interface.report import insert_nonbreaking_spaces
 
 AS_THEY_ARE = (nodes.FixedTextElement, nodes.literal, nodes.math, nodes.math_block, nodes.raw, nodes.Invisible)
 
@@ -18,7 +18,7 @@ def hold(app: Sphinx, tree: nodes.document) -> None:
         above = text.parent
         while above is not None and not isinstance(above, AS_THEY_ARE):
             above = above.parent
-        held = join_units(str(text))
+        held = insert_nonbreaking_spaces(str(text))
         if above is None and held != text:
             text.parent.replace(text, nodes.Text(held))
 

@@ -25,8 +25,8 @@ def sampled(claim, budget):
         )
         left = at
         for _ in range(20):
-            q = reach.set_fixed_joints(generator.uniform(*reach.sampling_limits.T, (len(left), claim.arm.n)), left)
-            q = reach.solve_targets(q, left[:, :3], 40)
+            q = reach.set_nonfree_joints(generator.uniform(*reach.sampling_limits.T, (len(left), claim.arm.n)), left)
+            q = reach.solve_inverse_kinematics(q, left[:, :3], 40)
             left = left[~(reach.measure_pose_error(q, left[:, :3])[:, 0] < 1e-9)]
             if not len(left):
                 break
@@ -49,7 +49,7 @@ def half_widths(arm, locked, at, q):
         By Taylor forms, and by the mean-value form with the Jacobian over the box in balls; of those that reach their target.
     """
     reach = ReachSolver(arm, "position", locked, np.tile([-WIDE, WIDE], (arm.n, 1)))
-    q = reach.solve_targets(reach.set_fixed_joints(q, at), at[:, :3], 60)
+    q = reach.solve_inverse_kinematics(reach.set_nonfree_joints(q, at), at[:, :3], 60)
     met = reach.measure_pose_error(q, at[:, :3])[:, 0] < 1e-9
     q, at = q[met], at[met]
     form = TaylorForm.expand_at(reach, q, at[:, :3])
@@ -57,7 +57,9 @@ def half_widths(arm, locked, at, q):
     def balls(half):
         return np.array([by_intervals(arm, a, b[:3], locked, x) for a, b, x in zip(q, at, half, strict=True)])
 
-    return np.array([widest(len(q), lambda half: form.prove_cells(np.tile(half[:, None], at.shape[1]))), widest(len(q), balls)])
+    return np.array(
+        [widest(len(q), lambda half: form.is_cell_proved(np.tile(half[:, None], at.shape[1]))), widest(len(q), balls)]
+    )
 
 
 def widest(count, proved):

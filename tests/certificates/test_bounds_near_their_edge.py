@@ -14,7 +14,7 @@ import written
 
 from holdfast.certificates.verifier_parts import bounds, distances
 from holdfast.certificates.verifier_parts.balls import BallArray
-from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_sines_and_cosines
 from holdfast.certificates.verifier_parts.taylor import DerivativeEnclosure, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
@@ -38,7 +38,7 @@ def make_chain(*frames, slides=None):
 
 def at(*middles, half=0.0):
     """Joints at values (N = 1) with half widths."""
-    joints = [enclose_values(np.array([float(x)])) for x in middles]
+    joints = [enclose_sines_and_cosines(np.array([float(x)])) for x in middles]
     for joint, width in zip(joints, np.broadcast_to(half, len(joints)), strict=True):
         joint[:, 2] = width
     return joints
@@ -73,7 +73,7 @@ def test_lengths_of_cubics(rng, cubic):
     t = np.linspace(-1, 1, 2001)[:, None] * half
     v = a + b * t + c * t**2 / 2 + e * t**3 / 6
     bends = [(b + c * half + e * half**2 / 2) * half, (c + e * half) * half**2, e * half**3]
-    near, far = distances.bound_norm(of_one_variable(a, b, c), bends, half[:, None])
+    near, far = distances.bound_norm_range(of_one_variable(a, b, c), bends, half[:, None])
     assert (far >= abs(v).max(axis=0) - ROUNDING).all()
     assert (near <= abs(v).min(axis=0) + ROUNDING).all()
 
@@ -108,7 +108,7 @@ def test_quadratic_functions(rng, variables):
     second = second + second.swapaxes(2, 3)
     half, rest = rng.uniform(0.1, 1, (300, variables)), rng.uniform(0, 0.1, (300, 1))
     form = DerivativeEnclosure(BallArray(value), BallArray(slope), BallArray(second))
-    less, more = (x[:, 0] for x in form.bound_change(half))
+    less, more = (x[:, 0] for x in form.bound_decrease_and_increase(half))
     t = np.stack(np.meshgrid(*[np.linspace(-1, 1, 401 if variables == 1 else 101)] * variables), -1).reshape(-1, variables)
     points = t * half[:, None]
     change = np.einsum("ntk,nk->nt", points, slope[:, 0]) + np.einsum("ntj,njk,ntk->nt", points, second[:, 0], points) / 2
@@ -176,7 +176,7 @@ def test_errors_behind_the_second_order(rng, task, moved, chain):
     far = np.full(2 * n, 0.3) * np.repeat([moved != "target", moved != "arm"], n)
     q = [np.zeros(n), np.zeros(n)]
     error = TaskErrorEnclosure(task, chain, at(*q[0]), chain, at(*q[1]))
-    rest, _ = error.bound_remainder(far[None])
+    rest, _ = error.bound_remainder_and_angle(far[None])
     for way in [*itertools.product((-1.0, 0.0, 1.0), repeat=2 * n), *rng.uniform(-1, 1, (20, 2 * n))]:
         d = far * way
         there = TaskErrorEnclosure(task, chain, at(*(q[0] + d[:n])), chain, at(*(q[1] + d[n:][::-1]))).value.center[0]
@@ -191,7 +191,7 @@ def test_errors_behind_the_second_order(rng, task, moved, chain):
 @pytest.mark.parametrize("q", [(0.0, 0.0), (0.0, 0.5), (0.0, 1.5), (0.0, 3.0)])
 def test_distances_of_an_elbow(q, half):
     """The law of cosines: the distance of the tool from the shoulder depends on the elbow only."""
-    near, far = distances.bound_distance(ELBOW, at(*q, half=half), 0, np.zeros(3), ELBOW.origins[-1], 1)
+    near, far = distances.bound_distance_range(ELBOW, at(*q, half=half), 0, np.zeros(3), ELBOW.origins[-1], 1)
     inner = np.linspace(q[1] - half, q[1] + half, 2001)
     truth = np.sqrt(1 + 0.8**2 + 2 * 0.8 * np.cos(inner))
     assert near[0] <= truth.min() + ROUNDING
@@ -203,7 +203,7 @@ def test_distances_of_an_elbow(q, half):
 def test_an_axis_that_nearly_meets_a_point(aside):
     """A turn about an axis that passes by a point moves the other point as far as it passes by."""
     point = np.array([0.0, aside, 0])
-    near, far = distances.bound_distance(LEVER, at(0.0, half=1.0), 0, point, LEVER.origins[-1], 1)
+    near, far = distances.bound_distance_range(LEVER, at(0.0, half=1.0), 0, point, LEVER.origins[-1], 1)
     angle = np.linspace(-1, 1, 2001)
     truth = np.hypot(np.cos(angle), np.sin(angle) - aside)
     assert near[0] <= truth.min() + 1e-12

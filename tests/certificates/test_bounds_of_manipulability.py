@@ -15,8 +15,8 @@ from written import put, shifted
 import holdfast as hf
 import oracles
 from holdfast.certificates import ceiling_claim, documents, floor_claim, verifier
-from holdfast.certificates.joint_boxes.kernels import FloorTest
-from holdfast.certificates.joint_boxes.wrenches import CeilingTest
+from holdfast.certificates.joint_boxes.kernels import ManipulabilityFloorTest
+from holdfast.certificates.joint_boxes.wrenches import ManipulabilityCeilingTest
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.verifier_parts import bounds
 from holdfast.core.errors import InputError, TaskError
@@ -73,9 +73,9 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
         middle = rng.uniform(-2, 2, half.shape)
         steps = rng.choice([-1.0, 1.0, 0.3], (40, *half.shape))
         true = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).max(axis=0)
-        test = CeilingTest(chain, tuple(range(n)), 0.5)
+        test = ManipulabilityCeilingTest(chain, tuple(range(n)), 0.5)
         least = kept(arm, (middle + steps * half).reshape(-1, n), rows).reshape(40, 8, n).min(axis=(0, 2))
-        below = FloorTest(chain, [2, 3, 4] if kind == "planar" else [*range(6)], tuple(range(n)), 0.5)
+        below = ManipulabilityFloorTest(chain, [2, 3, 4] if kind == "planar" else [*range(6)], tuple(range(n)), 0.5)
         thresholds = rng.uniform(0.3, 1.0, 8) * np.sqrt((n - 6 if n > 6 else 1) / n)
         for k in range(8):
             box = np.column_stack([middle[k] - half[k], middle[k] + half[k]])

@@ -11,10 +11,10 @@ import pytest
 import written
 
 from holdfast.certificates.verifier_parts.balls import BallArray
-from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_sines_and_cosines
 from holdfast.certificates.verifier_parts.distances import LoopClosureVerifier
 from holdfast.certificates.verifier_parts.motions import PathVerifier
-from holdfast.certificates.verifier_parts.taylor import Inclusion, TaskErrorEnclosure
+from holdfast.certificates.verifier_parts.taylor import InvariantSectionBoxes, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 ROUNDING, EDGE = 1e-7, 1e-3
@@ -53,11 +53,13 @@ def bound_and_truth(task, arm, middle, columns, half, points):
 
     def error(moves):
         q, goal = (np.array(middle) + moves[:, :n]).T, (np.array(middle) + moves[:, : n - 1 : -1]).T
-        return TaskErrorEnclosure(task, chain, list(map(enclose_values, q)), chain, list(map(enclose_values, goal)))
+        return TaskErrorEnclosure(
+            task, chain, list(map(enclose_sines_and_cosines, q)), chain, list(map(enclose_sines_and_cosines, goal))
+        )
 
     box = np.array([half], dtype=float)
-    cells = Inclusion(error(np.zeros((1, 2 * n))), BallArray(columns[None]), np.zeros((m, 2 + m)), box.copy())
-    bound = PathVerifier.bound_gradients(SimpleNamespace(m=m), cells, box)[0]
+    cells = InvariantSectionBoxes(error(np.zeros((1, 2 * n))), BallArray(columns[None]), np.zeros((m, 2 + m)), box.copy())
+    bound = PathVerifier.bound_residual_gradients(SimpleNamespace(m=m), cells, box)[0]
     step, truth = 1e-4, []
     for column in [1, *range(2, 2 + m)]:
         moves, way = (points * half) @ columns.T, step * columns[:, column]
@@ -209,7 +211,7 @@ def glue(here, own, w, wide, lock, turned, off=0.0):
     balls = BallArray(own, off)
     ends = BallArray(lock[0]), BallArray(lock[1])
     first = np.arange(len(own)) % 2 == 0
-    return PathVerifier.stays_in_unique_box(
+    return PathVerifier.contains_previous_solution(
         SimpleNamespace(m=wide.shape[1]), BallArray(here), balls, w, wide, ends, first, turned
     )
 

@@ -17,7 +17,7 @@ import oracles
 from holdfast.certificates import reach_claim, verifier
 from holdfast.certificates.target_boxes.search import TargetBoxSearch
 from holdfast.certificates.taylor import CertificateChain, ReachSolver, TaylorForm
-from holdfast.certificates.tree import compute_undecided
+from holdfast.certificates.tree import compute_undecided_fraction
 from holdfast.certificates.verifier import format_percent
 from holdfast.core.errors import InputError
 from holdfast.kernels import set_threads
@@ -50,7 +50,7 @@ def test_the_error_is_never_larger_than_its_bound(types, locked, rng):
     form = TaylorForm.expand_at(reach, q, at + rng.uniform(-1e-3, 1e-3, (40, 3)))
     axes = 3 + (locked >= 0)
     cells, sections = rng.uniform(0, 0.08, (40, axes)), rng.uniform(0, 0.08, (40, 3))
-    above, below, far = form.bound_error(cells, sections)
+    above, below, far = form.bound_error_and_travel(cells, sections)
     jacobians = arm.jacobian(q)[:, :3]
     inverse = np.zeros((40, 5, 3))
     inverse[:, reach.free] = np.linalg.pinv(jacobians[:, :, reach.free])
@@ -202,7 +202,7 @@ def test_what_is_proved_first(three):
     shares = []
     search.run(
         report_closed=lambda closed: shares.append(
-            (closed, search.nodes, float(1 - compute_undecided(search.tree.to_preorder()[0])))
+            (closed, search.nodes, float(1 - compute_undecided_fraction(search.tree.preorder_tokens_and_centers()[0])))
         )
     )
     closed, nodes, proved = np.array(shares).T

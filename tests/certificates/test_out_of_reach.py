@@ -111,12 +111,12 @@ def leaf_of(tree, roots, point):
 @pytest.mark.parametrize("arm", ["planar-3r", "panda"])
 def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, monkeypatch):
     """A box that is reached in part: each configuration lies with its tool in a leaf that is undecided."""
-    monkeypatch.setattr(exclusion, "_search_witness", lambda *_: None)
+    monkeypatch.setattr(exclusion, "_search_reaching_configuration", lambda *_: None)
     arm = hf.arms.load(arm)
     where, size = {3: ((2.0, 1.6), 0.8), 7: ((0.55, 0.1, 0.75), 0.3)}[arm.n]
     claim = out_of_reach_claim(arm, where, size, locked={3 % arm.n or 1: (-2.0, -1.2)} if arm.n == 7 else {1: (0.4, 1.2)})
     batches = count()
-    found = exclusion.search_exclusion(claim, 5, 0, SearchBudget(should_stop=lambda: next(batches) > 12))
+    found = exclusion.search_witness_or_exclusion(claim, 5, 0, SearchBudget(should_stop=lambda: next(batches) > 12))
     assert 0 < found.undecided < 1
     ranges = exclusion.joint_ranges(claim)
     q = rng.uniform(*ranges.T, (40_000, arm.n))
@@ -125,7 +125,7 @@ def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, mo
     assert inside.sum() > 50
     roots = np.vstack([ranges, claim.box])
     assert {leaf_of(found.tree, roots, np.concatenate(pair)) for pair in zip(q[inside][:300], at[inside], strict=False)} == {2}
-    document = documents.build_refutation_document(claim, found, seconds=0.0)
+    document = documents.build_exclusion_document(claim, found, seconds=0.0)
     verdict = verifier.verify(written.stored(document, tmp_path / "a.certificate"), sample=400)
     assert verdict.rejected == 0
     assert verdict.leaves > 0
@@ -142,9 +142,9 @@ def test_bounds_of_distances_hold_and_mean_something(rng):
         part, half = ChainSegment.from_chain(chain, first, last, end), rng.uniform(0.01, 0.2, (30, last - first))
         q, x, wide = rng.uniform(-2, 2, half.shape), rng.uniform(-0.8, 0.8, (30, 3)), rng.uniform(0, 0.05, (30, 3))
         steps = rng.choice([-1.0, 1.0, 0.2], (200, 30, last - first + 3))
-        moved = [part.differentiate_point(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
+        moved = [part.point_axes_and_derivatives(q + step[:, :-3] * half)[0] - x - step[:, -3:] * wide for step in steps]
         true = np.linalg.norm(moved, axis=2)
-        pairs = [(part.bound_distance_below(q, half, x, wide)[0], part.bound_distance_above(q, half, x, wide)[0])]
+        pairs = [(part.lower_distance_bound(q, half, x, wide)[0], part.upper_distance_bound(q, half, x, wide)[0])]
         limits, target = (
             [["-0x1.8p+1", "0x1.8p+1"]] * 5,
             {"axes": "xyz", "box": [["0x0p+0", "0x1p+0"]] * 3, "orientation": None},
@@ -175,7 +175,7 @@ def test_the_verifier_bounds_distances_of_arms_with_slides(rng, types):
     chain, half = VerifiedChain(documents._encode_arm(arm)), rng.uniform(0.01, 0.15, (20, arm.n))
     q, start = rng.uniform(-1, 1, half.shape), rng.uniform(-0.5, 0.5, 3)
     joints = [np.stack([a, 0 * a, h, np.sin(a), np.cos(a)], axis=1) for a, h in zip(q.T, half.T, strict=True)]
-    low, high = distances.bound_distance(chain, joints, 0, start, chain.origins[-1], 20)
+    low, high = distances.bound_distance_range(chain, joints, 0, start, chain.origins[-1], 20)
     at = q + rng.choice([-1.0, 1.0, 0.3], (200, *half.shape)) * half
     tools = arm.forward_kinematics(at.reshape(-1, arm.n))[:, :3, 3].reshape(*at.shape[:2], 3)
     true = np.linalg.norm(tools - start, axis=2)

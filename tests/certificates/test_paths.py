@@ -242,7 +242,7 @@ def test_closed_form_of_a_planar_pose(flat4, tmp_path, rng):
                 long, short = links[:2]
             true[k] = np.abs(goal).max() < long + short and np.abs(goal).min() > abs(long - short)
         said, never = np.zeros((2, len(at)), dtype=bool)
-        for which, spans in ((said, part.proved_spans), (never, part.refuted_spans)):
+        for which, spans in ((said, part.proved_lock_intervals), (never, part.refuted_lock_intervals)):
             for begin, stop in spans:
                 which |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (said & ~true).any()
@@ -314,7 +314,7 @@ def test_turned_cells_that_a_forger_changes_are_rejected(singular, tmp_path):
 
 def flipped(monkeypatch, knot):
     """A search that takes the other elbow from a knot on: what it finds there exists, and no motion leads to it."""
-    before = LockedTrackingEnclosure.predict_start
+    before = LockedTrackingEnclosure.predict_cell_centers
 
     def guessed(self, forms, cells, middle):
         q = before(self, forms, cells, middle)
@@ -322,7 +322,7 @@ def flipped(monkeypatch, knot):
         other[:, 1] += 2 * np.arctan2(np.sin(q[:, 2]), 1 + np.cos(q[:, 2])) - q[:, 2]
         return np.where((cells.start == knot * SEGMENT)[:, None], other, q)
 
-    monkeypatch.setattr(LockedTrackingEnclosure, "predict_start", guessed)
+    monkeypatch.setattr(LockedTrackingEnclosure, "predict_cell_centers", guessed)
 
 
 def test_existence_in_every_cell_is_no_motion(three, tmp_path, monkeypatch):
@@ -332,8 +332,8 @@ def test_existence_in_every_cell_is_no_motion(three, tmp_path, monkeypatch):
     assert hf.certify(claim).ok
     flipped(monkeypatch, 5)
     glued = hf.certify(claim, halvings=1)
-    assert [(part.proved_spans[0][0], part.proved) for part in glued.parts] == [(5 * SEGMENT, 3 / 8)]
-    monkeypatch.setattr(LockedTrackingEnclosure, "continues_from", lambda self, before, forms: forms.good)
+    assert [(part.proved_lock_intervals[0][0], part.proved) for part in glued.parts] == [(5 * SEGMENT, 3 / 8)]
+    monkeypatch.setattr(LockedTrackingEnclosure, "continues_previous_solution", lambda self, before, forms: forms.good)
     loose = hf.certify(claim, halvings=1)
     assert loose.ok
     check = hf.check_certificate(loose.write(tmp_path / "a.certificate"))
@@ -483,7 +483,7 @@ def test_the_same_bytes_and_a_process_without_holdfast(moved, panda, tmp_path):
 
 def between(faults, q, goal):
     """The verifier's form of the error at q from where the tool is at another configuration."""
-    joints, places = (list(map(motions.enclose_values, x[:, None])) for x in (q, goal))
+    joints, places = (list(map(motions.enclose_sines_and_cosines, x[:, None])) for x in (q, goal))
     error = TaskErrorEnclosure(faults.task, faults.chain, joints, faults.chain, places)
     return (x[0, : faults.m] for x in (error.value, error.slopes, error.second))
 
@@ -529,8 +529,8 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
         error, first, second = (x.center for x in between(faults, q[0], goal[0]))
     for d in rng.normal(size=(200, 14)) * 0.1:
         ours, theirs = d[:7], d[:6:-1]  # the healthy joints backwards
-        now = following.compute_tracking_error(
-            following.compute_tool_state(q + ours), following.compute_tool_state(goal + theirs)
+        now = following.tracking_error_and_jacobian(
+            following.tool_pose_and_jacobian(q + ours), following.tool_pose_and_jacobian(goal + theirs)
         )[0][0]
         line = error + first @ d + np.einsum("akl,k,l->a", second, d, d) / 2
         assert (

@@ -40,7 +40,7 @@ def test_the_error_is_never_larger_than_its_bound(locked, turning, rng):
         targets = np.concatenate([targets, Rotation.from_matrix(wanted).as_euler("xyz")], axis=1)
     form, axes = TaylorForm.expand_at(reach, q, targets), targets.shape[1]
     cells, sections = rng.uniform(0, 0.03, (count, axes + (locked >= 0))), rng.uniform(0, 0.03, (count, 6))
-    above, below, far = form.bound_error(cells, sections)
+    above, below, far = form.bound_error_and_travel(cells, sections)
     jacobians, inverse = arm.jacobian(q), np.zeros((count, 7, 6))
     off = tool[:, :3, :3] @ wanted.transpose(0, 2, 1)
     np.testing.assert_allclose(form.error, np.concatenate([tool[:, :3, 3] - targets[:, :3], axial(off)], axis=1), atol=1e-12)

@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, require_capacity
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
 from holdfast.certificates.joint_boxes.jobs import summarize_tree
 from holdfast.certificates.taylor import ReachSolver
 from holdfast.core.errors import InputError
@@ -27,13 +27,13 @@ def along_first(size):
 
 def test_the_estimate_of_a_uniform_tree_is_exact():
     box, deep = np.array([[0.0, 1.0], [0.0, 1.0]]), 25
-    require_capacity(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
+    require_feasible_box_count(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
     with pytest.raises(InputError, match=r"some 3e[+]07 boxes; ask for less"):
-        require_capacity(along_first(2.0**-26), box, 60, 0, "ask for less")
-    require_capacity(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
-    tree = Halving(box, 60)
+        require_feasible_box_count(along_first(2.0**-26), box, 60, 0, "ask for less")
+    require_feasible_box_count(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
+    tree = BoxBisection(box, 60)
     tree.run(along_first(2.0**-11))
-    assert summarize_tree(tree.to_preorder(), len(box), tree.tested, True).leaves == 2**10
+    assert summarize_tree(tree.preorder_tokens(), len(box), tree.tested, True).leaves == 2**10
 
 
 def test_poses_in_a_wide_box(panda):
@@ -76,13 +76,13 @@ def test_targets_without_configurations(three, capsys, monkeypatch):
 def test_the_counts_are_those_of_a_count_by_hand(three, capsys, monkeypatch, centre, size):
     """Three links of 1 m reach whatever is within 3 m, so the targets that were drawn can be counted without any search."""
     monkeypatch.delenv("HOLDFAST_NOTICES", raising=False)
-    sampled, solved = [], ReachSolver.solve_targets
+    sampled, solved = [], ReachSolver.solve_inverse_kinematics
 
     def noted(self, q, targets, *options, **named):
         sampled.append(np.unique(targets, axis=0))
         return solved(self, q, targets, *options, **named)
 
-    monkeypatch.setattr(ReachSolver, "solve_targets", noted)
+    monkeypatch.setattr(ReachSolver, "solve_inverse_kinematics", noted)
     hf.certify(reach_claim(three, list(centre), size), halvings=1)
     said = capsys.readouterr().err
     lost = int((np.linalg.norm(sampled[0], axis=1) > 3).sum())

@@ -10,8 +10,8 @@ import written
 
 from holdfast.certificates.verifier_parts import balls, bounds
 from holdfast.certificates.verifier_parts.balls import BallArray
-from holdfast.certificates.verifier_parts.chain import BallChain, enclose_values
-from holdfast.certificates.verifier_parts.taylor import DerivativeEnclosure, Inclusion, TaskErrorEnclosure
+from holdfast.certificates.verifier_parts.chain import BallChain, enclose_sines_and_cosines
+from holdfast.certificates.verifier_parts.taylor import DerivativeEnclosure, InvariantSectionBoxes, TaskErrorEnclosure
 
 flint = pytest.importorskip("flint", reason="python-flint is not installed")
 COUNT = 100
@@ -69,7 +69,7 @@ def test_losses_to_second_order(rng, bent):
     s, h = abs(exact(slopes[:, 0])), exact(half)
     pair = abs(exact(second[:, 0, 0, 1])) * h[:, 0] * h[:, 1]
     sides = []
-    for sign, found in zip((1, -1), form.bound_change(half), strict=True):
+    for sign, found in zip((1, -1), form.bound_decrease_and_increase(half), strict=True):
         own = sign * exact(np.diagonal(second[:, 0], axis1=1, axis2=2))
         inside = s < own * h
         parts = np.where(inside, s**2 / np.where(inside, 2 * own, 1), s * h - own * h**2 / 2)
@@ -103,11 +103,11 @@ def test_lengths_of_links(rng):
 def test_what_is_behind_the_second_order(rng):
     """The angle by which two chains turn at most, and its cube."""
     chain = make_chain(0.7, 0.4, slides=(False, True))
-    joints = [enclose_values(rng.normal(size=COUNT)) for _ in range(4)]
+    joints = [enclose_sines_and_cosines(rng.normal(size=COUNT)) for _ in range(4)]
     with flint.ctx.workprec(64):
         error = TaskErrorEnclosure("pose", chain, joints[:2], chain, joints[2:])
     far = rng.uniform(0, 1, (COUNT, 4))
-    rest, angle = error.bound_remainder(far)
+    rest, angle = error.bound_remainder_and_angle(far)
     truth = exact(far[:, 0]) + exact(far[:, 3])  # the other chain's joints come backwards
     assert (exact(angle) >= truth).all()
     assert (exact(rest[:, 3]) >= truth**3 / 6).all()
@@ -122,7 +122,7 @@ def test_manipulability_that_is_found(rng):
         arm = written.Chain(frames[:-1], frames[-1], [[-4.0, 4.0]] * 4).stored()
         document = {"joint_box": [["-0x1p+0", "0x1p+0"]] * 4, "arm": arm, "task": "planar-pose"}
         leaves = bounds.CeilingVerifier(document | {"threshold": "0x1p-1", "locks": [0, 2]})
-        low, high = leaves.enclose_attained(["0x0p+0"] * 4)
+        low, high = leaves.enclose_manipulability_at(["0x0p+0"] * 4)
         steps = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]]) * links[:, None]
         places = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
         lever = places[-1] - places[:-1]
@@ -143,7 +143,7 @@ def test_joints_at_their_limits(rng, beyond, side, radius):
     q, far = BallArray(rng.normal(size=(COUNT, 1)), np.full((COUNT, 1), radius)), rng.uniform(0, 1, (COUNT, 1))
     sign = 2 * side - 1
     ends = exact(q.center) + sign * (exact(q.radius) + exact(far))
-    cells = object.__new__(Inclusion)
+    cells = object.__new__(InvariantSectionBoxes)
     accepted = 0
     for k in range(COUNT):
         limits = np.array([[-np.inf, np.inf]])

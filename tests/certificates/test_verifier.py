@@ -127,7 +127,7 @@ def tightness(rng, chain, q, task, half, *, lock, angle, where, rotation=None, s
     widths = np.array([float(w) / 2 for w in leaves.width])
     with balls.flint.ctx.workprec(64), np.errstate(all="ignore"):
         found, _ = leaves.enclose_leaves([(((0, 0),) * len(leaves.width), counts)])
-        matrix = leaves.choose_section(found.error)[0]
+        matrix = leaves.choose_joint_response(found.error)[0]
         w = np.concatenate([widths, rng.uniform(0.1, 1, found.m) * np.max(half) if section is None else section])
         found.half_widths[:] = w
         found.update_bounds()
@@ -307,7 +307,8 @@ def test_random_bytes_of_payloads(locked, tmp_path, rng):
         forged[key] = written.packed(bytes(data))
         try:
             parts = [
-                (t, verifier.compute_volume([cell])) for t, cell in verifier.iterate_cells(written.unpacked(forged["tree"]), 4)
+                (t, verifier.compute_disjoint_volume([cell]))
+                for t, cell in verifier.iterate_cells(written.unpacked(forged["tree"]), 4)
             ]
             share = sum((v for t, v in parts if t == 0), Fraction(0))
             text = [f"{v.numerator}/2^{v.denominator.bit_length() - 1}" for v in (share, Fraction(0), 1 - share)]

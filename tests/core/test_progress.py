@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import holdfast as hf
 from holdfast.core import progress
-from holdfast.core.progress import ProgressCount, count_one, report_work, reports_progress, track
+from holdfast.core.progress import ProgressCount, count_finished_part, report_work, reports_progress, track
 from holdfast.interface.report import figures
 
 
@@ -243,7 +243,7 @@ def test_items_count_once_the_next_is_asked_for(clock, said):
 
 
 def test_what_has_no_total_is_counted(clock, said):
-    count_one("figure")
+    count_finished_part("figure")
     with report_work("drawing"):
         for seconds in (2.0, 8.0):
             figures.svg(Figure(), "a", "nothing")

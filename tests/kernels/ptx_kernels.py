@@ -33,7 +33,7 @@ from holdfast.kernels.gpu.ptx import DeviceLoop, DeviceRows, _translate_to_ptx
 from holdfast.kinematics.indices.index import by_name
 from holdfast.kinematics.indices.susceptibility import by_name as measure_by_name
 from holdfast.model.arm.task import as_task
-from holdfast.model.collision.object_kernels import outward_kernel
+from holdfast.model.collision.object_kernels import outward_gradient_kernel
 from holdfast.response.recovery.task_rows import make_row_solver
 from holdfast.teleop.trials.plant import JoystickPlant
 
@@ -137,7 +137,7 @@ def session(large: bool) -> None:
             continue
         law = hf.control.by_name(oracles.example(LAW_REGISTRY, name, panda, "position"), panda, task="position")
         law.velocity(q, np.ones(3))
-        law._jacobian_kernel(q, np.ones(3))
+        law._rate_derivatives_kernel(q, np.ones(3))
     poses = panda.forward_kinematics(q)
     hf.solve_ik(panda, poses, seed=1, restarts=1)
     law = hf.control.by_name("damped:0.1", plane, task="planar")
@@ -152,7 +152,7 @@ def session(large: bool) -> None:
         measures = hf.indices.susceptibility
         measures.SusceptibilityBatch([measures.torque(panda), measures.acceleration(panda)])(q)
         _ = make_row_solver(panda, as_task(panda, "pose"))._kernels.solver_loop
-        outward_kernel()
+        outward_gradient_kernel()
         JoystickPlant(hf.control.by_name("damped:0.1", plane, task="planar"))
 
 

@@ -187,7 +187,7 @@ def test_nothing_in_a_file_is_executed_but_a_kernel_of_this_machine(folder, comp
     build()
     (file,) = files(folder)
     assert file.read_bytes().startswith(b"holdfast kernel 1\n")
-    assert file.name == cache.cache_key(build().program.digest, 1, machine_code.detect_host().machine.lanes)
+    assert file.name == cache.cache_key(build().program.digest, 1, machine_code.detect_processor().machine.lanes)
 
 
 def test_the_folder_has_a_bound(folder, monkeypatch):

@@ -11,7 +11,7 @@ from flint import arb, ctx
 
 from holdfast.kernels import Kernel, Program
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.machine_code import MachineCode, compile_program, detect_host
+from holdfast.kernels.llvm.machine_code import MachineCode, compile_program, detect_processor
 
 MACHINES = [pytest.param(True, id="fused"), pytest.param(False, id="unfused")]
 
@@ -90,8 +90,8 @@ TWO = {
 def columns(function, fused, *rows, lanes=None):
     """The function of a program on a machine with or without fused multiply-add."""
     symbols = [ca.SX.sym("x"), ca.SX.sym("y")][: len(rows)]
-    machine = TargetMachine(lanes or detect_host().machine.lanes, fused)
-    if fused and not detect_host().machine.fused:
+    machine = TargetMachine(lanes or detect_processor().machine.lanes, fused)
+    if fused and not detect_processor().machine.fused:
         pytest.skip("this processor has no fused multiply-add")
     code = MachineCode(compile_program(Program("function", symbols, [function(*symbols)]), 0, machine))
     width = -(-len(rows[0]) // machine.lanes) * machine.lanes
@@ -179,5 +179,5 @@ def test_one_lane_and_many_give_the_same_bits(rng):
     x, y = rng.uniform(0.1, 0.9, (2, 64))
     for name, (function, *_) in (ONE | TWO).items():
         rows = [x, y][: 1 + (name in TWO)]
-        many = columns(function, detect_host().machine.fused, *rows)
-        np.testing.assert_array_equal(columns(function, detect_host().machine.fused, *rows, lanes=1), many, err_msg=name)
+        many = columns(function, detect_processor().machine.fused, *rows)
+        np.testing.assert_array_equal(columns(function, detect_processor().machine.fused, *rows, lanes=1), many, err_msg=name)

@@ -47,7 +47,9 @@ def test_levels_and_lanes_give_the_same_bits(rng):
     for level in machine_code.COMPILE_LEVELS:
         for lanes in (1, 2, 4, 8, 16):
             code = machine_code.MachineCode(
-                machine_code.compile_program(program, level, TargetMachine(lanes, machine_code.detect_host().machine.fused))
+                machine_code.compile_program(
+                    program, level, TargetMachine(lanes, machine_code.detect_processor().machine.fused)
+                )
             )
             out = np.empty((program.n_out, 64))
             code.call(inputs.ctypes.data, out.ctypes.data, 64, 64)
@@ -74,7 +76,7 @@ def test_without_fused_multiply_add_every_rounding_is_that_of_casadi(rng):
 
 
 def test_a_product_inside_a_sum_is_rounded_once_where_the_machine_can():
-    if not machine_code.detect_host().machine.fused:
+    if not machine_code.detect_processor().machine.fused:
         pytest.skip("this machine has no fused multiply-add")
     x = ca.SX.sym("x", 3)
     tiny = 2.0**-30
@@ -166,11 +168,11 @@ def test_better_code_is_made_at_once_where_many_rows_are_expected(fresh, monkeyp
 
     monkeypatch.setattr(machine_code, "compile_program", watched)
     x, y = long_function(60)
-    with compiled.expect_rows(compiled.REPAYING_WORK - 1):
+    with compiled.expect_row_count(compiled.REPAYING_WORK - 1):
         few = Kernel("few", [x], [y])
-    with compiled.expect_rows(compiled.REPAYING_WORK):
+    with compiled.expect_row_count(compiled.REPAYING_WORK):
         many = Kernel("many", [x], [y + 1])
-        with pytest.raises(ValueError, match="inside"), compiled.expect_rows(0):
+        with pytest.raises(ValueError, match="inside"), compiled.expect_row_count(0):
             raise ValueError("inside")
         Kernel("many again", [x], [y + 2])
     Kernel("after", [x], [y + 3])

@@ -38,10 +38,12 @@ def factor(a):
     symbol = ca.SX.sym("a", ca.DM(a).sparsity() if np.all(a) else ca.sparsify(ca.DM(a)).sparsity())
     qr = linalg.factor_householder(symbol)
     n, m = qr.n, qr.m
-    null = ca.vertcat(*[ca.horzcat(*r) for r in qr.null_rows()])
+    null = ca.vertcat(*[ca.horzcat(*r) for r in qr.null_space_basis()])
     unit = [[ca.SX(float(i == k)) for i in range(n)] for k in range(n)]
-    pinv = ca.vertcat(*[ca.horzcat(*qr.pinv_transposed(qr.q_transposed(e))) for e in unit])
-    f = ca.Function("f", [symbol], [ca.densify(null), pinv, qr.squared_volume(), qr.volume(), qr.squared_norm()])
+    pinv = ca.vertcat(*[ca.horzcat(*qr.apply_pinv_transposed(qr.apply_q_transposed(e))) for e in unit])
+    f = ca.Function(
+        "f", [symbol], [ca.densify(null), pinv, qr.gram_determinant(), qr.singular_value_product(), qr.squared_norm()]
+    )
     values = [np.array(x) for x in f(ca.DM(a))]
     return values[0].reshape(n, n - m), values[1].reshape(n, m), *(float(x.squeeze()) for x in values[2:])
 
@@ -97,7 +99,7 @@ def test_determinant_and_squared_volume(size, rng):
     a = rng.normal(size=(size, size))
     assert number(linalg.determinant(entries(a))) == pytest.approx(np.linalg.det(a), rel=1e-12)
     wide = rng.normal(size=(size, size + 2))
-    assert number(linalg.squared_volume(entries(wide))) == pytest.approx(np.linalg.det(wide @ wide.T), rel=1e-12)
+    assert number(linalg.gram_determinant(entries(wide))) == pytest.approx(np.linalg.det(wide @ wide.T), rel=1e-12)
 
 
 def test_squared_volume_is_exact_near_zero(rng):
@@ -106,7 +108,7 @@ def test_squared_volume_is_exact_near_zero(rng):
     step = 1e-9 * rng.normal(size=3)
     b = a + step
     expected = np.sum(np.cross(a, b - a) ** 2)  # b - a: the rounded difference is exact
-    assert number(linalg.squared_volume(entries([a, b]))) == pytest.approx(expected, rel=1e-5)
+    assert number(linalg.gram_determinant(entries([a, b]))) == pytest.approx(expected, rel=1e-5)
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 6])

@@ -255,21 +255,21 @@ def test_power_of_t_by_integration(dz):
     for n in (3, 8, 40):
         edge, size = stats.t.isf(0.025, n - 1), dz * np.sqrt(n)
         expected = 1 - noncentral_t_below(edge, n - 1, size) + noncentral_t_below(-edge, n - 1, size)
-        assert power.t_power(dz, n, 0.05) == pytest.approx(expected, abs=1e-7)
+        assert power.t_test_power(dz, n, 0.05) == pytest.approx(expected, abs=1e-7)
     found = subjects_for_t(dz, 0.9)
-    assert power.t_power(dz, found) >= 0.9 > power.t_power(dz, found - 1)
+    assert power.t_test_power(dz, found) >= 0.9 > power.t_test_power(dz, found - 1)
     assert subjects_for_t(-dz, 0.9) == found
 
 
 def test_power_of_t_equal_to_statsmodels():
     for dz, n in [(0.2, 40), (0.8, 8), (1.5, 4)]:  # it gives NaN where the power is nearly 1
         expected = TTestPower().power(dz, n, 0.05, alternative="two-sided")
-        assert power.t_power(dz, n, 0.05) == pytest.approx(expected, rel=1e-7)
+        assert power.t_test_power(dz, n, 0.05) == pytest.approx(expected, rel=1e-7)
 
 
 def test_power_of_f_with_one_degree_of_freedom_is_that_of_t():
     for dz, n in [(0.5, 10), (1.5, 5), (0.3, 80)]:
-        assert power.f_power(dz**2, 1, n) == pytest.approx(power.t_power(dz, n), rel=1e-7)
+        assert power.f_test_power(dz**2, 1, n) == pytest.approx(power.t_test_power(dz, n), rel=1e-7)
     assert subjects_for_f(0.8**2, 1) == subjects_for_t(0.8)
     assert subjects_for_t(0.0) is None
     assert subjects_for_t(float("nan")) is None
@@ -286,7 +286,7 @@ def test_power_of_f_by_experiments(rng):
     df, df_error = power.degrees_of_freedom(n, 2, 3)
     f = (sums.effects / df) / (sums.errors / df_error)
     share = (f[:, 2] > stats.f.isf(0.05, 2, 2 * (n - 1))).mean()
-    assert share == pytest.approx(power.f_power(float((effect**2).sum()), 2, n), abs=0.015)
+    assert share == pytest.approx(power.f_test_power(float((effect**2).sum()), 2, n), abs=0.015)
 
 
 def test_lower_end_of_the_noncentrality():

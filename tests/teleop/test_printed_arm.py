@@ -14,7 +14,7 @@ from holdfast.core.errors import TaskError
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.model.arm.task import as_task
 from holdfast.teleop.protocol import protocol
-from holdfast.teleop.protocol.printed_arm import number_laws, print_arm_module
+from holdfast.teleop.protocol.printed_arm import generate_arm_javascript, number_scenario_laws
 from holdfast.teleop.records.tables import run_computer_trials
 from holdfast.teleop.trials.plant import JoystickPlant
 from holdfast.teleop.trials.scenarios import Scenario
@@ -97,8 +97,8 @@ def test_control_steps_agree_with_python(which, rows, count, rng, flat4):
     experiment = every_law(arm, rows, 1, rng)
     q, v, healthy = draws(rng, experiment, count)
     cond = np.linalg.cond(task_jacobian(experiment, q))
-    module = print_arm_module(experiment)
-    for law, scenario in zip(number_laws(experiment), experiment.scenarios, strict=True):
+    module = generate_arm_javascript(experiment)
+    for law, scenario in zip(number_scenario_laws(experiment), experiment.scenarios, strict=True):
         mask = np.ones_like(healthy) if scenario.law == "failure-tolerant" else healthy
         found = in_page(module, law, q, v, mask)
         moved, actual = JoystickPlant(scenario.make_law(experiment.arm, experiment.rows), 1).step_batch(q, v, mask)
@@ -118,8 +118,8 @@ def test_whole_cycles_agree_with_python(rng):
     """Ten sub-steps: beside a singular configuration, what one rounds by the next makes larger, by the condition at most."""
     experiment = every_law(hf.arms.load("planar-3r"), "planar", 10, rng)
     q, v, healthy = draws(rng, experiment, 2000)
-    module = print_arm_module(experiment)
-    for law, scenario in zip(number_laws(experiment), experiment.scenarios, strict=True):
+    module = generate_arm_javascript(experiment)
+    for law, scenario in zip(number_scenario_laws(experiment), experiment.scenarios, strict=True):
         made = scenario.make_law(experiment.arm, experiment.rows)
         found = in_page(module, law, q, v, healthy)
         off = np.abs(found - np.hstack(JoystickPlant(made, 10).step_batch(q, v, healthy))).max(axis=1)
@@ -133,7 +133,7 @@ def test_whole_cycles_agree_with_python(rng):
 def test_trials_of_the_computer_take_the_same_way():
     """The paper's 24 tasks in its four scenarios: the recorded commands again, from the start to the end."""
     experiment = protocol.read_protocol()
-    trials, numbers = run_computer_trials(experiment), number_laws(experiment)
+    trials, numbers = run_computer_trials(experiment), number_scenario_laws(experiment)
     scenarios, tasks, m = len(experiment.scenarios), len(experiment.tasks), experiment.rows.m
     every = experiment.tasks.take(np.tile(np.arange(tasks), scenarios))
     healthy = every.healthy_mask(np.repeat([s.failed for s in experiment.scenarios], tasks))
@@ -142,9 +142,9 @@ def test_trials_of_the_computer_take_the_same_way():
         commands = trials.velocity[trials.first[i] : trials.first[i + 1]]
         parts += [[numbers[i // tasks]], every.q0[i], healthy[i], commands.ravel()]
     script = TRIALS.replace("COUNTS", ",".join(map(str, trials.cycles)))
-    found = browser.run(script, np.concatenate(parts), len(trials.velocity) * m, arm=print_arm_module(experiment)).reshape(
-        -1, m
-    )
+    found = browser.run(
+        script, np.concatenate(parts), len(trials.velocity) * m, arm=generate_arm_javascript(experiment)
+    ).reshape(-1, m)
     worst = np.zeros(len(trials))
     for i in range(len(trials)):
         cycles = slice(trials.first[i], trials.first[i + 1])
@@ -165,7 +165,7 @@ def test_position_and_wire_frame(which, rng, generator, mixed7):
     n, m = arm.n, experiment.rows.m
     markers = n + 1 + bool(np.any(arm.joints[0].origin[:3, 3]))
     q = rng.uniform(-3, 3, (50, n))
-    found = browser.run(PLACES, q, 50 * (m + 3 * markers), arm=print_arm_module(experiment)).reshape(50, m + 3 * markers)
+    found = browser.run(PLACES, q, 50 * (m + 3 * markers), arm=generate_arm_javascript(experiment)).reshape(50, m + 3 * markers)
     np.testing.assert_allclose(found[:, :m], experiment.plants[0].position(q), rtol=0, atol=1e-13)
     for row, wire in zip(q, found[:, m:].reshape(50, markers, 3), strict=True):
         at = arm.base
@@ -190,8 +190,8 @@ def test_singular_arm_stands_and_nan_stays_nan(rng):
     v = np.array([[0.01, 0.02], [0, 0], [0.01, 0], [np.nan, 0], [0, 0], [0, 0]])
     healthy = np.ones((6, 3))
     healthy[4, 1] = np.nan
-    module = print_arm_module(experiment)
-    for law, scenario in zip(number_laws(experiment), experiment.scenarios, strict=True):
+    module = generate_arm_javascript(experiment)
+    for law, scenario in zip(number_scenario_laws(experiment), experiment.scenarios, strict=True):
         plant = JoystickPlant(scenario.make_law(experiment.arm, experiment.rows), 10)
         found, expected = in_page(module, law, q, v, healthy), np.hstack(plant.step_batch(q, v, healthy))
         np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
@@ -211,21 +211,25 @@ let refused=0;
 for(const law of [-1,2,NaN,undefined])try{cycle(law,q,v,healthy,out);}catch(e){refused+=e instanceof RangeError;}
 output.set([joints,axes,laws,markers,before===[q,v,healthy].join()?1:0,refused]);"""
     numbers = np.array([0.1, 0.5, -0.7, 0.02, 0.01, 1, 1, 0])
-    assert browser.run(script, numbers, 6, arm=print_arm_module(protocol.read_protocol())).tolist() == [3, 2, 2, 4, 1, 4]
+    assert browser.run(script, numbers, 6, arm=generate_arm_javascript(protocol.read_protocol())).tolist() == [3, 2, 2, 4, 1, 4]
 
 
 def test_laws_are_printed_once_and_the_module_stays_small(monkeypatch):
     monkeypatch.setenv("HOLDFAST_CACHE", "off")
     experiment = protocol.read_protocol()
-    codes = number_laws(experiment)
+    codes = number_scenario_laws(experiment)
     assert sorted(codes) == [0, 0, 1, 1]
     assert codes[:2] == codes[2:]
-    seeds = [number_laws(dataclasses.replace(experiment, seed=k))[0] for k in range(20)]
+    seeds = [number_scenario_laws(dataclasses.replace(experiment, seed=k))[0] for k in range(20)]
     assert set(seeds) == {0, 1}  # a code says nothing about the law
     other = dataclasses.replace(experiment.scenarios[1], options={"pre_failure_error": 0.3}, number=5)
-    assert sorted(set(number_laws(dataclasses.replace(experiment, scenarios=(*experiment.scenarios, other))))) == [0, 1, 2]
-    text = print_arm_module(experiment)
-    assert text == print_arm_module(protocol.read_protocol())
+    assert sorted(set(number_scenario_laws(dataclasses.replace(experiment, scenarios=(*experiment.scenarios, other))))) == [
+        0,
+        1,
+        2,
+    ]
+    text = generate_arm_javascript(experiment)
+    assert text == generate_arm_javascript(protocol.read_protocol())
     assert len(text) < 40_000
     assert "import" not in text
 
@@ -233,7 +237,7 @@ def test_laws_are_printed_once_and_the_module_stays_small(monkeypatch):
 def test_rows_that_no_stick_commands_are_refused(rng):
     experiment = every_law(hf.arms.load("panda"), "position", 1, rng)
     with pytest.raises(TaskError, match="planar or position"):
-        print_arm_module(dataclasses.replace(experiment, rows=as_task(experiment.arm, "pose")))
+        generate_arm_javascript(dataclasses.replace(experiment, rows=as_task(experiment.arm, "pose")))
 
 
 def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
@@ -244,7 +248,7 @@ def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
 
     def all_of_it():
         plants = dataclasses.replace(experiment).plants
-        return print_arm_module(experiment), [
+        return generate_arm_javascript(experiment), [
             np.concatenate(p.step_batch(q, velocity, healthy), axis=1).tobytes() for p in plants
         ]
 
@@ -256,4 +260,4 @@ def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
     monkeypatch.setattr(hf.control.Law, "rates", never)
     assert all_of_it() == first
     with pytest.raises(AssertionError, match="built again"):
-        print_arm_module(dataclasses.replace(experiment, substeps=7))
+        generate_arm_javascript(dataclasses.replace(experiment, substeps=7))

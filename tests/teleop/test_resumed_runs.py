@@ -91,7 +91,7 @@ def test_a_stopped_experiment_ends_with_the_same_bytes(protocol, complete, tmp_p
 
 
 def test_a_complete_experiment_stays_as_it_is(protocol, complete, copy, monkeypatch, capfd):
-    monkeypatch.setattr(rehearsal, "_drive_people", None)
+    monkeypatch.setattr(rehearsal, "_run_simulated_trials", None)
     assert run(protocol, copy) == complete[1]
     assert f"already holds 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
 

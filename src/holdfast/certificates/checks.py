@@ -94,13 +94,15 @@ def check_certificate(
         InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
             ``certify``).
     """
-    file = find_in_folder(Path(file))
+    file = find_certificate_file(Path(file))
     if workers < 1 or (sample is not None and sample < 1):
         raise InputError("sample and workers must be 1 or more")
     try:
         if arm is not None:
             require_same_arm(verifier.load_certificate(Path(file)), arm)
-        return _convert_verdict(verifier.verify(file, sample=sample, workers=workers, progress=_make_time_guard(time_limit)))
+        return _convert_verdict(
+            verifier.verify(file, sample=sample, workers=workers, progress=_make_time_limit_callback(time_limit))
+        )
     except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
 
@@ -115,7 +117,7 @@ def require_flint() -> None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'")
 
 
-def _make_time_guard(time_limit: float | None) -> Callable[[int], None]:
+def _make_time_limit_callback(time_limit: float | None) -> Callable[[int], None]:
     deadline = math.inf if time_limit is None else monotonic() + time_limit
 
     def raise_if_late(checked_leaves: int) -> None:
@@ -125,7 +127,7 @@ def _make_time_guard(time_limit: float | None) -> Callable[[int], None]:
     return raise_if_late
 
 
-def find_in_folder(path: Path) -> Path:
+def find_certificate_file(path: Path) -> Path:
     """Return the certificate in a folder, of a bundle the one that names its parts; another path is returned as it is."""
     if not path.is_dir():
         return path

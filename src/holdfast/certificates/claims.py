@@ -115,7 +115,7 @@ def reach_claim(
     box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
     locked_index, lock_interval, joint_limits = _parse_lock(arm, locked, limits)
     fixed_joints = (joint_limits[:, 0] == joint_limits[:, 1]) | (np.arange(arm.n) == locked_index)
-    _require_free_joints(arm, int(fixed_joints.sum()), task_name)
+    _require_enough_free_joints(arm, int(fixed_joints.sum()), task_name)
     return ReachClaim(
         arm=arm, task=task_name, box=box, rotation=tool_rotation, locked=locked_index, angle=lock_interval, limits=joint_limits
     )
@@ -161,7 +161,7 @@ def tolerant_claim(
     for joint in locks:
         if not np.isfinite(ranges[joint]).all():
             raise InputError(f"{arm.joint_names[joint]} has no limits, so it may lock anywhere; give its working range")
-    _require_free_joints(arm, 1, task_name)
+    _require_enough_free_joints(arm, 1, task_name)
     return TolerantClaim(arm=arm, task=task_name, box=box, rotation=tool_rotation, working_ranges=ranges, locks=locks)
 
 
@@ -237,7 +237,7 @@ def _parse_lock(
     return locked_index, lock_interval, joint_limits
 
 
-def _require_free_joints(arm: Arm, locked_count: int, task: str) -> None:
+def _require_enough_free_joints(arm: Arm, locked_count: int, task: str) -> None:
     if arm.n - locked_count < TASK_SIZES[task]:
         raise InputError(f"{arm.n - locked_count} joints are left for {TASK_SIZES[task]} rows: no box can be reached")
 
@@ -321,18 +321,18 @@ def out_of_reach_claim(
     )
 
 
-def require_planar(arm: Arm, subject: str, allow_prismatic: bool = False) -> None:
-    """Raise an error unless the arm moves in the xy plane; ``subject`` starts the message, ``allow_prismatic`` accepts
+def require_planar(arm: Arm, message_start: str, allow_prismatic: bool = False) -> None:
+    """Raise an error unless the arm moves in the xy plane; ``message_start`` starts the message, ``allow_prismatic`` accepts
     prismatic joints.
     """
     rotations = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
     upright = [allow_prismatic if joint.prismatic else abs(joint.axis[2]) == 1 for joint in arm.joints]
     if not all(abs(rotation[2, 2]) == 1 for rotation in rotations) or not all(upright):
-        raise InputError(f"{subject} for arms that move in the xy plane, and this one leaves it")
+        raise InputError(f"{message_start} for arms that move in the xy plane, and this one leaves it")
 
 
-def require_revolute(arm: Arm, subject: str) -> None:
-    """Raise an error if the arm has a prismatic joint; ``subject`` is the start of the message's reason."""
+def require_revolute(arm: Arm, message_start: str) -> None:
+    """Raise an error if the arm has a prismatic joint; ``message_start`` is the start of the message's reason."""
     if arm.prismatic.any():
         prismatic_joints = [name for name, is_prismatic in zip(arm.joint_names, arm.prismatic, strict=True) if is_prismatic]
-        raise InputError(f"{prismatic_joints[0]} slides; {subject} for arms whose joints all turn")
+        raise InputError(f"{prismatic_joints[0]} slides; {message_start} for arms whose joints all turn")

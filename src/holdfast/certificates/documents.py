@@ -23,7 +23,7 @@ from holdfast.certificates.target_boxes.jobs import TargetBoxResult
 from holdfast.certificates.taylor import CENTER_UNIT, CertificateChain
 from holdfast.certificates.tool_paths import cells
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.loop_closure import make_closure_exclusion
+from holdfast.certificates.tool_paths.loop_closure import make_loop_closure_exclusion
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verifier_parts import paths
@@ -37,14 +37,14 @@ TargetClaim: TypeAlias = ReachClaim | TolerantClaim | OutOfReachClaim
 
 def build_reach_document(claim: ReachClaim, result: TargetBoxResult, undecided: Fraction) -> Document:
     """Build the certificate of a search that left the fraction ``undecided`` of the box open."""
-    return _sign_document(
+    return _add_claim_and_digests(
         _common_fields(claim, result.seconds, result.nodes)
         | {
             "unit": CENTER_UNIT.hex(),
             "tree": compress_bytes(result.tree),
             "centres": compress_bytes(result.centers.astype("<i4").tobytes()),
             "refutations": [],
-            "volumes": _format_volumes(undecided),
+            "volumes": _format_volume_fractions(undecided),
         }
     )
 
@@ -57,25 +57,29 @@ def format_claim(claim: Claim) -> str:
 
 def build_document(claim: Claim, fields: Document, *, undecided: Fraction, seconds: float, nodes: int) -> Document:
     """Build the certificate of a claim with the fields that prove it, with the fraction ``undecided`` of its box open."""
-    return _sign_document(_common_fields(claim, seconds, nodes) | fields | {"volumes": _format_volumes(undecided)})
+    return _add_claim_and_digests(
+        _common_fields(claim, seconds, nodes) | fields | {"volumes": _format_volume_fractions(undecided)}
+    )
 
 
-def build_bundle_document(claim: TolerantClaim, parts: Sequence[Document], worst: int, names: Sequence[str]) -> Document:
+def build_bundle_document(
+    claim: TolerantClaim, parts: Sequence[Document], worst_index: int, file_names: Sequence[str]
+) -> Document:
     """Build the certificate that lists its parts as files; its volumes are those of the worst part."""
     part_entries = [
-        {"file": name, "digest": part["digest"], "locked": part["locked"]} for name, part in zip(names, parts, strict=True)
+        {"file": name, "digest": part["digest"], "locked": part["locked"]} for name, part in zip(file_names, parts, strict=True)
     ]
     effort_sums = {key: sum(part[key] for part in parts) for key in ("seconds", "nodes")}
-    return _sign_document(
+    return _add_claim_and_digests(
         _common_fields(claim, **effort_sums)
         | {
             "parts": part_entries,
-            "volumes": parts[worst]["volumes"],
+            "volumes": parts[worst_index]["volumes"],
         }
     )
 
 
-def build_refutation_document(claim: OutOfReachClaim, exclusion: Exclusion, *, seconds: float) -> Document:
+def build_exclusion_document(claim: OutOfReachClaim, exclusion: Exclusion, *, seconds: float) -> Document:
     """Build the certificate of an exclusion, or of a witness that disproves the claim."""
     lemmas = [
         {
@@ -87,13 +91,13 @@ def build_refutation_document(claim: OutOfReachClaim, exclusion: Exclusion, *, s
         }
         for lemma in exclusion.lemmas
     ]
-    return _sign_document(
+    return _add_claim_and_digests(
         _common_fields(claim, seconds, exclusion.nodes)
         | {
             "tree": compress_bytes(exclusion.tree),
             "lemmas": lemmas,
             "witness": None if exclusion.witness is None else encode_floats(exclusion.witness),
-            "volumes": _format_volumes(exclusion.undecided),
+            "volumes": _format_volume_fractions(exclusion.undecided),
         }
     )
 
@@ -103,15 +107,17 @@ def build_bound_document(claim: BoundClaim, bisection: Bisection, extreme: NDArr
     fields = {
         "tree": compress_bytes(bisection.tree),
         "found": encode_floats(extreme),
-        "volumes": _format_volumes(bisection.undecided),
+        "volumes": _format_volume_fractions(bisection.undecided),
     }
-    return _sign_document(_common_fields(claim, seconds, bisection.nodes) | fields)
+    return _add_claim_and_digests(_common_fields(claim, seconds, bisection.nodes) | fields)
 
 
-def build_structural_zero_document(claim: StructuralZeroClaim, snapped: list[Document], points: list[str]) -> Document:
+def build_structural_zero_document(
+    claim: StructuralZeroClaim, snapped_frames: list[Document], axis_heights: list[str]
+) -> Document:
     """Build the certificate of a structural zero: frames and points on axes, as exact fractions."""
-    fields = {"snapped": snapped, "points": points, "volumes": _format_volumes(Fraction(0))}
-    return _sign_document(_common_fields(claim, 0.0, len(points)) | fields)
+    fields = {"snapped": snapped_frames, "points": axis_heights, "volumes": _format_volume_fractions(Fraction(0))}
+    return _add_claim_and_digests(_common_fields(claim, 0.0, len(axis_heights)) | fields)
 
 
 def build_path_document(claim: PathClaim, parts: Sequence[LockedPath]) -> Document:
@@ -136,24 +142,24 @@ def build_path_document(claim: PathClaim, parts: Sequence[LockedPath]) -> Docume
         )
     refuted_joint = next((part.joint for part in parts if part.refuted_intervals), None)
     exclusion = (
-        None if refuted_joint is None else make_closure_exclusion(claim, refuted_joint)
+        None if refuted_joint is None else make_loop_closure_exclusion(claim, refuted_joint)
     )  # the points of all locks are the same
     points = (
         [] if exclusion is None else [{"link": link, "place": encode_floats(position)} for link, position in exclusion.points]
     )
-    return _sign_document(
+    return _add_claim_and_digests(
         _common_fields(claim, sum(part.seconds for part in parts), sum(part.nodes for part in parts))
         | {
             "unit": cells.PATH_CENTER_UNIT.hex(),
             "locks": locks,
             "points": points,
             "pairs": [] if exclusion is None else [list(pair) for pair in exclusion.pairs],
-            "volumes": paths.compute_volumes([(part.proved, part.refuted) for part in parts]),
+            "volumes": paths.format_worst_fractions([(part.proved, part.refuted) for part in parts]),
         }
     )
 
 
-def _format_volumes(undecided: Fraction) -> Document:
+def _format_volume_fractions(undecided: Fraction) -> Document:
     fractions = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
     return {key: f"{fraction.numerator}/2^{fraction.denominator.bit_length() - 1}" for key, fraction in fractions.items()}
 
@@ -186,7 +192,7 @@ def _common_fields(claim: Claim, seconds: float, nodes: int) -> Document:
 
 def encode_target(claim: TargetClaim) -> Document:
     """Return the field about the targets of a claim."""
-    target = {"axes": _target_axes(claim), "box": encode_floats(claim.box), "orientation": _encode_rotation(claim)}
+    target = {"axes": _target_axis_letters(claim), "box": encode_floats(claim.box), "orientation": _encode_rotation(claim)}
     return {"target": target}
 
 
@@ -206,12 +212,12 @@ def _encode_rotation(claim: TargetClaim) -> list[str] | None:
     return None if claim.rotation is None else [number for row in encode_floats(claim.rotation) for number in row]
 
 
-def _target_axes(claim: TargetClaim) -> str:
+def _target_axis_letters(claim: TargetClaim) -> str:
     """Return the letters of a target's coordinates."""
     return {"planar": "xy", "planar-pose": "xya"}.get(claim.task, "xyzRPY"[: len(claim.box)])
 
 
-def _sign_document(document: Document) -> Document:
+def _add_claim_and_digests(document: Document) -> Document:
     """Return the document with the sentence of the claim and the digests."""
     document["arm_digest"] = verifier.compute_digest(document["arm"])
     document["claim"] = verifier.claim_sentence(document)

@@ -53,7 +53,7 @@ class RotationError:
         """(k,) components of the error, which are 0 where no rotation remains."""
         return ca.vertcat(*[ca.sum1(ca.sum2(weight * self.rotation)) for weight in self.weights])
 
-    def differentiate_components(self, matrix: SX) -> SX:
+    def differentiate_components_by_rotation(self, matrix: SX) -> SX:
         """Return the (k, 3) derivatives of the components by rotations about the base axes, applied to a matrix."""
         return ca.vertcat(*[_axial_vector(weight @ matrix.T).T for weight in self.weights])
 
@@ -99,7 +99,7 @@ class ToolExpansion:
 
     # ---- error and derivatives ---------------------------------------------------------------------------------
 
-    def _target_rotation(self, target: SX) -> tuple[SX, list[SX]]:
+    def _target_rotation_and_axes(self, target: SX) -> tuple[SX, list[SX]]:
         """Return the rotation of a target and the axes about which its angles rotate it."""
         if not self.turning:
             return ca.reshape(target[3:], 3, 3).T, []
@@ -108,7 +108,7 @@ class ToolExpansion:
         roll, pitch, yaw = (_axis_rotation(axis, target[3 + axis]) for axis in range(3))
         return yaw @ pitch @ roll, [(yaw @ pitch)[:, 0], yaw[:, 1], ca.SX([0, 0, 1])]
 
-    def _tool_jacobian(self, q: SX) -> tuple[kinematics.KinematicChain, SX]:
+    def _chain_and_tool_jacobian(self, q: SX) -> tuple[kinematics.KinematicChain, SX]:
         """Return the kinematic chain and the (6, n) Jacobian of the tool's position and rotation."""
         chain = kinematics.kinematic_chain(self.arm, q)
         return chain, kinematics.chain_jacobian(self.arm, chain, chain.position)
@@ -124,7 +124,7 @@ class ToolExpansion:
 
     def _rotation_error(self, chain: kinematics.KinematicChain, target: SX) -> RotationError:
         """Return the rotation error of the tool."""
-        target_rotation, axes = self._target_rotation(target)
+        target_rotation, axes = self._target_rotation_and_axes(target)
         rotation = chain.rotation @ target_rotation.T
         if self.task == "pointing":
             direction = target_rotation[:, 2]
@@ -149,13 +149,13 @@ class ToolExpansion:
         rotation_error = self._rotation_error(chain, target)
         return position_error, rotation_error.components / ca.sqrt(ca.fmax((1 + rotation_error.cosine) / 2, 1e-12))
 
-    def expand_error(self, q: SX, target: SX, with_cosine: bool = False) -> tuple[SX, SX, list[SX]]:
+    def error_and_derivatives(self, q: SX, target: SX, with_cosine: bool = False) -> tuple[SX, SX, list[SX]]:
         """Return the error (m,), its gradients (m, n + t) and the Hessians of its rows, by joints and angles of the target.
 
         ``with_cosine``: with one more row where rotations count, the cosine of the angle less 1.
         """
         n, t, linear = self.arm.n, self.turning, self.linear
-        chain, jacobian = self._tool_jacobian(q)
+        chain, jacobian = self._chain_and_tool_jacobian(q)
         columns, axes = jacobian[:3, :], jacobian[3:, :]
         error = chain.position[:linear] - target[:linear]
         gradients = ca.horzcat(columns[:linear, :], ca.SX(linear, t))
@@ -177,9 +177,13 @@ class ToolExpansion:
                 )
             rotation_axes = ca.horzcat(axes, *[-(rotation_error.rotation @ axis) for axis in rotation_error.target_axes])
             error = ca.vertcat(error, rotation_error.components + offsets)
-            gradients = ca.vertcat(gradients, rotation_error.differentiate_components(rotation_error.rotation) @ rotation_axes)
+            gradients = ca.vertcat(
+                gradients, rotation_error.differentiate_components_by_rotation(rotation_error.rotation) @ rotation_axes
+            )
             for k in range(n + t):
-                by_k = rotation_error.differentiate_components(ca.skew(rotation_axes[:, k]) @ rotation_error.rotation)
+                by_k = rotation_error.differentiate_components_by_rotation(
+                    ca.skew(rotation_axes[:, k]) @ rotation_error.rotation
+                )
                 for j in range(k + 1):
                     second = by_k @ rotation_axes[:, j]
                     for row in range(len(rotation_error.weights)):
@@ -187,7 +191,7 @@ class ToolExpansion:
         return error, gradients, hessians
 
     @property
-    def _inputs(self) -> tuple[SX, SX, SX]:
+    def _input_symbols(self) -> tuple[SX, SX, SX]:
         """Symbols of the joints, the target and the mask of free joints."""
         return kinematics.joint_symbols(self.arm), ca.SX.sym("x", self.target_size), ca.SX.sym("free", self.arm.n)
 
@@ -202,11 +206,11 @@ class ToolExpansion:
 
     @cached_property
     @cached_kernel
-    def form_kernel(self) -> Kernel:
+    def taylor_form_kernel(self) -> Kernel:
         """Kernel from joints, target, free and locked joints, and the largest extent of a locked slide to the Taylor form."""
-        (q, target, free), n, t = self._inputs, self.arm.n, self.turning
+        (q, target, free), n, t = self._input_symbols, self.arm.n, self.turning
         locked, slide_extent = ca.SX.sym("locked", n), ca.SX.sym("held", n)
-        error, gradients, hessians = self.expand_error(q, target)
+        error, gradients, hessians = self.error_and_derivatives(q, target)
         inverse = self._pseudo_inverse(gradients[:, :n], free)
         response = ca.horzcat(-inverse @ gradients[:, n:], locked - inverse @ (gradients[:, :n] @ locked))
         directions = ca.vertcat(ca.horzcat(inverse, response), ca.horzcat(ca.SX(t, self.m), ca.SX.eye(t), ca.SX(t, 1)))
@@ -225,12 +229,12 @@ class ToolExpansion:
 
     @cached_property
     @cached_kernel
-    def cosine_kernel(self) -> Kernel:
+    def error_derivative_kernel(self) -> Kernel:
         """Kernel from joints and target to the task rows with the cosine row, followed by their gradients and their
         Hessians.
         """
-        q, target, _ = self._inputs
-        error, gradients, hessians = self.expand_error(q, target, with_cosine=True)
+        q, target, _ = self._input_symbols
+        error, gradients, hessians = self.error_and_derivatives(q, target, with_cosine=True)
         return Kernel("rows of a task", [q, target], [ca.densify(output) for output in (error, gradients, *hessians)])
 
     # ---- bounds ------------------------------------------------------------------------------------------------
@@ -239,7 +243,7 @@ class ToolExpansion:
     def _form_symbol(self) -> SX:
         return ca.SX.sym("form", self.m * (1 + len(self.pairs)) + self.arm.n * (self.coordinates + 1))
 
-    def _bound_error(self, form: SX, cell: SX, section: SX) -> tuple[SX, SX, SX, SX]:
+    def _error_bound_expressions(self, form: SX, cell: SX, section: SX) -> tuple[SX, SX, SX, SX]:
         m, n, t, linear = self.m, self.arm.n, self.turning, self.linear
         sizes = [0, m, m * n, (t + 1) * n, m * len(self.pairs), n]
         error, inverse, response, second, slide_extent = ca.vertsplit(form, np.cumsum(sizes).tolist())
@@ -278,12 +282,14 @@ class ToolExpansion:
 
     @cached_property
     @cached_kernel
-    def bound_kernel(self) -> Kernel:
+    def error_bound_kernel(self) -> Kernel:
         """Kernel from a form and half widths of cell (axes + 1,) and section (m,) to bounds of the error less s above and below
         0, and the joint travel.
         """
         form, cell, section = self._form_symbol, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
-        return Kernel("bounds of a Taylor form", [form, cell, section], list(self._bound_error(form, cell, section)[:3]))
+        return Kernel(
+            "bounds of a Taylor form", [form, cell, section], list(self._error_bound_expressions(form, cell, section)[:3])
+        )
 
     @cached_property
     @cached_kernel
@@ -307,7 +313,7 @@ class ToolExpansion:
     def _next_test_state(self, state: SX, form: SX, cell: SX, joint_margin: SX) -> SX:
         """Return the state after one round: a slightly wider section box, or the start of the next test."""
         section, (passed, tested, increment, rounds) = state[: self.m], ca.vertsplit(state[self.m :])
-        upper, lower, joint_travel, angle = self._bound_error(form, cell * (tested / CELL_WIDTH_PARTS), section)
+        upper, lower, joint_travel, angle = self._error_bound_expressions(form, cell * (tested / CELL_WIDTH_PARTS), section)
         error, inside = ca.fmax(upper, lower), ca.mmax(1.001 * joint_travel + 1e-6 - joint_margin) <= 0
         if self.uses_rotation:
             inside = ca.logic_and(inside, angle < _MAX_ROTATION_CHANGE_RAD)
@@ -336,15 +342,16 @@ class ToolExpansion:
     @cached_kernel
     def newton_loop(self) -> Loop:
         """Newton loop from joints to a target with a given error (m,), on the free joints, within limits."""
-        q, target, free = self._inputs
+        q, target, free = self._input_symbols
         error, lower, upper = ca.SX.sym("e", self.m), ca.SX.sym("low", self.arm.n), ca.SX.sym("high", self.arm.n)
-        chain, jacobian = self._tool_jacobian(q)
+        chain, jacobian = self._chain_and_tool_jacobian(q)
         residual = error - ca.vertcat(*self._pose_error(chain, target))  # not the axial part: it is 0 for half a turn as well
         task_jacobian = self._task_jacobian(chain, jacobian)
         if self.task == "pointing":  # across the axis that is wanted, not the tool's own
             rotation_error = self._rotation_error(chain, target)
             task_jacobian = ca.vertcat(
-                task_jacobian[:3, :], rotation_error.differentiate_components(rotation_error.rotation) @ jacobian[3:, :]
+                task_jacobian[:3, :],
+                rotation_error.differentiate_components_by_rotation(rotation_error.rotation) @ jacobian[3:, :],
             )
         step = damped_least_norm(task_jacobian @ ca.diag(free), residual, 1e-8)
         step *= ca.fmin(1, _MAX_NEWTON_STEP_RAD / ca.fmax(ca.mmax(ca.fabs(step)), 1e-12))
@@ -355,12 +362,12 @@ class ToolExpansion:
 
     @cached_property
     @cached_kernel
-    def distance_kernel(self) -> Kernel:
+    def pose_error_kernel(self) -> Kernel:
         """Kernel from joints and target to the position error of the tool, m, and its orientation error, rad."""
-        q, target, _ = self._inputs
+        q, target, _ = self._input_symbols
         distances = [
             ca.sqrt(ca.sumsqr(component)) if component.numel() else ca.SX(0)
-            for component in self._pose_error(self._tool_jacobian(q)[0], target)
+            for component in self._pose_error(self._chain_and_tool_jacobian(q)[0], target)
         ]
         return Kernel("distance from a target", [q, target], distances)
 
@@ -370,8 +377,8 @@ class ToolExpansion:
         """Kernel from joints, a joint move and the free joints to the part of the move that keeps the tool in place, to first
         order.
         """
-        (q, _, free), move = self._inputs, ca.SX.sym("d", self.arm.n)
-        jacobian, free_move = self._task_jacobian(*self._tool_jacobian(q)), move * free
+        (q, _, free), move = self._input_symbols, ca.SX.sym("d", self.arm.n)
+        jacobian, free_move = self._task_jacobian(*self._chain_and_tool_jacobian(q)), move * free
         self_motion = free_move - self._pseudo_inverse(jacobian, free) @ (jacobian @ free_move)
         return Kernel("self-motion of a reach", [q, move, free], [self_motion])
 

@@ -16,7 +16,7 @@ from holdfast.certificates.claims import ReachClaim, TolerantClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
-from holdfast.certificates.tree import compute_undecided
+from holdfast.certificates.tree import compute_undecided_fraction
 from holdfast.core.caching import cached_property
 from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.result import Result
@@ -241,7 +241,7 @@ def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget
 
 
 def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
-    remainder = compute_undecided(result.tree)
+    remainder = compute_undecided_fraction(result.tree)
     return Proof(
         claim=claim,
         proved=1 - remainder,

@@ -19,7 +19,7 @@ import numpy as np
 
 from holdfast.certificates.tree import SearchState, StateCallback
 from holdfast.core.errors import HoldfastError
-from holdfast.core.progress import warn_now
+from holdfast.core.progress import print_warning
 from holdfast.core.sweeps.memory import Parts, SearchMemory
 
 _START_TIME_DIVISOR = 4  # of the time limit, to begin with
@@ -42,7 +42,7 @@ class JobResult(Protocol):
     def to_arrays(self) -> Parts:
         """Return the result as arrays for the search memory."""
 
-    def require_capacity(self) -> None:
+    def check_cell_limit(self) -> None:
         """Raise an error if the job would take too many cells."""
 
 
@@ -85,13 +85,13 @@ class SearchJob(Protocol):
     def empty_result(self) -> JobResult:
         """Return the result of a job that never ran."""
 
-    def from_arrays(self, arrays: Parts) -> JobResult:
+    def result_from_arrays(self, arrays: Parts) -> JobResult:
         """Rebuild a finished result from its stored arrays."""
 
     def child_jobs(self, result: Any) -> Sequence[SearchJob]:
         """Return the child jobs to which a result defers open parts."""
 
-    def merge(self, result: Any, child_results: Sequence[Any]) -> Any:
+    def merge_child_results(self, result: Any, child_results: Sequence[Any]) -> Any:
         """Merge the results of the child jobs into this job's result."""
 
 
@@ -152,7 +152,7 @@ class SearchPool:
         if stored is None:
             self._open_jobs.append(job)
         else:
-            self._record_result(job, job.from_arrays(stored))
+            self._record_result(job, job.result_from_arrays(stored))
 
     def _record_result(self, job: SearchJob, result: JobResult) -> None:
         """Record the result of a job and queue its child jobs."""
@@ -170,7 +170,7 @@ class SearchPool:
         self._states[job.name] = job.claim_fraction, state
         if state.warning and state.warning not in self._shown_warnings:
             self._shown_warnings.add(state.warning)
-            warn_now(state.warning)
+            print_warning(state.warning)
         keys = ("proved", "refuted", "undecided")
         states = self._states.values()
         fractions = {
@@ -185,7 +185,7 @@ class SearchPool:
         return (
             job.empty_result()
             if result is None
-            else job.merge(result, [self.collect_result(child) for child in job.child_jobs(result)])
+            else job.merge_child_results(result, [self.collect_result(child) for child in job.child_jobs(result)])
         )
 
     def run_serial(self, deadline: float, should_stop: StopCheck) -> None:
@@ -195,7 +195,7 @@ class SearchPool:
         for remaining, job in zip(range(len(jobs), 0, -1), jobs, strict=True):
             now = monotonic()
             started = job.start(now if should_stop() else now + (start_deadline - now) / remaining)
-            started.result().require_capacity()
+            started.result().check_cell_limit()
             self._update_running(started)
             if started.finished:
                 self._record_result(job, started.result())
@@ -206,7 +206,7 @@ class SearchPool:
         while (running or self._open_jobs) and monotonic() < deadline and not should_stop():
             waiting, self._open_jobs = self._open_jobs, []
             continuations: list[Callable[[float], RunningJob]] = [
-                *(partial(_return_running, running_job) for running_job in running),
+                *(partial(_reuse_running_job, running_job) for running_job in running),
                 *(job.start for job in waiting),
             ]
             running = []
@@ -245,7 +245,7 @@ class SearchPool:
                         self._open_jobs.clear()
                     for future in wait(futures, _POLL_INTERVAL_S, FIRST_COMPLETED).done:
                         result = future.result()
-                        result.require_capacity()
+                        result.check_cell_limit()
                         self._record_result(futures.pop(future), result)
                     while not messages.empty():
                         name, state = messages.get()
@@ -260,7 +260,7 @@ class SearchPool:
                 stop_event.set()
 
 
-def _return_running(running: RunningJob, deadline: float) -> RunningJob:
+def _reuse_running_job(running: RunningJob, deadline: float) -> RunningJob:
     return running
 
 

@@ -70,7 +70,7 @@ class StructuralZero(Result):
 def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
     """Prove a structural zero if the geometry is within the tolerance of one whose axes meet exactly."""
     chain, n, k = CertificateChain.from_arm(claim.arm), claim.arm.n, claim.locked
-    rotations = [_snap_rotation(rotation) for rotation in chain.rotations[:n]]
+    rotations = [_nearest_integer_quaternion(rotation) for rotation in chain.rotations[:n]]
     points, shift = [Fraction(0)] * n, 0.0
     origins = [[Fraction(float(number)) for number in origin] for origin in chain.origins[:n]]
     for first, last in ((0, k - 1), (k + 1, n - 1)):
@@ -78,12 +78,12 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
             neighbor = axis if axis < last else axis - 1  # the pair of axes whose meeting point is taken
             if first == last:
                 continue
-            heights = chain.find_closest_heights(neighbor)
+            heights = chain.closest_points_on_axes(neighbor)
             if heights is None:
                 return StructuralZero(claim=claim, ok=False, turned=0.0, shifted=np.inf, document=None)
             points[axis] = Fraction(str(round(heights[axis - neighbor], _POINT_DIGITS)))
         for axis in range(first + 1, last + 1):
-            rotation_rows = verifier.exact_rotation(rotations[axis])
+            rotation_rows = verifier.rotation_from_quaternion(rotations[axis])
             exact_origin = [-row[2] * points[axis] for row in rotation_rows]
             exact_origin[2] += points[axis - 1]
             shift = max(
@@ -101,11 +101,11 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
     ]
     point_texts = [f"{number.numerator}/{number.denominator}" for number in points]
     document = documents.build_structural_zero_document(claim, frames, point_texts)
-    rotation_error, position_error = verifier.bound_snap_errors(document)
+    rotation_error, position_error = verifier.bound_frame_errors(document)
     return StructuralZero(claim=claim, ok=True, turned=rotation_error, shifted=position_error, document=document)
 
 
-def _snap_rotation(rotation: FloatArray) -> tuple[int, int, int, int]:
+def _nearest_integer_quaternion(rotation: FloatArray) -> tuple[int, int, int, int]:
     """Return an integer quaternion: of quarter turns about the axes if they are close, otherwise with many digits."""
     from scipy.spatial.transform import Rotation
 

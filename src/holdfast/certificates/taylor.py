@@ -61,11 +61,11 @@ class CertificateChain:
             links.append(float(np.linalg.norm(link)))
         return cls(rotations, origins, np.array(links), arm.prismatic)
 
-    def find_closest_heights(self, k: int) -> tuple[float, float] | None:
+    def closest_points_on_axes(self, joint: int) -> tuple[float, float] | None:
         """Return the heights, m, on the axes of joint k and the next joint at which these axes are closest; None if they are
         parallel.
         """
-        direction, origin = self.rotations[k + 1][:, 2], self.origins[k + 1]
+        direction, origin = self.rotations[joint + 1][:, 2], self.origins[joint + 1]
         squared_sine = direction[:2] @ direction[:2]
         if squared_sine < 1e-12:
             return None
@@ -117,7 +117,7 @@ class ReachSolver:
         self._limits = np.clip(limits.T, -_NO_LIMIT, _NO_LIMIT)
 
     @property
-    def max_lock_displacement(self) -> float:
+    def max_lock_displacement_rate(self) -> float:
         """Largest displacement of the tool, m, for each rad or m of the locked joint."""
         if self.slides[self.locked]:
             return 1.0
@@ -134,7 +134,7 @@ class ReachSolver:
         """True if the joints can move while the tool stays in place."""
         return bool(self.free.sum() > self.m)
 
-    def set_fixed_joints(self, q: FloatArray, coordinates: FloatArray) -> FloatArray:
+    def set_nonfree_joints(self, q: FloatArray, coordinates: FloatArray) -> FloatArray:
         """Return configurations (N, n) with the locked joint at the value in ``coordinates`` (N, A), targets and locked angles,
         and fixed joints at their limits.
         """
@@ -143,7 +143,7 @@ class ReachSolver:
             q[:, self.locked] = coordinates[:, -1]
         return q
 
-    def encode_targets(self, targets: FloatArray) -> FloatArray:
+    def append_target_rotation(self, targets: FloatArray) -> FloatArray:
         """Return targets (N, axes) in the form that the kernels take."""
         return np.concatenate([targets, np.tile(self._rotation, (len(targets), 1))], axis=1)
 
@@ -151,15 +151,17 @@ class ReachSolver:
         """Return the position error, m, and the orientation error, rad, of the tool at q (N, n) for targets (N, axes), as (N,
         2).
         """
-        return self.expansion.distance_kernel.rows(q, self.encode_targets(targets))
+        return self.expansion.pose_error_kernel.rows(q, self.append_target_rotation(targets))
 
-    def solve_targets(self, q: FloatArray, targets: FloatArray, rounds: int = 8, error: FloatArray | None = None) -> FloatArray:
+    def solve_inverse_kinematics(
+        self, q: FloatArray, targets: FloatArray, rounds: int = 8, desired_error: FloatArray | None = None
+    ) -> FloatArray:
         """Run Newton's method from q (N, n) towards targets (N, axes), or an error (N, m), on the free joints, within the
         limits.
         """
-        target_error = np.zeros((len(q), self.m)) if error is None else error
+        target_error = np.zeros((len(q), self.m)) if desired_error is None else desired_error
         fixed_inputs = np.tile(np.concatenate([self._free, *self._limits]), (len(q), 1))
-        parameters = np.concatenate([self.encode_targets(targets), target_error, fixed_inputs], axis=1)
+        parameters = np.concatenate([self.append_target_rotation(targets), target_error, fixed_inputs], axis=1)
         return self.expansion.newton_loop.run(q, parameters, 1e-26, rounds).state
 
     def project_self_motion(self, q: FloatArray, moves: FloatArray) -> FloatArray:
@@ -195,8 +197,8 @@ class TaylorForm:
         return cls(
             reach,
             q,
-            reach.expansion.form_kernel.rows(
-                q, reach.encode_targets(targets), reach._free, reach._locked_mask, reach._slide_extent
+            reach.expansion.taylor_form_kernel.rows(
+                q, reach.append_target_rotation(targets), reach._free, reach._locked_mask, reach._slide_extent
             ),
         )
 
@@ -209,30 +211,42 @@ class TaylorForm:
         """Return the forms of some rows."""
         return TaylorForm(self.reach, self.q[rows], self.coefficients[rows])
 
-    def bound_error(self, cells: FloatArray, sections: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def bound_error_and_travel(
+        self, cell_half_widths: FloatArray, section_half_widths: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the error less s above and below 0 (N, m) and the joint travel (N, n), for half widths of cells and
         sections.
         """
-        upper_error, lower_error, joint_travel = self.reach.expansion.bound_kernel(
-            self.coefficients, self._add_lock_axis(cells), sections
+        upper_error, lower_error, joint_travel = self.reach.expansion.error_bound_kernel(
+            self.coefficients, self._append_zero_lock_width(cell_half_widths), section_half_widths
         )
         return upper_error, lower_error, joint_travel
 
-    def _add_lock_axis(self, cells: FloatArray) -> FloatArray:
+    def _append_zero_lock_width(self, cell_half_widths: FloatArray) -> FloatArray:
         """Return the cells with a lock axis of width 0 added for a healthy arm."""
-        return cells if cells.shape[1] > self.reach.axes else np.concatenate([cells, np.zeros((len(cells), 1))], axis=1)
+        return (
+            cell_half_widths
+            if cell_half_widths.shape[1] > self.reach.axes
+            else np.concatenate([cell_half_widths, np.zeros((len(cell_half_widths), 1))], axis=1)
+        )
 
-    def prove_cells(self, cells: FloatArray) -> BoolArray:
+    def is_cell_proved(self, cell_half_widths: FloatArray) -> BoolArray:
         """Return a mask of the cells, of half widths (N, c), that the forms prove."""
-        return np.asarray(self._test_cells(cells, np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1])) == CELL_WIDTH_PARTS)
+        return np.asarray(
+            self._count_provable_sixteenths(cell_half_widths, np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1]))
+            == CELL_WIDTH_PARTS
+        )
 
-    def find_provable_fraction(self, cells: FloatArray, minimum: FloatArray | None = None) -> FloatArray:
+    def find_provable_width_fraction(self, cell_half_widths: FloatArray, minimum: FloatArray | None = None) -> FloatArray:
         """Return the (N,) largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
 
         ``minimum`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
         """
         if minimum is None:
-            return self._test_cells(cells, np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2])) / CELL_WIDTH_PARTS
+            return (
+                self._count_provable_sixteenths(cell_half_widths, np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2]))
+                / CELL_WIDTH_PARTS
+            )
         passed = CELL_WIDTH_PARTS * minimum
         increment = np.where(
             passed + 1 < CELL_WIDTH_PARTS, 2 ** np.ceil(np.log2(np.maximum(CELL_WIDTH_PARTS - 1 - passed, 1))), 0
@@ -243,9 +257,9 @@ class TaylorForm:
             CELL_WIDTH_PARTS / 2,
             CELL_WIDTH_PARTS / 2,
         )  # no test passes of cells too small for its margins
-        return self._test_cells(cells, initial_state) / CELL_WIDTH_PARTS
+        return self._count_provable_sixteenths(cell_half_widths, initial_state) / CELL_WIDTH_PARTS
 
-    def _test_cells(self, cells: FloatArray, initial_state: FloatArray) -> FloatArray:
+    def _count_provable_sixteenths(self, cell_half_widths: FloatArray, initial_state: FloatArray) -> FloatArray:
         """Return the (N,) number of sixteenths of the cells' widths that pass the test.
 
         ``initial_state``: How many are known to, how many are tested first, and a power of 2, twice that by which others are
@@ -253,22 +267,22 @@ class TaylorForm:
         """
         reach, (lower, upper) = self.reach, self.reach._limits
         margins = np.where(reach.free, np.minimum(self.q - lower, upper - self.q), _NO_LIMIT)
-        parameters = np.concatenate([self.coefficients, self._add_lock_axis(cells), margins], axis=1)
+        parameters = np.concatenate([self.coefficients, self._append_zero_lock_width(cell_half_widths), margins], axis=1)
         state = np.zeros((len(self.q), reach.m + 4))
         state[:, reach.m : reach.m + 3] = initial_state
         final_state = reach.expansion.cell_test_loop.run(state, parameters, 0.5, _MAX_TEST_STEPS).state
         return np.nan_to_num(final_state[:, reach.m])
 
-    def choose_split_axis(self, cells: FloatArray, allowed: BoolArray) -> IndexArray:
+    def choose_split_axis(self, cell_half_widths: FloatArray, allowed: BoolArray) -> IndexArray:
         """Return the (N,) axis, among the ``allowed`` ones (N, c), whose halving leaves the smallest error and limit excess."""
         reach, (lower, upper) = self.reach, self.reach.limits.T
-        costs = np.full(cells.shape, np.inf)
+        costs = np.full(cell_half_widths.shape, np.inf)
         for axis in np.flatnonzero(allowed.any(axis=0)):
-            halved_cells = cells.copy()
+            halved_cells = cell_half_widths.copy()
             halved_cells[:, axis] /= 2
-            upper_error, lower_error, _ = self.bound_error(halved_cells, np.zeros((len(cells), reach.m)))
+            upper_error, lower_error, _ = self.bound_error_and_travel(halved_cells, np.zeros((len(cell_half_widths), reach.m)))
             error = np.nan_to_num(np.maximum(upper_error, lower_error), nan=_SINGULAR_ERROR)
-            _, _, joint_travel = self.bound_error(halved_cells, np.maximum(error, 0))
+            _, _, joint_travel = self.bound_error_and_travel(halved_cells, np.maximum(error, 0))
             limit_excess = (
                 np.maximum(np.maximum(lower - (self.q - joint_travel), self.q + joint_travel - upper), 0) * reach.free
             )

@@ -110,7 +110,7 @@ class BisectionTree:
             place, depth, np.repeat(children, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2)
         )
 
-    def merge_siblings(self, cells: CellBatch) -> CellBatch:
+    def merge_undecided_siblings(self, cells: CellBatch) -> CellBatch:
         """Merge sibling cells that are both undecided into their parent, which becomes an undecided leaf."""
         tokens, children = np.array(self.tokens), np.array(self.lower_children, dtype=np.int64)
         split_nodes, parents = np.flatnonzero(tokens >= SPLIT_TOKEN), np.full(len(tokens), -1)
@@ -130,7 +130,7 @@ class BisectionTree:
                 self.tokens[node] = UNDECIDED_TOKEN
             cells = CellBatch.concatenate([merged, cells.select(np.flatnonzero(~np.isin(cell_parents, merged.name)))])
 
-    def to_preorder(self) -> tuple[bytes, list[IndexArray]]:
+    def preorder_tokens_and_centers(self) -> tuple[bytes, list[IndexArray]]:
         """Return the tokens in pre-order, lower half first, and the centers of the proved leaves in this order."""
         tokens, centers, waiting = bytearray(), [], [0]
         while waiting:
@@ -143,7 +143,7 @@ class BisectionTree:
         return bytes(tokens), centers
 
 
-def compute_undecided(tokens: bytes) -> Fraction:
+def compute_undecided_fraction(tokens: bytes) -> Fraction:
     """Return the exact undecided fraction of a tree in pre-order."""
     counts, depth, waiting = dict[int, int](), 0, list[int]()
     for token in tokens:

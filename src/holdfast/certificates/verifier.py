@@ -37,11 +37,15 @@ require = forms.require
 parse_hex = forms.parse_hex
 compute_digest = forms.compute_digest
 decompress_payload = forms.decompress_payload
-load_certificate, bound_snap_errors, exact_rotation = files.load_certificate, zeros.bound_snap_errors, zeros.exact_rotation
+load_certificate, bound_frame_errors, rotation_from_quaternion = (
+    files.load_certificate,
+    zeros.bound_frame_errors,
+    zeros.rotation_from_quaternion,
+)
 format_percent, claim_sentence, qualify_claim = forms.format_percent, kinds.claim_sentence, forms.qualify_claim
 iterate_cells = tree.iterate_cells
 compute_covered_volume = tree.compute_covered_volume
-compute_volume = tree.compute_volume
+compute_disjoint_volume = tree.compute_disjoint_volume
 MAX_LEAVES = tree.MAX_LEAVES
 MAX_COVER_STEPS = tree.MAX_COVER_STEPS
 FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
@@ -118,7 +122,11 @@ class CertificateVerdict:
 
 
 def _check_leaves(
-    leaf_verifier: Any, chosen: Iterable[Any], workers: int, report_checked: Callable[[int], None], chunk: int = CHUNK_LEAVES
+    leaf_verifier: Any,
+    chosen: Iterable[Any],
+    workers: int,
+    report_checked: Callable[[int], None],
+    chunk_size: int = CHUNK_LEAVES,
 ) -> tuple[int, list[Any]]:
     """Check leaves in chunks; return the number of checked leaves and the rejected ones."""
     checked, rejected, chosen = 0, list[Any](), iter(chosen)
@@ -126,13 +134,13 @@ def _check_leaves(
         map_chunks: Callable[..., Iterable[tuple[int, list[Any]]]] = map
         if workers > 1:
             map_chunks = stack.enter_context(ProcessPoolExecutor(workers, get_context("spawn"))).map
-        for size, failed in map_chunks(leaf_verifier.check_leaves, iter(lambda: list(islice(chosen, chunk)), [])):
+        for size, failed in map_chunks(leaf_verifier.check_leaves, iter(lambda: list(islice(chosen, chunk_size)), [])):
             checked, rejected = checked + size, rejected + failed
             report_checked(size)
     return checked, rejected
 
 
-def _verify_boxes(
+def _verify_leaf_tree(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None]
 ) -> CertificateVerdict:
     """Verify any claim except those of paths and bundles: one tree, each leaf of which is proved alone."""
@@ -142,11 +150,11 @@ def _verify_boxes(
         document["kind"],
     )
     count, undecided, leaves = claim_verifier.read_leaves(document)
-    undecided_volume = tree.compute_volume(undecided)
+    undecided_volume = tree.compute_disjoint_volume(undecided)
     volumes = {"proved": 1 - undecided_volume, "refuted": Fraction(0), "undecided": undecided_volume}
     volume_texts = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
     require(document["volumes"] == volume_texts, "volumes are not those of the tree")
-    lower, upper = claim_verifier.enclose_attained(document["found"]) if "found" in document else (0.0, 0.0)
+    lower, upper = claim_verifier.enclose_manipulability_at(document["found"]) if "found" in document else (0.0, 0.0)
     picked = range(count) if sample is None else set(random.SystemRandom().sample(range(count), max(0, min(sample, count))))
     picked_leaves = (leaf for index, leaf in enumerate(leaves()) if index in picked)
     checked, rejected = _check_leaves(claim_verifier, picked_leaves, workers, report_checked)
@@ -156,7 +164,7 @@ def _verify_boxes(
         refuted = lower > claim_verifier.threshold if kind == "ceiling" else upper < claim_verifier.threshold
     return CertificateVerdict(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), refuted=refuted,
-        seconds=time.perf_counter() - started, undecided=tree.compute_volume(undecided),
+        seconds=time.perf_counter() - started, undecided=tree.compute_disjoint_volume(undecided),
         attained_bound=lower if kind == "ceiling" else upper,
         unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets)
     )  # fmt: skip
@@ -190,17 +198,19 @@ def _verify_path(
         proved, refuted = ([x for x in by_kind[kind] if (kind, index, x[0]) not in broken] for kind in (0, 1))
         leaf_count, checked_count = (sum(len(x[3]) for _, x in group if x[0] == index) for group in (entries, chosen))
         rejected_count = sum(bad_leaves for _, entry, bad_leaves in rejected if entry[0] == index)
-        gaps = paths.find_gaps(proved + refuted, document)
+        gaps = paths.find_uncovered_intervals(proved + refuted, document)
         lock_fields = {"locked": lock["joint"], "claim": f"Lock of {document['arm']['joints'][lock['joint']]['name']}."}
         part = CertificateVerdict(
-            document=document | lock_fields | {"left": paths.find_gaps(proved, document)}, leaves=leaf_count,
+            document=document | lock_fields | {"left": paths.find_uncovered_intervals(proved, document)}, leaves=leaf_count,
             accepted=checked_count - rejected_count,
             rejected=rejected_count, undecided=paths.measure_coverage(gaps, document),
             false=paths.measure_coverage(refuted, document),
             whichever=paths.measure_coverage(proved, document)
         )  # fmt: skip
         parts.append(part)
-    volumes = paths.compute_volumes([(Fraction(lock["proved"]), Fraction(lock["refuted"])) for lock in document["locks"]])
+    volumes = paths.format_worst_fractions(
+        [(Fraction(lock["proved"]), Fraction(lock["refuted"])) for lock in document["locks"]]
+    )
     require(document["volumes"] == volumes, "volumes are not those of the worst locks")
     proved_always = 1 - paths.measure_coverage([gap for part in parts for gap in part.document["left"]], document)
     return _combine_verdicts(
@@ -220,7 +230,7 @@ def _verify_bundle(
         expected |= shared | {"kind": "reach", "digest": part["digest"], "locked": locked}
         is_expected = part["locked"] == locked and all(file.get(key) == value for key, value in expected.items())
         require(is_expected, f"{part['file']} is not the part that the bundle needs")
-    parts = [_verify_boxes(file, sample, workers, report_checked) for file in documents]
+    parts = [_verify_leaf_tree(file, sample, workers, report_checked) for file in documents]
     volumes = [file["volumes"] for file in documents]
     worst = max(volumes, key=lambda x: Fraction(int(x["undecided"].split("/")[0]), 1 << int(x["undecided"].split("^")[1])))
     require(document["volumes"] == worst, "volumes are not those of the worst part")
@@ -253,7 +263,7 @@ def verify(
     path, document, options = Path(path), load_certificate(Path(path)), (sample, workers, progress or (lambda size: None))
     if document["kind"] == "bundle":
         return _verify_bundle(document, *options, files.find_first_file(path).parent)
-    return (_verify_path if document["kind"] == "path" else _verify_boxes)(document, *options)
+    return (_verify_path if document["kind"] == "path" else _verify_leaf_tree)(document, *options)
 
 
 def main() -> int:

@@ -20,7 +20,7 @@ from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.kinematics.workspace import samples
-from holdfast.model.arm.configurations import finite_limits, make_limits_finite
+from holdfast.model.arm.configurations import replace_infinite_limits, sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 from holdfast.model.arm.urdf import rpy_rotation
@@ -166,7 +166,7 @@ def find_working_ranges(
             "margin from 0 to below 0.5"
         )
     locks, bounds = single_joints(arm, failures), narrow_limits(arm, working_ranges or {})
-    bounds[locks] = np.stack(make_limits_finite(bounds[locks, 0], bounds[locks, 1], arm.prismatic[locks]), axis=1)
+    bounds[locks] = np.stack(replace_infinite_limits(bounds[locks, 0], bounds[locks, 1], arm.prismatic[locks]), axis=1)
     narrowed_joints = {*locks, *map(arm.joint_index, working_ranges or {})}
 
     def make_claim(ranges: FloatArray) -> TolerantClaim:
@@ -237,7 +237,7 @@ class _RangeSearch:
             if len(lost_pose):
                 locks, random_seed = np.full(len(lost_pose), joint), np.random.SeedSequence([self._seed + sample, joint, 1])
                 engine = solver(self._arm, self._task)
-                each[lost_pose, lost_value] = engine.reaches_locked(
+                each[lost_pose, lost_value] = engine.is_reachable_with_lock(
                     poses[lost_pose], locks, column[lost_value], random_seed, _MORE_RESTARTS, samples.TARGET_TOLERANCE
                 )
         return table
@@ -245,7 +245,7 @@ class _RangeSearch:
     def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) whether the healthy arm reaches each pose within the ranges."""
         limited_arm = samples.with_artificial_limits(self._arm, ranges)
-        reached = samples.check_reached(limited_arm, self._task, poses, self._seed)
+        reached = samples.find_reached_poses(limited_arm, self._task, poses, self._seed)
         if _RETRY_FRACTION <= reached.mean() < 1:
             random_seed = np.random.SeedSequence([self._seed, 1])
             retried = solver(limited_arm, self._task).solve(
@@ -259,7 +259,7 @@ class _RangeSearch:
         table = self._check_survival(self._grids, self._poses, 0)
         intervals = [self._find_intervals(index, each) for index, each in enumerate(table)]
         limited_arm = samples.with_artificial_limits(self._arm, self._bounds)
-        q = samples.find_configurations(limited_arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
+        q = samples.find_solutions_per_pose(limited_arm, self._task, self._poses, np.random.default_rng([self._seed, 99]))
         if all(map(len, intervals)):
             for chosen in self._combine_intervals(intervals, q):
                 for trimmed_fraction in (margin, margin / 4, 0.0):
@@ -395,7 +395,7 @@ def _find_runs(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
 
 
 def _relative_widths(arm: Arm, ranges: FloatArray) -> FloatArray:
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     limit_widths = np.where(arm.prismatic, upper - lower, np.minimum(upper - lower, 2 * np.pi))
     return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(limit_widths > 0, limit_widths, 1.0) + (
         limit_widths <= 0

@@ -96,21 +96,21 @@ def format_half_width(half: float) -> str:
     return f"±{half:.{int(np.clip(math.ceil(1 - math.log10(max(half, 1e-9))), 3, 9))}f}"
 
 
-def format_share(count: int, whole: int) -> str:
+def format_share(count: int, total: int) -> str:
     """Format a count with its fraction of the whole and the 95 % Clopper-Pearson interval of that fraction."""
-    if not whole:
+    if not total:
         return f"{count:,}"
     from holdfast.core.probability.intervals import Interval
 
-    limits = Interval.from_counts(count, whole)
+    limits = Interval.from_counts(count, total)
     low, high = (format_percent(round(x, 9)) for x in (limits.low, limits.high))
-    return f"{count:,} ({format_percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
+    return f"{count:,} ({format_percent(count / total)}, 95 % interval {low.removesuffix(' %')} to {high})"
 
 
-def on_one_line(text: str, most: int = 60) -> str:
-    """Return the printable part of a text on one line, shortened to ``most`` characters."""
+def shorten_to_one_line(text: str, max_length: int = 60) -> str:
+    """Return the printable part of a text on one line, shortened to ``max_length`` characters."""
     line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return line if len(line) <= most else line[: most - 1] + "…"
+    return line if len(line) <= max_length else line[: max_length - 1] + "…"
 
 
 def format_count(count: int, noun: str) -> str:
@@ -118,7 +118,7 @@ def format_count(count: int, noun: str) -> str:
     return f"{count:,} {noun}" + ("" if count == 1 else "es" if noun.endswith(("x", "sh")) else "s")
 
 
-def join_units(text: str, html: bool = False) -> str:
+def insert_nonbreaking_spaces(text: str, html: bool = False) -> str:
     """Return the text with no-break spaces between numbers and units, so that a page breaks no line there.
 
     Args:
@@ -127,7 +127,7 @@ def join_units(text: str, html: bool = False) -> str:
     """
     if html:
         pieces = _HTML_PIECE.split(text)  # each second one is to stay
-        return "".join(part if k % 2 else join_units(part) for k, part in enumerate(pieces))
+        return "".join(part if k % 2 else insert_nonbreaking_spaces(part) for k, part in enumerate(pieces))
     joined = _SPACE_BEFORE_UNIT.sub(lambda space: "\u00a0" if text[max(space.start() - 1, 0)] in _NUMBER_ENDS else " ", text)
     return _NEGATIVE_EXPONENT.sub(r"\1−", joined.replace("\u00a0N m", "\u00a0N\u00a0m"))
 
@@ -153,10 +153,10 @@ def list_alternatives(words: list[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
 
 
-def list_names(names: Sequence[str], most: int = 60) -> str:
-    """Return quoted names for a sentence, ``most`` of them."""
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(f"'{x}'" for x in names[:most]) + more
+def list_names(names: Sequence[str], max_names: int = 60) -> str:
+    """Return quoted names for a sentence, ``max_names`` of them."""
+    more = f" and {len(names) - max_names} more" if len(names) > max_names else ""
+    return ", ".join(f"'{x}'" for x in names[:max_names]) + more
 
 
 def suggest_name(name: str, known: Collection[str]) -> str:

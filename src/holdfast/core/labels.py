@@ -40,7 +40,7 @@ def is_count(text: str) -> bool:
     return text.isdecimal() and len(text) <= 18
 
 
-def read_measures(name: str, text: str) -> list[float]:
+def parse_quantities(name: str, text: str) -> list[float]:
     """Read comma-separated numbers with units in rad and m, such as ``2mm,1deg`` or ``0.002,0.0175``.
 
     Args:

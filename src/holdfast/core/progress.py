@@ -34,7 +34,7 @@ _lock = threading.Lock()
 @contextmanager
 def long_task(task_name: str, seconds: float) -> Iterator[None]:
     """Print what is being done, and for how long, if it is expected to take more than a second."""
-    notebook_bar = _make_bar() if seconds > LONG_WORK_S else None
+    notebook_bar = _make_notebook_bar() if seconds > LONG_WORK_S else None
     if notebook_bar is not None:
         notebook_bar.show(f"{task_name}, about {_format_time(seconds)}")
     elif seconds > LONG_WORK_S:
@@ -167,7 +167,7 @@ def track(unit_name: str, items: Collection[T], most: bool = False, whole: bool 
                 add_progress(every)
 
 
-def count_one(unit_name: str) -> None:
+def count_finished_part(unit_name: str) -> None:
     """Count one more finished part of an unknown number, for example a "figure"."""
     if _outer is not None and threading.current_thread() is threading.main_thread():
         if unit_name not in _outer.others:
@@ -175,7 +175,7 @@ def count_one(unit_name: str) -> None:
         _outer.others[unit_name](1)
 
 
-def warn_now(text: str) -> None:
+def print_warning(text: str) -> None:
     """Print a message at once, on its own line."""
     _print_notice(text)
 
@@ -192,7 +192,7 @@ class _RunningWork:
         self.share = 0.0
         self.left: float | None = None
         self.silent = False  # somebody else tells of it
-        self.bar = _make_bar()
+        self.bar = _make_notebook_bar()
         self.shown = 0.0  # when the bar was told
 
     def advance(self, done: int, total: int, left: float | None = None) -> None:
@@ -220,25 +220,28 @@ class _RunningWork:
         elif passed >= self.next:
             self._print_progress(passed)
 
-    def finish(self, how: str) -> None:
+    def finish(self, outcome: str) -> None:
         """Finish the work; a notebook keeps the time that it took."""
         if self.bar is not None and self.shown:
-            self.bar.show(f"{self.what}: {how}{_format_time(_clock() - self.begun)}", last=True)
+            self.bar.show(f"{self.what}: {outcome}{_format_time(_clock() - self.begun)}", last=True)
 
-    def _show_in_notebook(self, bar: _NotebookBar, passed: float) -> None:
+    def _show_in_notebook(self, bar: _NotebookBar, elapsed_seconds: float) -> None:
         """In a notebook, where nothing piles up."""
-        if passed < self.shown + RESUMED_WITHIN_S:
+        if elapsed_seconds < self.shown + RESUMED_WITHIN_S:
             return
-        self.shown = passed
+        self.shown = elapsed_seconds
         remaining, count = self._remaining_seconds(), next((c for c in tuple(self.counts) if c.done), None)
         if remaining is not None:
             bar.show(f"{self.what}, about {_format_time(remaining)} more", self.share)
         else:
             bar.show(self.what if count is None else count.describe_progress(self.what))
 
-    def _print_progress(self, passed: float) -> None:
+    def _print_progress(self, elapsed_seconds: float) -> None:
         """Print the progress on stderr, ever more rarely."""
-        named, self.next = self.next > LONG_WORK_S, min(REPEAT_FACTOR * max(passed, LONG_WORK_S), passed + MAX_SILENCE_S)
+        named, self.next = (
+            self.next > LONG_WORK_S,
+            min(REPEAT_FACTOR * max(elapsed_seconds, LONG_WORK_S), elapsed_seconds + MAX_SILENCE_S),
+        )
         remaining, count = self._remaining_seconds(), next((c for c in tuple(self.counts) if c.done), None)
         if remaining is not None:
             if remaining >= LONG_WORK_S:
@@ -325,7 +328,7 @@ def _format_time(seconds: float) -> str:
     return f"{seconds / size:.0f} {unit}"
 
 
-def _make_bar() -> _NotebookBar | None:
+def _make_notebook_bar() -> _NotebookBar | None:
     """Return a progress bar if this is the kernel of a notebook."""
     shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
     is_notebook = getattr(shell, "kernel", None) is not None and os.environ.get("HOLDFAST_NOTICES") != "off"

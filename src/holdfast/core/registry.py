@@ -314,7 +314,7 @@ def _read_source(path: str) -> str:
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
-def _read_constructors(kind: str, module: str, offered: set[str]) -> Iterator[RegistryEntry]:
+def _read_constructors(kind: str, module: str, exported_names: set[str]) -> Iterator[RegistryEntry]:
     text = _read_source(module.removeprefix("holdfast.").replace(".", "/") + ".py")
     if "\n@constructor(" not in text:
         return
@@ -322,7 +322,7 @@ def _read_constructors(kind: str, module: str, offered: set[str]) -> Iterator[Re
     aliases = {ast.unparse(node.targets[0]): node.value for node in body if isinstance(node, ast.Assign)}
     for node in body:
         match node:
-            case ast.FunctionDef(name, decorator_list=[ast.Call(ast.Name("constructor")) as mark]) if name in offered:
+            case ast.FunctionDef(name, decorator_list=[ast.Call(ast.Name("constructor")) as mark]) if name in exported_names:
                 facts = {k.arg: ast.literal_eval(k.value) for k in mark.keywords if k.arg}
                 about = (ast.get_docstring(node) or "").partition("\n")[0]
                 parameters = tuple(_read_parameters(node.args, aliases))

@@ -46,7 +46,7 @@ def _is_private(file_status: os.stat_result) -> bool:
 
 @lru_cache(maxsize=1)
 def _machine_digest() -> str:
-    processor = machine_code.detect_host()
+    processor = machine_code.detect_processor()
     # A kernel made by other code is another kernel.
     sources = [file for folder in ("llvm", "gpu") for file in sorted(Path(__file__).with_name(folder).glob("*.py"))]
     code = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()
@@ -104,10 +104,10 @@ def store_entry(name: str, body: bytes) -> None:
         _written[path] = _written.get(path, _MAX_FOLDER_BYTES) + len(body)
         if _written[path] > _MAX_FOLDER_BYTES >> 5:
             _written[path] = 0
-            _trim_folder(path)
+            _delete_oldest_entries(path)
 
 
-def _trim_folder(path: Path) -> None:
+def _delete_oldest_entries(path: Path) -> None:
     """Remove the entries that were not used for longest until the folder is small enough."""
     with os.scandir(path) as entries:
         files = [(entry.stat(follow_symlinks=False), entry.path) for entry in entries]

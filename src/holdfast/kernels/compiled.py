@@ -42,7 +42,7 @@ _coming: ContextVar[int] = ContextVar("coming", default=0)
 
 
 @contextlib.contextmanager
-def expect_rows(rows: int) -> Iterator[None]:
+def expect_row_count(rows: int) -> Iterator[None]:
     """Context in which new kernels of this thread expect this many rows; where better code repays, it is compiled at once."""
     before = _coming.set(rows)
     try:
@@ -67,7 +67,9 @@ class CompiledProgram:
         self.lanes = self._lanes_of_level(1)
         stored_code = self._load_code(1)
         if stored_code is None and (
-            program.size <= MAX_IMMEDIATE_OPERATIONS or os.environ.get("HOLDFAST_LEVEL") == "1" or self._repays(_coming.get())
+            program.size <= MAX_IMMEDIATE_OPERATIONS
+            or os.environ.get("HOLDFAST_LEVEL") == "1"
+            or self._is_compilation_worthwhile(_coming.get())
         ):
             stored_code = self._compile_code(1)
         self.level = 0 if stored_code is None else 1
@@ -91,7 +93,7 @@ class CompiledProgram:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
             code.call(*arguments)
             if not self.level:
-                self._count_rows(width)
+                self._count_evaluated_rows(width)
 
         return evaluate_bound
 
@@ -103,30 +105,30 @@ class CompiledProgram:
 
     # ---- levels ------------------------------------------------------------------------------------------------
 
-    def _count_rows(self, rows: int) -> None:
+    def _count_evaluated_rows(self, rows: int) -> None:
         self._rows += rows
-        if self._repays(self._rows):
+        if self._is_compilation_worthwhile(self._rows):
             self._rows = -(1 << 62)  # asked once
             if in_pool() and _busy.acquire(blocking=False):
                 # Every processor is busy: beside one thread more, the others would only be longer on level 0.
                 try:
-                    self._compile_better()
+                    self._replace_by_optimized_code()
                 finally:
                     _busy.release()
             else:
-                _submit_job(self._compile_better)
+                _submit_job(self._replace_by_optimized_code)
 
-    def _repays(self, rows: int) -> bool:
+    def _is_compilation_worthwhile(self, rows: int) -> bool:
         return (
             rows >= (REPAYING_WORK_OF_SHORT if self._program.size < SHORT_PROGRAM_OPERATIONS else REPAYING_WORK)
             and self._program.size <= MAX_COMPILED_OPERATIONS
         )
 
-    def _compile_better(self) -> None:
+    def _replace_by_optimized_code(self) -> None:
         self._code, self.level = self._load_code(1) or self._compile_code(1, in_background=True), 1
 
     def _lanes_of_level(self, level: int) -> int:
-        lanes = machine_code.detect_host().machine.lanes
+        lanes = machine_code.detect_processor().machine.lanes
         return lanes if level and self._program.size <= MAX_TWO_REGISTER_OPERATIONS else min(lanes, 8)
 
     def _code_key(self, level: int, lanes: int) -> str:
@@ -138,7 +140,7 @@ class CompiledProgram:
 
     def _compile_code(self, level: int, lanes: int | None = None, in_background: bool = False) -> machine_code.MachineCode:
         lanes = lanes or self._lanes_of_level(level)
-        program, machine = self._program, TargetMachine(lanes, machine_code.detect_host().machine.fused)
+        program, machine = self._program, TargetMachine(lanes, machine_code.detect_processor().machine.fused)
         with progress.long_task(
             f"compiling '{program.name}'",
             0 if in_background else program.size * machine_code.COMPILE_SECONDS_PER_OPERATION[level],
@@ -181,7 +183,7 @@ def wait_for_compiler() -> None:
         done.wait()
 
 
-def _before_fork() -> None:
+def _lock_compiler_before_fork() -> None:
     """Wait before a fork, because CasADi and LLVM have locks that a child process cannot open.
 
     In this order: a job that runs needs LLVM to end.
@@ -190,7 +192,7 @@ def _before_fork() -> None:
     _fork.enter_context(machine_code.llvm_lock())
 
 
-def _after_fork_in_parent() -> None:
+def _unlock_compiler_after_fork() -> None:
     _fork.close()
     _busy.release()
 
@@ -203,7 +205,9 @@ def _after_fork_in_child() -> None:
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork_in_parent, after_in_child=_after_fork_in_child)
+    os.register_at_fork(
+        before=_lock_compiler_before_fork, after_in_parent=_unlock_compiler_after_fork, after_in_child=_after_fork_in_child
+    )
 
 
 @atexit.register

@@ -40,10 +40,10 @@ def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
             facts = cache.load_entry(entry)
             if facts is None:
                 kernel = build(*args, **kwargs)
-                cache.store_entry(entry, _write_facts(kernel))
-                _kernel_of(kernel).program.recipe = recipe
+                cache.store_entry(entry, _encode_facts(kernel))
+                _kernel_or_step(kernel).program.recipe = recipe
                 return kernel
-            return cast(K, _read_facts(facts, recipe, lambda: _kernel_of(build(*args, **kwargs)).program))
+            return cast(K, _decode_facts(facts, recipe, lambda: _kernel_or_step(build(*args, **kwargs)).program))
 
     return build_or_load
 
@@ -73,16 +73,16 @@ def _digest_of_call(build: Callable[..., object], args: object, kwargs: object) 
     return fingerprint(build.__module__, build.__qualname__, args, kwargs) if is_own else None
 
 
-def _kernel_of(built: Kernel | Loop) -> Kernel:
+def _kernel_or_step(built: Kernel | Loop) -> Kernel:
     return built.step if isinstance(built, Loop) else built
 
 
-def _write_facts(built: Kernel | Loop) -> bytes:
+def _encode_facts(built: Kernel | Loop) -> bytes:
     loop = [built.ahead, built.times] if isinstance(built, Loop) else None
-    return json.dumps([loop, *_kernel_of(built).program.facts()]).encode()
+    return json.dumps([loop, *_kernel_or_step(built).program.facts()]).encode()
 
 
-def _read_facts(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
+def _decode_facts(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
     loop, *program_facts = json.loads(facts)
     program = Program.from_facts(program_facts, build)
     program.recipe = recipe

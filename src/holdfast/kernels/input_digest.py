@@ -40,7 +40,7 @@ def fingerprint(*parts: object) -> str | None:
     try:
         hasher = hashlib.sha256(_sources_digest().encode())
         for part in parts:
-            for block in _byte_blocks(part, ()):
+            for block in _bytes_to_hash(part, ()):
                 hasher.update(len(block).to_bytes(8, "little") + block)
     except _NoDigestError:
         return None
@@ -62,7 +62,7 @@ def _sources_digest() -> str:
     return hasher.hexdigest()
 
 
-def _byte_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
+def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
     if id(x) in inside:
         raise _NoDigestError  # it holds itself
     kind, inside = type(x), (*inside, id(x))
@@ -75,15 +75,15 @@ def _byte_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield f"{x.dtype}{x.shape}".encode()
         yield x.tobytes()
     elif isinstance(x, type):
-        _require_own(x)
+        _require_holdfast_name(x)
         yield f"{x.__module__}.{x.__qualname__}".encode()
     elif isinstance(x, FunctionType):
-        _require_own(x)
+        _require_holdfast_name(x)
         if x.__closure__:
             raise _NoDigestError
         yield f"{x.__module__}.{x.__qualname__}".encode()
     elif isinstance(x, Enum):
-        _require_own(kind)
+        _require_holdfast_name(kind)
         yield x.name.encode()
     elif isinstance(x, Mapping):
         yield from _sequence_blocks([item for pair in x.items() for item in pair], inside)
@@ -92,14 +92,14 @@ def _byte_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
     elif kind in (set, frozenset):  # whose order differs from start to start
         yield from _sequence_blocks(sorted(b"".join(_sequence_blocks([item], inside)) for item in x), inside)
     elif hasattr(x, "made_of") or hasattr(x, "source_digest"):  # the second one: of a kernel or a loop
-        _require_own(kind)
+        _require_holdfast_name(kind)
         source = x.made_of if hasattr(x, "made_of") else x.source_digest
         if source is None:
             raise _NoDigestError
-        yield from _byte_blocks(source, inside)
+        yield from _bytes_to_hash(source, inside)
     elif isinstance(x, Path):
         yield str(x).encode()
-    elif _has_identity(kind):  # an arm: a part of all that is made for it
+    elif _compares_by_identity(kind):  # an arm: a part of all that is made for it
         if x not in _known:
             _known[x] = tuple(_object_blocks(x, inside))
         yield from _known[x]
@@ -107,24 +107,24 @@ def _byte_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _object_blocks(x, inside)
 
 
-def _has_identity(kind: Any) -> bool:
+def _compares_by_identity(kind: Any) -> bool:
     """Return whether a class is a frozen dataclass that is equal only to itself."""
     settings = getattr(kind, "__dataclass_params__", None)
     return settings is not None and settings.frozen and not settings.eq
 
 
 def _object_blocks(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
-    _require_own(type(x))
+    _require_holdfast_name(type(x))
     yield from _sequence_blocks([part for pair in _object_state(x) for part in pair], inside)
 
 
 def _sequence_blocks(items: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
     yield str(len(items)).encode()
     for item in items:
-        yield from _byte_blocks(item, inside)
+        yield from _bytes_to_hash(item, inside)
 
 
-def _require_own(kind: type | FunctionType) -> None:
+def _require_holdfast_name(kind: type | FunctionType) -> None:
     if kind.__module__.partition(".")[0] != "holdfast" or "<" in kind.__qualname__:
         raise _NoDigestError
 

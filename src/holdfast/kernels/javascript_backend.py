@@ -58,7 +58,7 @@ class _OperationForm:
     helper: str = ""
 
 
-def _function_form(name: str, count: int = 1, helper: str = "") -> _OperationForm:
+def _call_form(name: str, count: int = 1, helper: str = "") -> _OperationForm:
     places = ",".join(f"{{{k}}}" for k in range(count))
     return _OperationForm(f"{name}({places})", _BINDS_ATOM, (_BINDS_CHOICE,) * count, helper=helper)
 
@@ -86,24 +86,24 @@ _JAVASCRIPT_FORMS = {
     ca.OP_FMIN: _OperationForm("{0}<={1}?{0}:{1}", _BINDS_CHOICE, (_BINDS_SUM, _BINDS_SUM)),
     ca.OP_FMAX: _OperationForm("{0}>={1}?{0}:{1}", _BINDS_CHOICE, (_BINDS_SUM, _BINDS_SUM)),
     ca.OP_HYPOT: _OperationForm("Math.sqrt({0}*{0}+{1}*{1})", _BINDS_ATOM, (_BINDS_UNARY, _BINDS_UNARY)),
-    ca.OP_FABS: _function_form("Math.abs"),
-    ca.OP_SQRT: _function_form("Math.sqrt"),
-    ca.OP_EXP: _function_form("Math.exp"),
-    ca.OP_LOG: _function_form("Math.log"),
-    ca.OP_ASIN: _function_form("Math.asin"),
-    ca.OP_ACOS: _function_form("Math.acos"),
-    ca.OP_ATAN: _function_form("Math.atan"),
-    ca.OP_ATAN2: _function_form("Math.atan2", 2),
-    ca.OP_SINH: _function_form("Math.sinh"),
-    ca.OP_COSH: _function_form("Math.cosh"),
-    ca.OP_TANH: _function_form("Math.tanh"),
-    ca.OP_LOG1P: _function_form("Math.log1p"),
-    ca.OP_EXPM1: _function_form("Math.expm1"),
-    ca.OP_SIN: _function_form("sine", helper="sine"),
-    ca.OP_COS: _function_form("cosine", helper="cosine"),
-    ca.OP_TAN: _function_form("tangent", helper="tangent"),
-    ca.OP_POW: _function_form("power", 2, "power"),
-    ca.OP_CONSTPOW: _function_form("power", 2, "power"),
+    ca.OP_FABS: _call_form("Math.abs"),
+    ca.OP_SQRT: _call_form("Math.sqrt"),
+    ca.OP_EXP: _call_form("Math.exp"),
+    ca.OP_LOG: _call_form("Math.log"),
+    ca.OP_ASIN: _call_form("Math.asin"),
+    ca.OP_ACOS: _call_form("Math.acos"),
+    ca.OP_ATAN: _call_form("Math.atan"),
+    ca.OP_ATAN2: _call_form("Math.atan2", 2),
+    ca.OP_SINH: _call_form("Math.sinh"),
+    ca.OP_COSH: _call_form("Math.cosh"),
+    ca.OP_TANH: _call_form("Math.tanh"),
+    ca.OP_LOG1P: _call_form("Math.log1p"),
+    ca.OP_EXPM1: _call_form("Math.expm1"),
+    ca.OP_SIN: _call_form("sine", helper="sine"),
+    ca.OP_COS: _call_form("cosine", helper="cosine"),
+    ca.OP_TAN: _call_form("tangent", helper="tangent"),
+    ca.OP_POW: _call_form("power", 2, "power"),
+    ca.OP_CONSTPOW: _call_form("power", 2, "power"),
 }
 
 _HELPER_FUNCTIONS = {
@@ -132,7 +132,7 @@ def write_javascript(program: Program, name: str) -> str:
     """
     graph = _NamedGraph(program)
     pieces, spilled = _write_functions(graph)
-    helpers = sorted({f.helper for f in map(graph.form_of, graph.needed) if f} - {""})
+    helpers = sorted({f.helper for f in map(graph.operation_form, graph.needed) if f} - {""})
     calls = "".join(f"p{i}(x,y,w);" for i in range(len(pieces)))
     lines = [
         f"const {name}=(()=>{{",
@@ -160,7 +160,7 @@ class _NamedGraph(ValueGraph):
         size: dict[int, int] = {}
         self.named: set[int] = set()
         for k in self.needed:
-            node, form = self.nodes[k], self.form_of(k)
+            node, form = self.nodes[k], self.operation_form(k)
             for place, a in enumerate(node.args):
                 uses[a] += form.text.count(f"{{{place}}}") if form else 1
         for k in self.needed:
@@ -170,7 +170,7 @@ class _NamedGraph(ValueGraph):
                 self.named.add(k)
         self.size = size
 
-    def form_of(self, k: int) -> _OperationForm | None:
+    def operation_form(self, k: int) -> _OperationForm | None:
         """Return the form of a value; None for an input, an output, or a constant."""
         return _JAVASCRIPT_FORMS.get(self.nodes[k].op)
 
@@ -184,37 +184,42 @@ class _NamedGraph(ValueGraph):
 
     def is_condition(self, k: int) -> bool:
         """Return whether a value is a condition."""
-        form = self.form_of(k)
+        form = self.operation_form(k)
         return form is not None and form.truth
 
     def write_expression(
-        self, k: int, names: dict[int, str], needs: int = _BINDS_CHOICE, truth: bool = False, whole: bool = False
+        self,
+        k: int,
+        names: dict[int, str],
+        min_binding: int = _BINDS_CHOICE,
+        as_condition: bool = False,
+        ignore_own_name: bool = False,
     ) -> str:
         """Write the expression of a value.
 
         Args:
             k: The value.
             names: Of named values.
-            needs: What it must bind at least; otherwise it gets brackets.
-            truth: Whether a condition is wanted rather than a number.
-            whole: Written out even if it has a name.
+            min_binding: What it must bind at least; otherwise it gets brackets.
+            as_condition: Whether a condition is wanted rather than a number.
+            ignore_own_name: Written out even if it has a name.
         """
-        node, form = self.nodes[k], self.form_of(k)
-        if k in names and not whole:
+        node, form = self.nodes[k], self.operation_form(k)
+        if k in names and not ignore_own_name:
             text, binds = names[k], _BINDS_ATOM
         elif form is None:
-            text, binds = (f"x[{int(node.value)}]", _BINDS_ATOM) if node.op == OP_INPUT else _write_number(node.value)
+            text, binds = (f"x[{int(node.value)}]", _BINDS_ATOM) if node.op == OP_INPUT else _number_and_binding(node.value)
         else:
             parts = [
                 self.write_expression(a, names, need, wanted)
                 for a, need, wanted in zip(node.args, form.needs, form.truths, strict=False)
             ]
             text, binds = form.text.format(*parts), form.binds
-        if truth and not self.is_condition(k):
+        if as_condition and not self.is_condition(k):
             text, binds = (text if binds > _BINDS_EQUAL else f"({text})") + "!==0", _BINDS_EQUAL
-        elif self.is_condition(k) and not truth:
+        elif self.is_condition(k) and not as_condition:
             text, binds = (text if binds > _BINDS_CHOICE else f"({text})") + "?1:0", _BINDS_CHOICE
-        return text if binds >= needs else f"({text})"
+        return text if binds >= min_binding else f"({text})"
 
 
 def _write_functions(graph: _NamedGraph) -> tuple[list[str], int]:
@@ -252,7 +257,7 @@ def _write_functions(graph: _NamedGraph) -> tuple[list[str], int]:
             if graph.nodes[k].op == OP_OUTPUT:
                 tail.append(f"y[{int(graph.nodes[k].value)}]={graph.write_expression(graph.nodes[k].args[0], names)};")
                 continue
-            text = graph.write_expression(k, names, truth=graph.is_condition(k), whole=True)
+            text = graph.write_expression(k, names, as_condition=graph.is_condition(k), ignore_own_name=True)
             names[k] = next(new_names)
             if last_use[k] > number:
                 if free:
@@ -280,7 +285,7 @@ def _short_names() -> Iterator[str]:
             yield f"{letter}{number}"
 
 
-def _write_number(value: float) -> tuple[str, int]:
+def _number_and_binding(value: float) -> tuple[str, int]:
     """Write a constant that reads back as the same double, and return how it binds."""
     if math.isnan(value):
         return "NaN", _BINDS_ATOM

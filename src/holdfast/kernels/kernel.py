@@ -264,7 +264,7 @@ class Kernel:
         on_device = self._require_gpu()
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
-        return on_device.exchange(inputs, (self._in_dims, self._out_dims), stream or 1)
+        return on_device.evaluate_device_arrays(inputs, (self._in_dims, self._out_dims), stream or 1)
 
     def upload(self, array: ArrayLike, stream: int = 1) -> Any:
         """Copy an array from the host to the kernel's GPU, for :meth:`exchange`.

@@ -72,7 +72,7 @@ class HouseholderQR:
         """Columns of J."""
         return len(self.columns)
 
-    def q_transposed(self, x: Vector) -> Vector:
+    def apply_q_transposed(self, x: Vector) -> Vector:
         """``Q' x`` for x of n entries: the first m in the order of elimination, then coordinates in the null space."""
         y = [x[c] for c in self.columns]
         for j in range(self.m):
@@ -85,7 +85,7 @@ class HouseholderQR:
         for k, entry in enumerate(v):
             y[j + k] = y[j + k] - t * entry
 
-    def null_rows(self) -> list[Vector]:
+    def null_space_basis(self) -> list[Vector]:
         """The orthonormal null-space basis N, n rows of n - m entries."""
         rows: list[Vector] = [[] for _ in range(self.n)]
         for c in range(self.m, self.n):
@@ -96,7 +96,7 @@ class HouseholderQR:
                 rows[column].append(y[position])
         return rows
 
-    def pinv_transposed(self, rotated: Vector) -> Vector:
+    def apply_pinv_transposed(self, rotated: Vector) -> Vector:
         """``(J^+)' x`` from ``rotated = Q' x``, m entries; for x = e_k this is ``(J J')^-1 j_k``."""
         x: Vector = [None] * self.m
         for i in reversed(range(self.m)):
@@ -106,11 +106,11 @@ class HouseholderQR:
             x[i] = total / self.r[i][i]
         return [x[self.rows.index(i)] for i in range(self.m)]
 
-    def volume(self) -> SX:
+    def singular_value_product(self) -> SX:
         """``sqrt(det(J J'))``, the product of the singular values of J."""
-        return ca.sqrt(self.squared_volume())
+        return ca.sqrt(self.gram_determinant())
 
-    def squared_volume(self) -> SX:
+    def gram_determinant(self) -> SX:
         """``det(J J')``."""
         product = self.pivots[0]
         for pivot in self.pivots[1:]:
@@ -176,7 +176,7 @@ def jacobi_sweep(rows: list[Vector]) -> tuple[list[Vector], SX]:
     return rows, largest
 
 
-def singular_rows(rows: list[Vector], carried: Vector, sweeps: int) -> tuple[list[Vector], Vector, Vector]:
+def rotate_to_singular_rows(rows: list[Vector], carried: Vector, sweeps: int) -> tuple[list[Vector], Vector, Vector]:
     """``V' A`` and ``V' x`` for the left singular vectors V of a wide matrix A, by one-sided Jacobi rotations.
 
     Args:
@@ -218,7 +218,7 @@ def _jacobi_rotation(a: SX, b: SX, g: SX) -> tuple[SX, SX, SX]:
     return c, c * t, t
 
 
-def squared_volume(rows: Sequence[Vector]) -> SX:
+def gram_determinant(rows: Sequence[Vector]) -> SX:
     """``det(A A')`` of a wide s x r matrix as the sum of its squared minors (Cauchy-Binet): exact near zero, no division."""
     s, r = len(rows), len(rows[0])
     total = ca.SX(0)

@@ -150,7 +150,7 @@ class Loop:
         active_rows = batch.take_rows(max_rows)
         if not active_rows.size:
             return
-        columns, outputs, step = self._make_stage(*batch.row_inputs(active_rows))
+        columns, outputs, step = self._bind_step_columns(*batch.row_inputs(active_rows))
         state, after, residual = (
             columns[:size],
             outputs[:size],
@@ -195,7 +195,7 @@ class Loop:
                     return
                 if 4 * still.size <= 3 * active_rows.size:
                     # No rows are left to take: a batch that shrinks is cheaper.
-                    columns, outputs, step = self._make_stage(columns.take(still, axis=1))
+                    columns, outputs, step = self._bind_step_columns(columns.take(still, axis=1))
                     active_rows, begun, wanted = active_rows[still], begun[still], wanted[still]
                     state, after, residual = columns[:size], outputs[:size], outputs[-1, : active_rows.size]
             now += 1
@@ -205,14 +205,14 @@ class Loop:
         """Return the states (steps + 1, N, s) of every row, ``state`` first, without checking the residual."""
         states = np.empty((steps + 1, *state.shape))
         states[0] = state
-        columns, outputs, step = self._make_stage(state.T, parameters.T)
+        columns, outputs, step = self._bind_step_columns(state.T, parameters.T)
         before, after, rows = columns[: self.size], outputs[: self.size], outputs[: self.size, : len(state)].T
         for k in range(1, steps + 1):
             step()
             states[k], before[...] = rows, after
         return states
 
-    def _make_stage(self, *values: FloatArray) -> tuple[FloatArray, FloatArray, Callable[[], None]]:
+    def _bind_step_columns(self, *values: FloatArray) -> tuple[FloatArray, FloatArray, Callable[[], None]]:
         """Return the columns of states and parameters, the columns of the results, and the step between them.
 
         The SIMD width divides their number: the last of the columns is repeated.

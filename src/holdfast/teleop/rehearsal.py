@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
-from holdfast.core.progress import reports_progress, warn_now
+from holdfast.core.progress import print_warning, reports_progress
 from holdfast.core.sweeps.folder import describe_difference, lock_folder
 from holdfast.core.typing import IndexArray
 from holdfast.teleop.bank.tasks import drive_tasks
@@ -62,10 +62,10 @@ def simulate_experiment(
     people = sample_people(operators, people_seed) if isinstance(operators, int) else list(operators)
     if not people:
         raise InputError("there are no simulated operators; give 1 or more")
-    records = _open(Path(folder), protocol, operators, seed)
+    records = _create_or_resume_records(Path(folder), protocol, operators, seed)
     try:
         with lock_folder(records.folder, LOCK_FILE):
-            subjects = _enrol(records, people)
+            subjects = _add_or_read_subjects(records, people)
             trained = _train_people(records, subjects, people, training_seed, report_progress)
             ready = [person for person, passed in enumerate(trained) if passed]
             seeds = [trial_seed, rating_seed]
@@ -85,7 +85,7 @@ def simulate_experiment(
     return records
 
 
-def _open(folder: Path, protocol: Protocol, operators: int | Sequence[Person], seed: int) -> Records:
+def _create_or_resume_records(folder: Path, protocol: Protocol, operators: int | Sequence[Person], seed: int) -> Records:
     """Create the records of a simulated experiment, or open those that the same call began.
 
     Raises:
@@ -108,7 +108,7 @@ def _open(folder: Path, protocol: Protocol, operators: int | Sequence[Person], s
     raise StoreError(f"'{folder}' holds {problem}; give another folder")
 
 
-def _enrol(records: Records, people: Sequence[Person]) -> list[Subject]:
+def _add_or_read_subjects(records: Records, people: Sequence[Person]) -> list[Subject]:
     """Add the subjects, or read them and say how much of the experiment is recorded already.
 
     Raises:
@@ -125,7 +125,7 @@ def _enrol(records: Records, people: Sequence[Person]) -> list[Subject]:
         len({e.subject for e in records.entries(kind=TrialKind.TRIAL)}),
     )
     recorded = f"{training} training tasks and the sessions of {sessions} of {len(people)} operators"
-    warn_now(f"'{records.folder}' already holds {recorded}")
+    print_warning(f"'{records.folder}' already holds {recorded}")
     return subjects
 
 
@@ -162,7 +162,7 @@ def _train_people(
                 *(np.concatenate([getattr(part, name) for part in batch]) for name in ("q0", "target", "joint"))
             )
             person_of_trial = np.repeat(practising, count)
-            trials = _drive_people(
+            trials = _run_simulated_trials(
                 protocol,
                 batch_tasks,
                 np.full(len(person_of_trial), scenario),
@@ -207,7 +207,7 @@ def _run_sessions(
     who = np.repeat(np.arange(len(subjects)), [len(s) for s in sessions])
     say(f"{len(order)} trials")
     tasks = protocol.tasks.take(order[:, 0])
-    trials = _drive_people(protocol, tasks, order[:, 1], [people[k] for k in who], seeds[0])
+    trials = _run_simulated_trials(protocol, tasks, order[:, 1], [people[k] for k in who], seeds[0])
     start = protocol.plants[0].position(protocol.tasks.q0)
     ideal = (np.linalg.norm(protocol.tasks.target - start, axis=1) - protocol.radius) / protocol.stick.limit
     time = np.where(trials.is_completed, trials.cycles, np.nan)
@@ -222,7 +222,9 @@ def _run_sessions(
             records.set_state(subjects[k].code, SubjectState.COMPLETED)
 
 
-def _drive_people(protocol: Protocol, tasks: PointTasks, scenario: IndexArray, people: list[Person], seed: int) -> Trials:
+def _run_simulated_trials(
+    protocol: Protocol, tasks: PointTasks, scenario: IndexArray, people: list[Person], seed: int
+) -> Trials:
     operator = SimulatedPeople(people, protocol.rate, protocol.stick, radius=protocol.radius, seed=seed)
     return drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, operator, protocol.stick, protocol.rules)
 

@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def seeds(rng):
 
 def test_starts_are_within_the_limits_and_targets_can_be_reached(mixed7, rng):
     found = hf.point_to_point(mixed7, 300, seed=seeds(rng))
-    low, high = finite_limits(mixed7)
+    low, high = sampling_limits(mixed7)
     for q in (found.q0, found.q_target):
         assert (q >= low).all()
         assert (q <= high).all()

@@ -43,7 +43,7 @@ def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
     check_card(found)
     owner, q0 = StartConfigurations(
         three, read_places(three.arm, three.task, starts, np.random.default_rng(0)), 5, "brute", 0
-    ).find_block(0, 2)
+    ).find_configurations(0, 2)
     np.testing.assert_allclose(oracles.planar_hand([1, 1, 1], q0), starts[owner], atol=1e-8)
     for g, goal in enumerate(goals):
         inside = np.zeros((len(q0), cells, 4), dtype=bool)

@@ -145,7 +145,7 @@ def test_healthy_motions_against_scipy(arm, damping, rng):
     q0 = rng.uniform(low, high, (3, arm.n))
     goal = arm.forward_kinematics(rng.uniform(low, high, arm.n))
     cells = 12
-    found = np.stack(list(HealthyPaths(law).follow_cells(q0, np.broadcast_to(goal, (3, 4, 4)), cells)))
+    found = np.stack(list(HealthyPaths(law).iterate_cell_midpoints(q0, np.broadcast_to(goal, (3, 4, 4)), cells)))
     rows = law.task.rows[:, :3]
     at = (np.arange(cells) + 0.5) / cells
     for k, start in enumerate(q0):

@@ -46,7 +46,7 @@ def test_a_spatial_arm_beside_plain_simulations(sampled, spatial, goal):
     """The healthy motion by scipy, reach by inverse kinematics with the joint locked, the end by single simulations."""
     law, arm = spatial, spatial.arm
     places = read_places(arm, law.task, 6, np.random.default_rng(4))
-    owner, q0 = StartConfigurations(law, places, 3, "sampled", 4).find_block(0, 6)
+    owner, q0 = StartConfigurations(law, places, 3, "sampled", 4).find_configurations(0, 6)
     assert arm.forward_kinematics(q0)[:, :3, 3] == pytest.approx(places.points[owner], abs=1e-8)
 
     def rates(_, q):

@@ -11,7 +11,7 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.kinematics.path_following import slow_enough
-from holdfast.kinematics.path_following.slow_motion import _largest_root
+from holdfast.kinematics.path_following.slow_motion import _required_time_stretch
 
 GRID = np.geomspace(1e-3, 1e3, 60_001)
 
@@ -47,13 +47,13 @@ def test_every_sign_of_friction_and_inertia(rng):
     a, b = rng.normal(size=400) * 10 ** rng.uniform(-2, 2, 400), rng.normal(size=400) * 10 ** rng.uniform(-1, 1, 400)
     broken = np.abs(b[:, None] / GRID + a[:, None] / GRID**2) > 1
     expected = GRID[len(GRID) - 1 - broken[:, ::-1].argmax(axis=1)]
-    found = _largest_root(b, a)
+    found = _required_time_stretch(b, a)
     assert broken.any(axis=1).all()
     np.testing.assert_allclose(found, expected, rtol=1e-3)
     between = (np.diff(broken.astype(int), axis=1) != 0).sum(axis=1) > 1
     assert between.any()
-    np.testing.assert_array_equal(_largest_root(np.zeros(2), np.array([0.0, 4.0])), [0, 2])
-    np.testing.assert_array_equal(_largest_root(np.array([-3.0, 3.0]), np.zeros(2)), [3, 3])
+    np.testing.assert_array_equal(_required_time_stretch(np.zeros(2), np.array([0.0, 4.0])), [0, 2])
+    np.testing.assert_array_equal(_required_time_stretch(np.array([-3.0, 3.0]), np.zeros(2)), [3, 3])
 
 
 def test_stretching_a_motion_divides_its_scale(moving):

@@ -13,9 +13,9 @@ import dynamics
 import holdfast as hf
 import oracles
 from cards import check_card
-from holdfast.control.physics.loop import _classify_ending
+from holdfast.control.physics.loop import _classify_unfinished_run
 from holdfast.control.physics.plant import ServoPlant
-from holdfast.control.physics.servos import reference_leads
+from holdfast.control.physics.servos import max_reference_offsets
 from holdfast.core.errors import ArmError, InputError
 
 RAD = np.deg2rad
@@ -54,7 +54,7 @@ def by_pinocchio(arm, law, run, target, time, lock):
     model, _, _ = dynamics.to_pinocchio(arm)
     q, v, reference = run.q[0].copy(), np.zeros(arm.n), run.q[0].copy()
     period, friction = 1 / run.servos.rate, np.array([j.friction for j in arm.joints])
-    lead = reference_leads(arm, run.stiffness)
+    lead = max_reference_offsets(arm, run.stiffness)
     free, path = np.arange(arm.n), [q.copy()]
     data = model.createData()
     for k in range(round(time / period)):
@@ -115,7 +115,7 @@ def test_two_links_move_as_the_textbook_says():
     q, target = np.array([0.4, 1.1]), np.array([-0.2, 0.7])
     servos = hf.Servos(bandwidth=3.0, ratio=1.0, rate=50.0, compensation=0.8, step=1e-4)
     run = hf.simulate_physics(law, q, target, locked=[1], servos=servos, time_limit=0.6, time=0.3)
-    period, lead = 1 / 50.0, reference_leads(arm, run.stiffness)
+    period, lead = 1 / 50.0, max_reference_offsets(arm, run.stiffness)
     v, reference, path = np.zeros(2), q.copy(), [q.copy()]
 
     def matrix(second: float) -> np.ndarray:
@@ -154,7 +154,7 @@ def test_two_links_move_as_the_textbook_says():
 
 def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there(panda, home, rng):
     rates, healthy = rng.normal(size=7), np.arange(7) != 3
-    after = ServoPlant(panda, home, rates, np.ones(7, dtype=bool), hf.Servos()).lock_joints(healthy)
+    after = ServoPlant(panda, home, rates, np.ones(7, dtype=bool), hf.Servos()).lock_all_except(healthy)
     m = dynamics.mass_matrix(panda, home)
     np.testing.assert_allclose(after.data.qvel, np.linalg.solve(m[np.ix_(healthy, healthy)], (m @ rates)[healthy]), rtol=1e-6)
     left = np.zeros(7)
@@ -259,7 +259,7 @@ def test_only_a_repeated_motion_never_stops():
 
     def verdict(joint, slide, until=20.0):
         q = np.column_stack([joint, slide])[time <= until]
-        return _classify_ending(q, 250.0, 1.0, turning)
+        return _classify_unfinished_run(q, 250.0, 1.0, turning)
 
     wave, still = np.sin(2 * np.pi * time / 3.7), 0 * time
     undecided = ("undecided", "time_limit")

@@ -36,7 +36,7 @@ def rehearsed_cycle(arm, q, body):
     def cycle(state):
         robot = simulated_logs._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
         robot.data.qpos[:], robot.data.qvel[:] = np.split(state, 2)
-        simulated_logs._run_cycles(arm, [robot])
+        simulated_logs._simulate_robots(arm, [robot])
         return np.concatenate([robot.data.qpos, robot.data.qvel])
 
     robot = simulated_logs._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
@@ -72,7 +72,7 @@ def physical_cycle(arm, q, body):
 
     def cycle(state):
         plant.data.qpos[:], plant.data.qvel[:] = state[: arm.n] - q, state[arm.n :]
-        plant.step_towards(q)
+        plant.simulate_control_cycle(q)
         return np.concatenate([plant.q, plant.rates])
 
     return cycle, stiffness, damping

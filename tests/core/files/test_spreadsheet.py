@@ -8,19 +8,19 @@ import pandas as pd
 import pytest
 
 from holdfast.core.files.output import write_table
-from holdfast.core.files.spreadsheet import escape_cell, read_cell, write_csv_text
+from holdfast.core.files.spreadsheet import escape_formula, unescape_formula, write_csv_text
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "-", "="])
 def test_what_would_be_computed_is_text(text):
-    assert escape_cell(text) == f"'{text}"
+    assert escape_formula(text) == f"'{text}"
     first = pd.read_csv(io.StringIO(write_csv_text(pd.DataFrame({text: [text], "x": [1.5]}))))
     assert (first.columns[0], first.iloc[0, 0]) == (f"'{text}", f"'{text}")
 
 
 @pytest.mark.parametrize("value", ["", "S01", "a=b", "-1.5", "+3", "-inf", -2.5, 3, None, "{}"])
 def test_everything_else_stays(value):
-    assert escape_cell(value) == value
+    assert escape_formula(value) == value
 
 
 @pytest.mark.parametrize("missing", ["", "NA"])
@@ -37,5 +37,5 @@ def test_names_in_the_head_of_a_table_are_cells(tmp_path):
     file = write_table(tmp_path / "t.csv", "motion", names, np.arange(8.0).reshape(2, 4))
     head, *rows = csv.reader(file.read_text(encoding="utf-8").splitlines())
     assert head == ["time_s", 'a,b"c_rad', "'=1+1_rad", "'-x_m"]
-    assert [read_cell(text) for text in head] == names
+    assert [unescape_formula(text) for text in head] == names
     assert rows == [["0", "1", "2", "3"], ["4", "5", "6", "7"]]

@@ -12,7 +12,7 @@ import yourdfpy
 
 import holdfast as hf
 from holdfast.model.arms.builtin import DATA_FOLDER
-from holdfast.model.arms.spec import ArmSpec, match_arm_options
+from holdfast.model.arms.spec import ArmSpec, arm_specs_from_options
 
 IIWA, PANDA = str(DATA_FOLDER.joinpath("iiwa14.urdf")), str(DATA_FOLDER.joinpath("panda.urdf"))
 Q7 = "0.1 0.5 -0.2 -1.1 0.4 1.2 0.3"
@@ -129,16 +129,16 @@ def _region(tmp_path: Path) -> Path:
 
 
 def test_once_for_all_or_once_for_each():
-    assert match_arm_options(["a", "b"], ["x"], None, None, None) == [ArmSpec("a", "x"), ArmSpec("b", "x")]
-    assert match_arm_options(["a"], None, None, ["i=1", "j=2,k=3"], ["n"]) == [
+    assert arm_specs_from_options(["a", "b"], ["x"], None, None, None) == [ArmSpec("a", "x"), ArmSpec("b", "x")]
+    assert arm_specs_from_options(["a"], None, None, ["i=1", "j=2,k=3"], ["n"]) == [
         ArmSpec("a", None, None, {"i": 1, "j": 2, "k": 3}, "n")
     ]
     with pytest.raises(
         hf.InputError, match="--tip is given 3 times and there are 2 arms; give it once for all, or once for each"
     ):
-        match_arm_options(["a", "b"], None, ["x", "y", "z"], None, None)
+        arm_specs_from_options(["a", "b"], None, ["x", "y", "z"], None, None)
     with pytest.raises(hf.InputError, match="--name is given 1 times and there are 2 arms; give it once for each"):
-        match_arm_options(["a", "b"], None, None, None, ["x"])
+        arm_specs_from_options(["a", "b"], None, None, None, ["x"])
 
 
 def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):

@@ -10,7 +10,7 @@ from holdfast.core.sweeps import Study, ThreadRunner
 from holdfast.kinematics.indices import by_name
 from holdfast.studies.assessment.bins import IndexCounts
 from holdfast.studies.study_files import study_file
-from holdfast.studies.study_files.template import choose_chunk
+from holdfast.studies.study_files.template import choose_chunk_size
 
 
 def test_a_study_with_counts_has_the_distribution_of_the_rows(tmp_path):
@@ -93,4 +93,4 @@ def test_a_large_study_has_at_most_a_thousand_chunks(tmp_path, cli):
     assert code == 0, err
     (cell,) = study_file.read_study_file(tmp_path / "s.yaml").cells
     assert (cell.rows, cell.chunk % 1024, cell.count <= 1000) == (10**7, 0, True)
-    assert choose_chunk(2000) == 500
+    assert choose_chunk_size(2000) == 500

@@ -15,7 +15,7 @@ from test_notebook import INPUTS, MADE, X
 
 import holdfast as hf
 from holdfast.control.simulation.runs import Reason, RunOutcome
-from holdfast.core.formatting import join_units
+from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.status import Status
 from holdfast.interface.presentation import call_presenter
 from holdfast.interface.presentation.physics import swing
@@ -105,11 +105,11 @@ APART = re.compile(r"\d (%|°|m|mm|s|ms|min|h|rad|deg|N|kg|Hz)(?![\w-])")
 
 
 def test_no_number_is_on_another_line_than_its_unit():
-    assert join_units("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
+    assert insert_nonbreaking_spaces("1.5e-06 of tool1e-2") == "1.5e−06 of tool1e-2"
     held = "at 7~% of 1.2~m, 3~N~m and 2~rad/s in 10~s; 2 hours, 5 m-long, joint 4 may lock"
-    assert join_units(held.replace("~", " ")).replace("\u00a0", "~") == held
+    assert insert_nonbreaking_spaces(held.replace("~", " ")).replace("\u00a0", "~") == held
     page = '<p title="7 %">7 %</p> <code>--x 1 m</code><pre>2 m\n3 s</pre>'
-    assert join_units(page, html=True) == page.replace(">7 %", ">7\u00a0%")
+    assert insert_nonbreaking_spaces(page, html=True) == page.replace(">7 %", ">7\u00a0%")
 
 
 @pytest.mark.parametrize("outcome", list(RunOutcome))

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 import axe
 import chromium
 import holdfast as hf
-from holdfast.core.formatting import format_interval, join_units
+from holdfast.core.formatting import format_interval, insert_nonbreaking_spaces
 from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.report import figures
 from holdfast.interface.report.page import Callout, Code, Page, Picture, Section, Table, write
@@ -80,7 +80,7 @@ def test_a_threshold_has_the_answers_that_python_gives(report, found):
     assert 0.29 in asked  # half of the bound, sqrt(3 / 9)
     shown = moved(report, "threshold", "[...box.querySelectorAll('[data-row]')].map(x => x.textContent)")
     expected = [[format_interval(found.interval(at_least=x, optimised=o)) for o in (False, True)] for x in asked]
-    assert shown == [[join_units(text) for text in texts] for texts in expected]
+    assert shown == [[insert_nonbreaking_spaces(text) for text in texts] for texts in expected]
 
 
 def test_no_option_of_a_command_is_broken_behind_its_hyphens(report):

@@ -18,12 +18,14 @@ def test_the_tour_shows_what_there_is_to_show(name, task, steps):
     machine, q = CompiledArm(arm, as_task(arm, task)), np.array(hf.model.arm.generic_configuration(arm))
     asked, shown = [], []
     guide = TourGuide(lambda *what: asked.append(what), lambda *given: shown.append(given))
-    reading = machine.evaluate(q, (), "relative-manipulability", "torque")
+    reading = machine.evaluate_live_reading(q, (), "relative-manipulability", "torque")
     guide.begin_tour(reading)
     worst = 0 if isinstance(reading.bars, str) else reading.bars.worst
     for number in range(1, steps + 1):
         failed = (worst,) if ("fail", (worst, "locked")) in asked else ()
-        guide.show_step(machine.evaluate(q, failed, "relative-manipulability", "torque"), arm.joint_names, busy=False)
+        guide.show_step(
+            machine.evaluate_live_reading(q, failed, "relative-manipulability", "torque"), arm.joint_names, busy=False
+        )
         text, after = shown[-1]
         assert f"{number} of {steps}: " in text
         assert after == ("Done" if number == steps else after)
@@ -39,7 +41,7 @@ def test_names_are_escaped_and_a_tour_that_was_ended_is_silent():
     shown = []
     guide = TourGuide(lambda *_: None, lambda *given: shown.append(given))
     arm = hf.arms.load("planar-3r")
-    reading = CompiledArm(arm, as_task(arm, "planar")).evaluate(
+    reading = CompiledArm(arm, as_task(arm, "planar")).evaluate_live_reading(
         np.array([0.3, 0.8, 0.9]), (), "relative-manipulability", "torque"
     )
     guide.show_step(reading, ("<b>", "<i>", "<u>"), busy=False)

@@ -76,7 +76,7 @@ def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
 
 def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
     arm = hf.arms.load("ur5")
-    reading = CompiledArm(arm, as_task(arm, "pose")).evaluate(
+    reading = CompiledArm(arm, as_task(arm, "pose")).evaluate_live_reading(
         np.array(hf.arms.about("ur5").home), (), "relative-manipulability", "torque"
     )
     assert "not redundant" in reading.bars

@@ -18,7 +18,7 @@ CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 
 
 def test_an_arm_is_read_as_from_its_file():
-    machine, state, parts, note = upload.read_machine("C:\\arms\\crane.urdf", CRANE.read_bytes())
+    machine, state, parts, note = upload.read_uploaded_arm("C:\\arms\\crane.urdf", CRANE.read_bytes())
     same = hf.Arm.from_urdf(CRANE)
     q = np.array(state.q)
     np.testing.assert_array_equal(machine.tool_pose(q), same.frames(q)[-1])
@@ -27,7 +27,7 @@ def test_an_arm_is_read_as_from_its_file():
     assert len(parts) > 8
     assert "camera.stl" in note
     table = dh_file.format_dh_file(dh_table(hf.arms.load("pa10-7dof")), "mine")
-    machine, state, parts, note = upload.read_machine("mine.yaml", table.encode())
+    machine, state, parts, note = upload.read_uploaded_arm("mine.yaml", table.encode())
     assert (machine.arm.name, machine.arm.n, state.task, note) == ("mine", 7, "pose", "")
 
 
@@ -41,7 +41,7 @@ def test_no_path_of_a_file_is_followed(tmp_path):
     opened, watching = [], True
     sys.addaudithook(lambda event, given: opened.append(str(given[0])) if event == "open" and watching else None)
     try:
-        _, _, _, note = upload.read_machine("../../x.urdf", text.encode())
+        _, _, _, note = upload.read_uploaded_arm("../../x.urdf", text.encode())
     finally:
         watching = False
     assert str(secret) in note  # named as not found
@@ -65,7 +65,7 @@ def test_no_path_of_a_file_is_followed(tmp_path):
 )
 def test_bad_files_are_refused_in_one_sentence_that_names_them(name, content, sentence):
     with pytest.raises(hf.HoldfastError) as found:
-        upload.read_machine(name, content)
+        upload.read_uploaded_arm(name, content)
     assert sentence in str(found.value)
     assert name in str(found.value)
     assert "holdfast-studio-" not in str(found.value)

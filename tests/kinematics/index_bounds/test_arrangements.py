@@ -19,17 +19,17 @@ def chirotope(lines):
 def test_there_are_as_many_classes_as_the_literature_counts(n):
     found = pseudolines.arrangement_classes(n)
     assert len(found) == pseudolines.CLASS_COUNTS[n]
-    assert pseudolines.satisfies_relations(n, found).all()
+    assert pseudolines.is_oriented_matroid(n, found).all()
 
 
 def test_a_class_has_one_number_whatever_the_labels_and_the_turns(rng):
     lines = rng.normal(size=(6, 3))
     alike = [chirotope(lines[list(p)] * rng.choice([-1, 1], size=(6, 1))) for p in list(permutations(range(6)))[::60]]
-    assert len(np.unique(pseudolines._canonical_codes(6, np.array(alike)))) == 1
+    assert len(np.unique(pseudolines._class_codes(6, np.array(alike)))) == 1
     many = np.array([chirotope(rng.normal(size=(6, 3))) for _ in range(300)])
-    assert pseudolines.satisfies_relations(6, many).all()
-    known = pseudolines._canonical_codes(6, pseudolines.arrangement_classes(6))
-    assert set(pseudolines._canonical_codes(6, many)) == set(known)  # random lines are of all four classes, and of no other
+    assert pseudolines.is_oriented_matroid(6, many).all()
+    known = pseudolines._class_codes(6, pseudolines.arrangement_classes(6))
+    assert set(pseudolines._class_codes(6, many)) == set(known)  # random lines are of all four classes, and of no other
 
 
 @pytest.mark.parametrize(("n", "best"), [(6, 0.16625077511098137), (7, 0.0867754190429908)])
@@ -45,14 +45,14 @@ def test_each_class_bounds_the_lines_of_its_own(rng):
     """Random lines of a class never have a least minor above what its certificate proves."""
     bound = dict(
         zip(
-            pseudolines._canonical_codes(6, pseudolines.arrangement_classes(6)).tolist(),
+            pseudolines._class_codes(6, pseudolines.arrangement_classes(6)).tolist(),
             hf.index_bounds.bounds_by_arrangement(6),
             strict=True,
         )
     )
     for _ in range(300):
         lines = np.linalg.qr(rng.normal(size=(6, 3)))[0]
-        (name,) = pseudolines._canonical_codes(6, chirotope(lines)[None]).tolist()
+        (name,) = pseudolines._class_codes(6, chirotope(lines)[None]).tolist()
         assert min(abs(np.linalg.det(lines[list(t)])) for t in combinations(range(6), 3)) < bound[name]
 
 
@@ -68,7 +68,7 @@ def test_a_worse_dual_point_still_proves_a_bound_and_a_wrong_one_none(rng):
         replace(one, relation=-one.relation).proved_bound()
     wrong = one.signs.copy()
     wrong[[0, 5, 7]] *= -1
-    assert not pseudolines.satisfies_relations(6, wrong[None])[0]
+    assert not pseudolines.is_oriented_matroid(6, wrong[None])[0]
     with pytest.raises(ValueError, match="no oriented matroid"):
         replace(one, signs=wrong, relation=np.full_like(one.relation, 1e-3)).proved_bound()
     with pytest.raises(ValueError, match="no oriented matroid"):

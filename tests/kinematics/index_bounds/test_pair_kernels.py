@@ -50,8 +50,8 @@ def test_the_sum_over_pairs_and_joints_is_not_negative_for_any_jacobian(size, rn
     """Evaluated from the exact polynomials, beside the definition by SciPy's Gegenbauer polynomials."""
     c = pair_kernels.stored_certificates()[size]
     n, m = size
-    low, high = map(float, c.length_range)
-    pairs, joints = pair_kernels.expand_kernel(c).astype(float), pair_kernels.diagonal_term(c).astype(float)
+    low, high = map(float, c.squared_column_norm_range)
+    pairs, joints = pair_kernels.kernel_polynomial(c).astype(float), pair_kernels.diagonal_term(c).astype(float)
     for _ in range(20):
         rows = np.linalg.qr(rng.normal(size=(n, m)))[0]
         projector = rows @ rows.T

@@ -8,9 +8,9 @@ import scipy.linalg
 
 import holdfast as hf
 from holdfast.kinematics.indices.lost_directions import (
-    find_losses,
+    find_speed_losses,
     manipulability_ellipsoid,
-    null_directions,
+    null_space_joint_rates,
     remaining_manipulability,
 )
 
@@ -34,7 +34,7 @@ def test_ellipsoid_of_a_flat_arm_is_flat(flat4):
 @pytest.mark.parametrize("failed", [(0,), (3,), (1, 5), (0, 2, 6)])
 def test_losses_are_the_generalised_eigenvectors(rng, failed):
     j = rng.normal(size=(4, 8))
-    found = find_losses(j, failed)
+    found = find_speed_losses(j, failed)
     kept = np.delete(j, failed, axis=1)
     values, vectors = scipy.linalg.eigh(kept @ kept.T, j @ j.T)
     assert len(found) == len(failed)
@@ -51,7 +51,7 @@ def test_share_of_one_joint_is_its_relative_manipulability(mixed7, rng):
     q = rng.uniform(-1, 1, 7)
     j = mixed7.jacobian(q)
     for k, value in enumerate(rho.by_joint(q)):
-        assert find_losses(j, [k])[0].kept == pytest.approx(value, abs=1e-9)
+        assert find_speed_losses(j, [k])[0].kept == pytest.approx(value, abs=1e-9)
 
 
 def test_a_direction_that_only_one_joint_makes_is_lost(rng):
@@ -60,22 +60,22 @@ def test_a_direction_that_only_one_joint_makes_is_lost(rng):
     axis /= np.linalg.norm(axis)
     j -= np.outer(axis, axis @ j)  # no joint moves along the axis ...
     j[:, 2] += axis  # ... but one
-    (loss,) = find_losses(j, [2])
+    (loss,) = find_speed_losses(j, [2])
     assert loss.lost
     assert abs(loss.direction @ axis) == pytest.approx(1)
     np.testing.assert_allclose(loss.direction @ np.delete(j, 2, axis=1), 0, atol=1e-12)
 
 
 def test_nothing_fails_nothing_is_lost(rng):
-    assert find_losses(rng.normal(size=(3, 5)), []) == []
+    assert find_speed_losses(rng.normal(size=(3, 5)), []) == []
     assert remaining_manipulability([]) == 1
-    assert find_losses(np.zeros((3, 5)), [1]) == []
+    assert find_speed_losses(np.zeros((3, 5)), [1]) == []
 
 
 @pytest.mark.parametrize(("failed", "count"), [((), 3), ((1,), 2), ((0, 3), 1), ((0, 1, 2), 0), (tuple(range(7)), 0)])
 def test_null_directions_leave_the_hand_and_the_failed_joints_still(rng, failed, count):
     j = rng.normal(size=(4, 7))
-    found = null_directions(j, failed)
+    found = null_space_joint_rates(j, failed)
     assert found.shape == (count, 7)
     np.testing.assert_allclose(found @ j.T, 0, atol=1e-12)
     np.testing.assert_allclose(found @ found.T, np.eye(count), atol=1e-12)

@@ -77,7 +77,7 @@ def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
     q = kinematics.joint_symbols(mixed8)
     j = kinematics.invariant_jacobian(mixed8, q)
     qr = factor_householder(j)
-    rows = qr.null_rows()
+    rows = qr.null_space_basis()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(2)]
     parts = total.parts(q, j, qr, directions)
     value = sum(p.weight * ca.mmin(ca.vertcat(*p.values)) for p in parts)
@@ -106,7 +106,7 @@ def test_parts_of_every_objective_give_its_value(name, rng):
     q = kinematics.joint_symbols(arm)
     j = kinematics.invariant_jacobian(arm, q)
     qr = factor_householder(j)
-    directions = [ca.vertcat(*[row[0] for row in qr.null_rows()])]
+    directions = [ca.vertcat(*[row[0] for row in qr.null_space_basis()])]
     (part,) = objective.exact_parts(q, j, qr, directions)
     function = ca.Function("value", [q], [part.weight * ca.mmin(ca.vertcat(*part.values))])
     sign = 1 if objective.better == "larger" else -1

@@ -8,8 +8,8 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.kinematics.interval_search import SearchOutcome, all_configurations
-from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_kernel
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_contraction_kernel
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.task import as_task
 from holdfast.response.recovery.task_rows import make_row_solver
 
@@ -21,7 +21,7 @@ def panda():
 
 def locked_at(arm, q, joints, widths=1.0, rng=None):
     """The arm's limits with joints locked where q has them; of the others a part about q if ``widths`` is below 1."""
-    low, high = (x.copy() for x in finite_limits(arm))
+    low, high = (x.copy() for x in sampling_limits(arm))
     if widths < 1:
         size = widths * (high - low)
         begin = np.maximum(low, np.minimum(q - size * rng.uniform(0, 1, arm.n), high - size))
@@ -93,7 +93,7 @@ def test_a_reachable_pose_is_never_proved_absent(types, task, generator):
 @pytest.mark.parametrize("task", ["pose", "pointing", "position"])
 def test_no_box_that_holds_a_configuration_is_called_empty_or_cut_past_it(panda, task, rng):
     parts = BoundedTask.from_task(panda, as_task(panda, task))
-    kernel = box_kernel(panda, parts)
+    kernel = box_contraction_kernel(panda, parts)
     count = 20_000
     q = rng.uniform(panda.lower, panda.upper, (count, 7))
     half = rng.uniform(0, 1, (count, 7)) * 10 ** rng.uniform(-4, 0.5, (count, 1))

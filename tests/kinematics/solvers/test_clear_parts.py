@@ -26,7 +26,7 @@ def test_a_part_ends_where_the_curve_is_lost(rng):
     whole = Component(q=q, closed=False, bounded_by=(0, None), length=2.0)
     # A room of which less is left than any of the pieces may use up, so that all are halved.
     clear = CurveConstraint(lambda q: np.full((len(q), 1), 0.01), np.ones((1, 2)), ["room"])
-    (part,) = clear.find_free_parts(Astray(rng), np.eye(4), whole)
+    (part,) = clear.find_feasible_parts(Astray(rng), np.eye(4), whole)
     assert part.bounded_by == (0, None)
     np.testing.assert_array_equal(part.q[0], q[0])
     assert 1 - MIN_BOUNDED_CHANGE <= part.q[-1, 0] <= 1

@@ -26,7 +26,7 @@ def test_neighbours(arm, points, rows, rng):
     a, b = rng.uniform(-8, 8, (points, 7)), rng.uniform(-8, 8, (rows, 7))
     b[: min(points, rows) : 3] = a[: min(points, rows) : 3] + 1e-9
     away, which = joint_space.find_nearest(arm, a, b)
-    expected = joint_space.build_tree(arm, a).query(joint_space.fold_joints(arm, b))
+    expected = joint_space.build_tree(arm, a).query(joint_space.wrap_joints_to_positive(arm, b))
     assert away.tobytes() == expected[0].tobytes()
     assert np.array_equal(which, expected[1])
     assert away == pytest.approx(np.linalg.norm(joint_space.joint_difference(arm, b, a[which]), axis=1), abs=1e-12)
@@ -40,14 +40,14 @@ def test_no_turn_more_than_is_needed(rng):
     """A joint of a UR5 turns twice: of the values that are the same the one next to the middle, always within the limits."""
     arm = arms.load("ur5-rail")
     q = rng.uniform(arm.lower, arm.upper, (500, arm.n))
-    same = joint_space.unwind_joints(arm, q)
+    same = joint_space.wrap_around_limit_center(arm, q)
     np.testing.assert_allclose(arm.forward_kinematics(same), arm.forward_kinematics(q), atol=1e-12)
     assert ((same >= arm.lower) & (same <= arm.upper)).all()
     assert np.abs(same[:, ~arm.prismatic]).max() <= np.pi + 1e-12
     assert np.abs(q[:, ~arm.prismatic]).max() > 1.5 * np.pi
     some = np.array([3.5, -4.0, 2.0, 0.1, 0, 0, 40.0])
     half = replace(arm, joints=tuple(replace(j, upper=np.inf) for j in arm.joints))  # nothing to be next to
-    assert joint_space.unwind_joints(half, some).tobytes() == some.tobytes()
+    assert joint_space.wrap_around_limit_center(half, some).tobytes() == some.tobytes()
 
 
 def test_the_best_configuration_has_no_turn_more_than_is_needed():

@@ -158,7 +158,7 @@ def evaluated(index):
     q = kinematics.joint_symbols(index.arm)
     j = kinematics.invariant_jacobian(index.arm, q) if index.task.invariant else index.task.jacobian(index.arm, q)
     qr = factor_householder(j)
-    rows = qr.null_rows()
+    rows = qr.null_space_basis()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(index.arm.n - index.task.m)]
     values, slopes = index.scores(q, j, qr, directions)
     slopes = ca.vertcat(*[ca.horzcat(*row) for row in slopes])

@@ -17,7 +17,7 @@ from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.status import Status
 from holdfast.kinematics.indices import CustomIndex, Manipulability, RelativeManipulability, by_name
 from holdfast.kinematics.solvers import optimise
-from holdfast.kinematics.solvers.optimum import Optimum, objective_ascent
+from holdfast.kinematics.solvers.optimum import Optimum, get_cached_ascent
 
 TOLERANCE = 1e-6
 
@@ -444,7 +444,7 @@ def test_an_arm_that_no_configuration_makes_tolerant(pa10_7, rng):
 
 def _climbed(index, poses, first, starts=8):
     """The ascent from given first configurations, the other starts drawn alike."""
-    ascent = objective_ascent(index)
+    ascent = get_cached_ascent(index)
     reach = ascent.engine.solve(poses, np.random.SeedSequence(1), 100, TOLERANCE)
     given = replace(reach, q=np.where(np.isnan(first), reach.q, first))
     return ascent.solve(poses, given, np.random.SeedSequence(2), starts, TOLERANCE)
@@ -459,7 +459,7 @@ def test_the_share_of_agreeing_starts_after_a_start_of_infinite_value(flat4):
     assert np.isinf(index(folded)).all()
     found = _climbed(index, poses, folded)
     assert np.isinf(found.start_value).all()
-    ascent = objective_ascent(index)
+    ascent = get_cached_ascent(index)
     reach = replace(ascent.engine.solve(poses, np.random.SeedSequence(1), 100, TOLERANCE), q=folded)
     owner, q = ascent._sample_starts(poses, reach, np.random.SeedSequence(2), 8, TOLERANCE)
     owner, q, _ = ascent._refine_starts(owner, q, poses, TOLERANCE, collision_free=False)

@@ -10,7 +10,7 @@ import holdfast as hf
 import oracles
 from holdfast.core.status import Status
 from holdfast.kinematics.solvers import optimise
-from holdfast.kinematics.solvers.optimum import objective_ascent
+from holdfast.kinematics.solvers.optimum import get_cached_ascent
 from holdfast.model.cell import Box, Sphere
 
 WIDTH, MARGIN = 0.03, 0.02
@@ -71,11 +71,11 @@ def test_exhaustive_search_among_discs(index, clearance, rng):
 
 
 def test_a_step_is_compiled_once_for_all_cells(index, clearance):
-    one = objective_ascent(index, None, clearance, MARGIN)._collision_free_step
+    one = get_cached_ascent(index, None, clearance, MARGIN)._collision_free_step
     other = hf.Clearance(
         index.arm, clearance.capsules, hf.Cell([Box("box", [1, 1, 1], pose=cells.placed(3, 0, 0))]), itself=False
     )
-    two = objective_ascent(index, None, other, MARGIN)._collision_free_step
+    two = get_cached_ascent(index, None, other, MARGIN)._collision_free_step
     assert one.source_digest == two.source_digest
     assert one.source_digest is not None
 

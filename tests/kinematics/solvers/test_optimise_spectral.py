@@ -44,7 +44,7 @@ def scores_kernel(index):
     q = kinematics.joint_symbols(arm)
     j = kinematics.invariant_jacobian(arm, q) if index.task.invariant else index.task.jacobian(arm, q)
     qr = factor_householder(j)
-    rows = qr.null_rows()
+    rows = qr.null_space_basis()
     directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(arm.n - index.task.m)]
     values, slopes = index.scores(q, j, qr, directions)
     outputs = [ca.vertcat(*values), ca.vertcat(*[ca.horzcat(*row) for row in slopes]), ca.horzcat(*directions)]

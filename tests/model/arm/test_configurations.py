@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import holdfast as hf
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 
 
 def test_finite_limits_stay_within_those_of_the_joint():
@@ -17,7 +17,7 @@ def test_finite_limits_stay_within_those_of_the_joint():
         for k, (low, high) in enumerate(limits)
     ]
     arm = hf.Arm(name="limits", joints=tuple(joints))
-    low, high = finite_limits(arm)
+    low, high = sampling_limits(arm)
     free = np.repeat([np.pi, 1.0], 6)
     np.testing.assert_allclose(low, [-1, -np.pi, 0, 5, -5 - np.pi, -np.pi, -1, -1, 0, 5, -6, -1])
     np.testing.assert_allclose(high, [2, np.pi, np.pi, 5 + np.pi, -5, 0, 2, 1, 1, 6, -5, 0])

@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.soundness import check_arm
 
 ROW = """<joint name="j{k}" type="{kind}"> <parent link="l{k}"/> <child link="l{next}"/> <origin xyz="0.05 0 0.2"/>
@@ -42,7 +42,7 @@ def unlimited(tmp_path):
 
 def test_an_assessment_is_that_of_a_continuous_joint(unlimited, tmp_path):
     continuous = turner(tmp_path, "", "continuous")
-    for low, high in (finite_limits(unlimited), finite_limits(continuous)):
+    for low, high in (sampling_limits(unlimited), sampling_limits(continuous)):
         assert np.abs([low, high]).max() <= 4 * np.pi
     region = hf.assess(continuous, poses=1).region
     both = [hf.assess(arm, region, poses=60) for arm in (unlimited, continuous)]

@@ -148,7 +148,7 @@ def test_frames_of_bodies_and_joints_are_the_same_in_every_frame(arm, rng):
     joints = [before @ joint.origin for before, joint in zip(made, arm.joints, strict=False)]
     x = kinematics.joint_symbols(arm)
     for frame in (None, *range(arm.n + 1)):
-        moving, still = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, x), frame)
+        moving, still = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, x), frame)
         seen_from = np.broadcast_to(np.eye(4), made[0].shape) if frame is None else made[frame]
         got = evaluate(ca.horzcat(*[ca.horzcat(*f) for f in moving + still]), x, q)
         world = seen_from[:, :3, :3] @ got

@@ -234,7 +234,7 @@ def test_unreadable_files(tmp_path: Path) -> None:
 
 def test_angles_of_many_turns_are_pointed_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     printed: list[str] = []
-    monkeypatch.setattr(table, "warn_now", printed.append)
+    monkeypatch.setattr(table, "print_warning", printed.append)
     file = tmp_path / "hoist.yaml"
     rows = "rows:\n  - {a: 0, alpha: -90, d: 0.36}\n  - {a: 0.4, alpha: 0, theta: 3.2}\n"
     file.write_text(rows, encoding="utf-8")

@@ -131,7 +131,7 @@ def test_a_field_is_kept_on_the_disk(monkeypatch, tmp_path):
     monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
     points = np.random.default_rng(3).uniform(-1, 1, (20, 3))
     first = Points("scan", points, radius=0.01).field
-    monkeypatch.setattr(field, "bound_distances", None)
+    monkeypatch.setattr(field, "node_distance_bounds", None)
     again = Points("other", points, radius=0.02).field
     np.testing.assert_array_equal(first.values, again.values)
     assert again.offset == 0.02
@@ -183,7 +183,7 @@ def test_objects_of_both_kinds_are_merged_in_their_order(rng, scene):
     room = (expected - clearance.margins).min(axis=1)
     np.testing.assert_allclose(clearance(q), expected.min(axis=1), atol=1e-12)
     np.testing.assert_allclose(clearance.margin_left(q), room, atol=1e-12)
-    nearest, pair, slope = clearance.obstacles.find_nearest(q)
+    nearest, pair, slope = clearance.obstacles.nearest_margin_and_gradient(q)
     np.testing.assert_allclose(nearest, room, atol=1e-12)
     np.testing.assert_array_equal(pair, (expected - clearance.margins).argmin(axis=1))
     assert len({clearance.pair_names[k].partition(" & ")[2] for k in pair}) > 3
@@ -193,11 +193,11 @@ def test_objects_of_both_kinds_are_merged_in_their_order(rng, scene):
         axis=1,
     )
     assert np.quantile(np.abs(numeric - slope).max(axis=1), 0.95) < 1e-6
-    one = clearance.obstacles.find_nearest(q[:1])
+    one = clearance.obstacles.nearest_margin_and_gradient(q[:1])
     np.testing.assert_allclose(one[2], slope[:1], atol=1e-12)
     q[3] = np.nan
     assert np.isnan(clearance.margin_left(q)[3])
-    assert clearance.obstacles.find_nearest(q)[1][3] == -1
+    assert clearance.obstacles.nearest_margin_and_gradient(q)[1][3] == -1
 
 
 def test_only_objects_with_a_grid(rng, scene):
@@ -206,7 +206,7 @@ def test_only_objects_with_a_grid(rng, scene):
     clearance = hf.Clearance(arm, cell=alone, itself=False)
     q = rng.uniform(arm.lower, arm.upper, (5, arm.n))
     np.testing.assert_allclose(clearance(q), clearance.by_pair(q).min(axis=1))
-    assert (clearance.closest_pair(q) == clearance.obstacles.find_nearest(q)[1]).all()
+    assert (clearance.closest_pair(q) == clearance.obstacles.nearest_margin_and_gradient(q)[1]).all()
 
 
 def test_no_penetration_that_coal_sees_is_missed(rng, scene):

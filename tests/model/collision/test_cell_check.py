@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.core.probability.sobol_sequence import sobol_points
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.cell import Box, Mesh, Points, Sphere, field
 
 
@@ -51,7 +51,7 @@ def test_what_touches_is_told_by_name_and_counted(cell):
     assert found.base == ("table", "hood")
     assert "panda_joint4 & hood" in found.always
     assert not found.ok
-    low, high = finite_limits(arm)
+    low, high = sampling_limits(arm)
     q = low + (high - low) * sobol_points(512, arm.n)
     open_ = hf.Cell(cell.objects, may_touch=[("table", "base"), ("hood", "base")])
     clearance = hf.Clearance(arm, cell=open_, itself=False)
@@ -90,7 +90,7 @@ def test_batches_of_close_objects_agree_with_single_ones(rng, monkeypatch):
     corners = np.array([[x, y, z] for x in (-0.2, 0.2) for y in (-0.03, 0.03) for z in (-0.1, 0.1)])
     plates = [Mesh(f"plate{k}", (corners, BOX), solid="hull", pose=at(0.45, 0.08 * k, 0.5)) for k in range(-3, 4)]
     objects = hf.Clearance(hf.arms.load("panda"), cell=hf.Cell(plates)).obstacles
-    q = rng.uniform(*finite_limits(objects.arm), (400, objects.arm.n))
+    q = rng.uniform(*sampling_limits(objects.arm), (400, objects.arm.n))
     for measure in (objects.pair_distances, objects.smallest_distance):
         singly = np.concatenate([measure(row[None]) for row in q])
         np.testing.assert_allclose(measure(q), singly, rtol=0, atol=1e-9)

@@ -164,7 +164,7 @@ def test_a_pose_that_is_never_clear_is_so_wherever_its_last_joint_is(rng, types)
     low, high = max(arm.lower[-1], -np.pi), min(arm.upper[-1], np.pi)
     best = room_of_the_end(clearance, poses, np.linspace(low, high, 60)).max(axis=1)
     margin = float(np.quantile(best, 0.7))
-    found = clearance.obstacles.never_collision_free(poses, margin)
+    found = clearance.obstacles.are_poses_always_colliding(poses, margin)
     # A sphere goes no farther between two of the angles than half of what the joint does between them.
     far = 1.0 if types[-1] == "P" else np.linalg.norm(clearance.obstacles.spheres.center, axis=1).max() + 0.7
     assert not (found & (best >= margin)).any()
@@ -179,5 +179,5 @@ def test_nothing_is_said_of_a_pose_where_there_is_nothing_to_say_it_by(rng):
     cloud = hf.cell.Points("scan", points=rng.normal(size=(20, 3)) + 4, radius=0.01)
     for capsules, cell in ((first, random_cell(rng)), (hf.Capsules.along_links(arm, 0.1), hf.Cell([cloud]))):
         seen = hf.Clearance(arm, capsules, cell, itself=False).obstacles
-        assert not seen.never_collision_free(poses, 10.0).any()
-        assert seen.never_collision_free(poses[:0], 10.0).shape == (0,)
+        assert not seen.are_poses_always_colliding(poses, 10.0).any()
+        assert seen.are_poses_always_colliding(poses[:0], 10.0).shape == (0,)

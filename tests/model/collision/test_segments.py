@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from holdfast.model.collision.segments import LineSegment, closest_parameters, point_distance
+from holdfast.model.collision.segments import LineSegment, closest_parameters, distance_between_points
 
 
 def ours(p, u, q, v):
     """Distance and feet of the segments p + s u and q + t v, by constant folding."""
     a, b = (LineSegment(ca.SX(ca.DM(x)), ca.SX(ca.DM(y)), float(np.dot(y, y))) for x, y in ((p, u), (q, v)))
     s, t = closest_parameters(a, b)
-    return tuple(float(ca.evalf(x)) for x in (point_distance(a, b, s, t), s, t))
+    return tuple(float(ca.evalf(x)) for x in (distance_between_points(a, b, s, t), s, t))
 
 
 def theirs(p, u, q, v):
@@ -98,7 +98,7 @@ def test_derivatives_are_finite_where_feet_are_not_unique():
     for squares in ((1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0)):
         spans = [x[3:6], x[9:12]]
         a, b = (LineSegment(x[6 * k : 6 * k + 3], spans[k] if squares[k] else ca.SX(3, 1), squares[k]) for k in (0, 1))
-        value = point_distance(a, b, *closest_parameters(a, b))
+        value = distance_between_points(a, b, *closest_parameters(a, b))
         f = ca.Function("f", [x], [value, ca.gradient(value, x), ca.jacobian(value, x)])
         for case in cases:
             assert all(np.isfinite(np.array(y)).all() for y in f(case))

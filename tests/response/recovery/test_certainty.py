@@ -13,7 +13,7 @@ import cells
 import holdfast as hf
 from holdfast.model.collision.exact import certainty, engines
 from holdfast.model.collision.exact.bodies import body_from_piece
-from holdfast.model.collision.exact.certainty import describe_unknown_shape, find_certain_contacts
+from holdfast.model.collision.exact.certainty import describe_unknown_shape, name_certain_contacts
 from holdfast.model.shapes.pieces import Missing
 from holdfast.response.recovery import RecoveryOutcome
 
@@ -141,7 +141,7 @@ def test_a_certain_contact_is_one_for_mujoco_too(panda):
     q = np.random.default_rng(1).uniform(panda.lower, panda.upper, (600, 7))
     q = q[clearance.alone.exact(q) > 0]  # MuJoCo looks at objects alone here
     touches = mujoco.touches(q)
-    certain = np.array([bool(name) for name in find_certain_contacts(clearance, q)])
+    certain = np.array([bool(name) for name in name_certain_contacts(clearance, q)])
     assert not (certain & ~touches).any()
     assert certain[touches].mean() > 0.99
     assert touches.sum() > 100
@@ -152,7 +152,7 @@ def test_balls_alone_tell_contacts_without_a_library(panda, monkeypatch):
     clearance, mujoco = hf.Clearance(panda, cell=cell), geometry.InMujoco(cell)
     q = np.random.default_rng(2).uniform(panda.lower, panda.upper, (300, 7))
     monkeypatch.setattr(certainty, "is_library_installed", lambda: False)
-    certain = np.array([bool(name) for name in find_certain_contacts(clearance, q)])
+    certain = np.array([bool(name) for name in name_certain_contacts(clearance, q)])
     assert certain.sum() > 50
     assert mujoco.touches(q[certain]).all()
 
@@ -178,6 +178,6 @@ def test_a_margin_that_a_mesh_comes_closer_than_is_certain(panda, between):
     clearance = hf.Clearance(panda)
     apart = clearance.exact(free[:10])
     for q, least in zip(free, apart, strict=False):
-        assert not find_certain_contacts(clearance, q[None], float(least) - 1e-4)[0]
-        assert find_certain_contacts(clearance, q[None], float(least) + 1e-4)[0]
+        assert not name_certain_contacts(clearance, q[None], float(least) - 1e-4)[0]
+        assert name_certain_contacts(clearance, q[None], float(least) + 1e-4)[0]
     assert describe_unknown_shape(clearance) == ""

@@ -17,9 +17,9 @@ from holdfast.model.collision import Capsules
 from holdfast.response.recovery import RecoveryOutcome, attempt
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.response.recovery.proofs.flood import (
-    _generate_floods,
+    _generate_connected_regions,
     _LinkPoints,
-    find_confined_floods,
+    find_confined_regions,
     make_configuration_test,
     make_pose_test,
     prove_disconnected,
@@ -192,11 +192,11 @@ def test_a_first_link_between_two_balls_stays_there_whatever_the_others_do():
     shape = among(arm, 0.6 * np.array([[np.cos(1), np.sin(1)], [np.cos(1), -np.sin(1)]]))
     start, there, here = np.zeros(4), np.array([2.0, 0, 0, 0]), np.array([0.4, 2.0, -1.0, 0.5])
     space = FreeSpace(arm, np.ones(4, dtype=bool), shape, 0.0, np.stack([start, there]))
-    flood = next(iter(find_confined_floods(space, start, there[None])))
+    flood = next(iter(find_confined_regions(space, start, there[None])))
     edge = 1 - np.arcsin((BALL + THICK) / 0.6)
     most = np.abs(flood.middle[:, 0]).max() + flood.half_widths[0]
     assert edge <= most < edge + 0.35
-    assert not list(find_confined_floods(space, start, np.stack([there, here])))
+    assert not list(find_confined_regions(space, start, np.stack([there, here])))
 
 
 @pytest.mark.parametrize("limit", [np.inf, 2.8], ids=["round", "limited"])
@@ -208,10 +208,10 @@ def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
     def blocked(q, half):  # but about a way
         return np.abs(q[:, None, [0, 2]] - seen[:, [0, 2]]).max(axis=2).min(axis=1) > 0.5
 
-    flood = next(f for f in _generate_floods(space, seen[0], np.array([0, 2]), blocked) if f.cells_per_joint == 32)
+    flood = next(f for f in _generate_connected_regions(space, seen[0], np.array([0, 2]), blocked) if f.cells_per_joint == 32)
     assert 20 < len(flood.cells) < 1000
     middle, half = rng.uniform(-edge, edge, (400, 3)), rng.uniform(0, 0.4, (400, 3))
-    missed = flood.excludes(middle, half)
+    missed = flood.excludes_boxes(middle, half)
     inside = (middle[:, None] + half[:, None] * rng.uniform(-1, 1, (1, 100, 3)))[..., [0, 2]]
     if np.isinf(limit):
         inside = np.arctan2(np.sin(inside), np.cos(inside))

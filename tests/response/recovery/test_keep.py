@@ -224,7 +224,7 @@ def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_witho
     assert hf.recover(three, {"joint3": 0.0}, start, **ask).ok
     proved = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=tool_constraints.plane(across), tries=1)
     assert (proved.verdict.kind, proved.ending) == ("disconnected", RecoveryOutcome.PROVED_DISCONNECTED)
-    monkeypatch.setattr(attempt, "prove_separated", lambda *_, **__: None)
+    monkeypatch.setattr(attempt, "prove_goal_disconnected", lambda *_, **__: None)
     for tries, verdict in ((1, "undecided"), (4, "argued infeasible")):
         answer = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=tool_constraints.plane(across), tries=tries)
         assert (answer.verdict.answer, answer.ending) == (verdict, RecoveryOutcome.NO_ROUTE_FOUND)

@@ -13,7 +13,7 @@ import holdfast as hf
 import oracles
 from holdfast.model.collision import Capsules, Clearance, LinkCapsule
 from holdfast.response.recovery import RecoveryOutcome, goals
-from holdfast.response.recovery.proofs.reach import prove_out_of_reach
+from holdfast.response.recovery.proofs.reach import prove_by_reach_bound
 
 
 def limited(arm: hf.Arm, lower, upper) -> hf.Arm:
@@ -267,11 +267,11 @@ def test_what_the_failed_arm_reaches_is_never_proved_unreachable(rng):
             free[0] = True
         q[:, ~free] = q[0, ~free]
         for pose in oracles.forward(arm, q):
-            assert prove_out_of_reach(arm, free, q[0], pose, True, None) is None
-            assert prove_out_of_reach(arm, free, q[0], pose, False, None) is None
+            assert prove_by_reach_bound(arm, free, q[0], pose, True, None) is None
+            assert prove_by_reach_bound(arm, free, q[0], pose, False, None) is None
         away = oracles.pose(None, [50.0, 0, 0])
         finite = np.isfinite(arm.lower[arm.prismatic & free]).all()
-        assert not finite or "at most" in (prove_out_of_reach(arm, free, q[0], away, True, None) or "")
+        assert not finite or "at most" in (prove_by_reach_bound(arm, free, q[0], away, True, None) or "")
 
 
 def test_the_turn_about_the_tool_is_given_up_first():

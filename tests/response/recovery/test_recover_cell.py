@@ -62,7 +62,7 @@ def test_the_first_link_meets_an_object_which_it_does_not_as_a_part_of_the_base(
     found = hf.recover(arm, ["joint2"], away[0], clearance=clearance, **common)
     assert found.ending == RecoveryOutcome.PROVED_DISCONNECTED  # the limits of joint 1 close the other way
     assert not len(found.q)
-    monkeypatch.setattr(attempt, "prove_separated", lambda *_, **__: None)
+    monkeypatch.setattr(attempt, "prove_goal_disconnected", lambda *_, **__: None)
     found = hf.recover(arm, ["joint2"], away[0], clearance=clearance, **common)
     assert found.ending == RecoveryOutcome.NO_ROUTE_FOUND
     assert "in the way of the straight line: joint1 & bar" in found.reason

@@ -15,7 +15,7 @@ from holdfast.model.arm.task import as_task
 from holdfast.model.collision.exact.engines import is_library_installed
 from holdfast.response.recovery import RecoveryOutcome, attempt, completion
 from holdfast.response.recovery.proofs import reach
-from holdfast.response.recovery.proofs.path_proof import order_by_relevance
+from holdfast.response.recovery.proofs.path_proof import coarse_to_fine_indices
 from holdfast.response.recovery.proofs.reach import enumerate_configurations, prove_no_configuration
 from holdfast.response.recovery.task_rows import make_row_solver
 from holdfast.response.recovery.verification import Verification, compute_row_errors, compute_tool_poses, verify_waypoints
@@ -207,7 +207,7 @@ def test_an_idle_last_joint_is_looked_at_in_one_place_which_proves_nothing_about
     q = rng.uniform(arm.lower, arm.upper)
     locks = {k: q[k] for k in (0, 2, 4)}
 
-    monkeypatch.setattr(reach, "find_certain_contacts", lambda _, q: ["something"] * len(q))  # where joint 7 is in the middle
+    monkeypatch.setattr(reach, "name_certain_contacts", lambda _, q: ["something"] * len(q))  # where joint 7 is in the middle
     for more, sure in (({}, False), ({6: q[6]}, True)):
         task = as_task(arm, "position")
         every = enumerate_configurations(hf.Degraded(arm, locked=locks | more), task, arm.forward_kinematics(q), np.inf)
@@ -257,9 +257,9 @@ def test_any_of_several_poses_will_do(three):
 
 
 def test_the_poses_that_tell_most_come_first():
-    assert list(order_by_relevance(9)) == [8, 0, 4, 2, 6, 1, 3, 5, 7]
+    assert list(coarse_to_fine_indices(9)) == [8, 0, 4, 2, 6, 1, 3, 5, 7]
     for count in (1, 2, 3, 10, 57):
-        assert sorted(order_by_relevance(count)) == list(range(count))
+        assert sorted(coarse_to_fine_indices(count)) == list(range(count))
 
 
 def test_a_finished_path_is_verified_between_its_waypoints(three):

@@ -12,7 +12,7 @@ from cells import placed
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.response.faults import FaultEvent
 from holdfast.response.supervisor.masked_law import MaskedLaw
-from holdfast.response.supervisor.posture_change import candidate_postures
+from holdfast.response.supervisor.posture_change import candidate_configurations
 
 pytest.importorskip("mujoco")
 BODY = hf.Body(3)
@@ -175,7 +175,7 @@ def test_a_law_that_is_followed_ahead_ends_where_its_single_steps_do(task, rng):
 def test_postures_of_a_detour_leave_braked_joints_alone_and_a_joint_without_limits_turns_either_way():
     arm, q = hf.arms.load("kinova-j2s6s200"), np.linspace(1.0, 4.0, 6)
     mask = np.where(np.arange(6) == 4, 0.0, 1.0)
-    found = candidate_postures(arm, q, mask)
+    found = candidate_configurations(arm, q, mask)
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.array([(low + high) / 2 if np.isfinite(high) else 0.0 for low, high in zip(arm.lower, arm.upper, strict=True)])
     assert (found[:, 4] == q[4]).all()

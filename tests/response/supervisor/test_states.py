@@ -107,7 +107,9 @@ def taken(monkeypatch):
 
     monkeypatch.setattr(states.StateMachine, "enter", count_transition)
     monkeypatch.setattr(replanning, "plan_route", plan_route)
-    monkeypatch.setattr(replanning, "choose_posture", lambda law, q, **limits: q if law.rng.random() < 0.5 else None)
+    monkeypatch.setattr(
+        replanning, "choose_intermediate_configuration", lambda law, q, **limits: q if law.rng.random() < 0.5 else None
+    )
     return counts
 
 

@@ -17,7 +17,7 @@ from holdfast.core.status import Status
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.page import build
 from holdfast.interface.presentation.assessment.sections import collisions
-from holdfast.interface.presentation.commands import build_command_line, list_capsule_files
+from holdfast.interface.presentation.commands import build_command_line, build_shape_file_blocks
 from holdfast.model.collision import LinkCapsule
 from holdfast.model.collision.cover import choose_capsules
 from holdfast.studies.assessment.plan import make_plan
@@ -246,7 +246,7 @@ def test_the_command_makes_the_same_run(optimise, capsules, margin, words):
     command, _ = build_command_line(a)
     options = " ".join(command.replace("\\\n", " ").split()).partition("--restarts 100")[2].replace("--optimise", "").strip()
     assert options.startswith(words) if capsules == "assumed" else options == words
-    files = list_capsule_files(a)
+    files = build_shape_file_blocks(a)
     assert len(files) == (capsules == "own")
     if files:
         assert Capsules.from_dict(yaml.safe_load(files[0].text), arm) == own

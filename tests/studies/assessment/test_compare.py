@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.core.formatting import format_interval, join_units
+from holdfast.core.formatting import format_interval, insert_nonbreaking_spaces
 from holdfast.interface.presentation.assessment.comparison import build
 from holdfast.interface.report.page import render
 from holdfast.model.arms.tool import format_tool_pose, tool_pose_from_numbers
@@ -146,9 +146,13 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
     assert 0.05 in data["values"]
     answers = dict(zip(labels, data["answers"], strict=True))
     for name, run in zip(names, runs[some], strict=True):
-        assert answers.pop(name) == [join_units(format_interval(run.interval(at_least=x))) for x in data["values"]]
+        assert answers.pop(name) == [
+            insert_nonbreaking_spaces(format_interval(run.interval(at_least=x))) for x in data["values"]
+        ]
         if run.optimised is not None:
-            told = [join_units(format_interval(run.interval(at_least=x, optimised=True))) for x in data["values"]]
+            told = [
+                insert_nonbreaking_spaces(format_interval(run.interval(at_least=x, optimised=True))) for x in data["values"]
+            ]
             assert answers.pop(f"{name}, best configurations") == told
     # Who leads is said only of candidates with one task.
     assert list(answers) == ["Largest probability"] * (some.stop == 3)

@@ -239,7 +239,7 @@ def test_all_unreached(better, binned):
     if binned:
         collector = DistributionCollector(better, None, most=-1)
         collector.add(np.zeros(0), 50, 0)
-        d = collector.finish()
+        d = collector.make_distribution()
     worst = 0.0 if better == "larger" else np.inf
     assert d.quantile(0.5, reachable_only=False) == worst
     assert d.cdf(0) == 0
@@ -284,7 +284,7 @@ def collect(values, better, bound, most, parts=13, unreached=0, singular=0):
     collector = DistributionCollector(better, bound, most)
     for part in np.array_split(values, parts):
         collector.add(part, unreached, singular)
-    return collector.finish()
+    return collector.make_distribution()
 
 
 def test_collector_is_exact_while_it_can_be(rng):
@@ -328,7 +328,7 @@ def test_values_beyond_what_the_first_ones_showed(rng):
     collector = DistributionCollector("larger", None, most=1000)
     collector.add(first, 0, 0)
     collector.add(later, 0, 0)
-    d = collector.finish()
+    d = collector.make_distribution()
     assert d.probability(at_least=0.6) == pytest.approx(0.2)
     assert d.cdf(0.45) == pytest.approx((np.r_[first, later] < 0.45).mean(), abs=1e-3)
     assert d.highest == 1e6
@@ -353,7 +353,7 @@ def test_binned_quantiles_at_the_bound_and_among_infinite_values(better, bound, 
     for part in np.array_split(values, 7):
         weights = (np.ones(len(part)), np.ones(2)) if weighted else ()
         collector.add(part, 2, 0, *weights)
-    d, exact = collector.finish(), Distribution.from_values(values, better, 14)
+    d, exact = collector.make_distribution(), Distribution.from_values(values, better, 14)
     p = np.r_[0.0, 0.1, 0.3, 0.5, 0.89, 0.899, 0.9, 0.95, 1.0]
     for only in (True, False):
         np.testing.assert_allclose(d.quantile(p, only), exact.quantile(p, only), atol=2e-4)

@@ -41,7 +41,7 @@ def test_a_locked_joint_leaves_an_annulus(arm, rng, joint):
     poses[:, :2, 3] = rng.uniform(-2.5, 2.5, (count, 2))
     angles = rng.uniform(-3, 3, count)
     engine = solver(arm, as_task(arm, "planar"))
-    found = engine.reaches_locked(poses, np.full(count, joint), angles, np.random.SeedSequence(1), 30, 1e-6)
+    found = engine.is_reachable_with_lock(poses, np.full(count, joint), angles, np.random.SeedSequence(1), 30, 1e-6)
     inner, distance, outer = np.array([annulus(p[:2, 3], joint, a) for p, a in zip(poses, angles, strict=True)]).T
     clear = (np.abs(distance - inner) > 1e-3) & (np.abs(distance - outer) > 1e-3)
     truth = (inner < distance) & (distance < outer)

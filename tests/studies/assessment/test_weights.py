@@ -113,7 +113,7 @@ def test_bins_hold_weights_too(rng, bound):
     for part, weights, others in zip(np.split(values, 10), np.split(w, 10), lost, strict=True):
         for c in (few, many):
             c.add(part, 50, 0, weights, others)
-    d, exact = few.finish(), many.finish()
+    d, exact = few.make_distribution(), many.make_distribution()
     assert d.values is None
     assert d.has_weights
     np.testing.assert_array_equal(np.sort(values), exact.values)

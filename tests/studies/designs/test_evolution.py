@@ -5,7 +5,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.kinematics.workspace.closed_form import ThreeLinks, workspace_area
-from holdfast.studies.designs.evolution.annuli import compute_ring_area
+from holdfast.studies.designs.evolution.annuli import compute_tolerant_area
 from holdfast.studies.designs.evolution.strategy import minimise_by_evolution
 from holdfast.studies.designs.evolution.sweeps import SelfMotionTracer
 from holdfast.studies.designs.family import Family
@@ -45,7 +45,7 @@ def test_rings_are_the_closed_form_of_three_joints(rng):
     lengths = np.column_stack([rng.uniform(0.2, 0.6, count), rng.uniform(0.8, 1.4, (count, 2))])
     middle, half = rng.uniform(-2.5, 2.5, count), rng.uniform(0, 0.4, count)
     limits = np.stack([middle - half, middle + half], axis=1)
-    found = compute_ring_area(lengths, limits[:, None], 401)
+    found = compute_tolerant_area(lengths, limits[:, None], 401)
     exact = [
         workspace_area(ThreeLinks(each, np.zeros(2), np.zeros(3), np.ones(3)), np.array([[FULL, FULL, pair]]), 400)[0]
         for each, pair in zip(lengths, limits, strict=True)
@@ -86,7 +86,7 @@ def test_rings_of_four_joints_are_what_sampling_finds(rng):
         ([0.3, 1.1, 0.5, 1.1], [[-2.0, -1.0], [1.0, 2.0]]),
     ):
         lengths, limits = np.array(lengths), np.array(limits)
-        found = float(compute_ring_area(lengths[None], limits[None], 41)[0])
+        found = float(compute_tolerant_area(lengths[None], limits[None], 41)[0])
         assert found > 1
         assert found == pytest.approx(sampled_area(lengths, limits), rel=0.08)
 
@@ -112,7 +112,7 @@ def test_no_random_links_and_limits_are_above_the_bound(rng):
     lengths = rng.dirichlet(np.ones(3), 3000) * 3
     limits = np.sort(rng.uniform(-3, 3, (3000, 1, 2)), axis=2)
     limits[::2, :, 1] = limits[::2, :, 0] + 1e-3
-    found = compute_ring_area(lengths, limits, 41)
+    found = compute_tolerant_area(lengths, limits, 41)
     assert 7 < found.max() <= 3 * np.pi
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field, TypeAdapter
 from websockets.sync.client import ClientConnection, connect
 
-from holdfast.teleop.protocol.printed_arm import number_laws
+from holdfast.teleop.protocol.printed_arm import number_scenario_laws
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.serve.messages import Ack, Bye, Pause, Refused, Unstored, Welcome
 
@@ -73,7 +73,7 @@ class Client:
         """A trial with random commands; the configurations from start to end."""
         plan = self.welcome.plan
         todo = (plan.training if kind == "training" else plan.trials)[position]
-        scenario = 0 if kind == "training" else number_laws(self.protocol).index(todo.law)
+        scenario = 0 if kind == "training" else number_scenario_laws(self.protocol).index(todo.law)
         healthy = np.ones(len(todo.q0))
         if todo.joint >= 0:
             healthy[todo.joint] = 0.0

@@ -10,7 +10,7 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.model.arm.task import as_task
-from holdfast.teleop.protocol.printed_arm import number_laws, print_arm_module
+from holdfast.teleop.protocol.printed_arm import generate_arm_javascript, number_scenario_laws
 from holdfast.teleop.protocol.protocol import read_protocol
 from holdfast.teleop.serve import texts
 from holdfast.teleop.serve.briefing import compute_planar_workspace, describe_experiment, describe_views
@@ -22,7 +22,7 @@ def test_experiment_of_the_paper(built):
     told = describe_experiment(whole, texts.load_texts(None, built[1]), tlx=True)
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["stick"] == {"limit": 0.05, "dead_zone": 0.005}
-    assert told["training_law"] == number_laws(whole)[0]
+    assert told["training_law"] == number_scenario_laws(whole)[0]
     assert told["training"] == {"at_least": 10, "in_a_row": 5, "limit": 55.0, "most": 100}
     assert told["views"] == [{"label": "x, y", "rows": [[1, 0, 0], [0, 1, 0]]}]
     assert (told["reach"], told["centre"]) == (pytest.approx(3.0), [0.0, 0.0, 0.0])
@@ -92,10 +92,12 @@ def test_the_page_is_blind(built):
     """No law is named in anything that a station gets, and the order of the laws' codes is the protocol's seed's."""
     whole = dataclasses.replace(read_protocol(), name="does the failure-tolerant inverse help?")
     order = whole.session_order(0, 0)
-    laws = number_laws(whole)
+    laws = number_scenario_laws(whole)
     plan = [PlannedTrial(task=t, law=laws[s], q0=[0.0], target=[0.0], joint=-1).model_dump() for t, s in order.tolist()]
     words = (
-        json.dumps(describe_experiment(whole, texts.load_texts()) | {"texts": ""}) + print_arm_module(whole) + json.dumps(plan)
+        json.dumps(describe_experiment(whole, texts.load_texts()) | {"texts": ""})
+        + generate_arm_javascript(whole)
+        + json.dumps(plan)
     )
     for name in (*LAW_REGISTRY, "pseudo", "tolerant", "inverse", "scenario", "law_of", whole.name):
         assert name not in words.lower()

@@ -391,12 +391,12 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
     shutil.copytree(folder, experiment)
     with Records.open(experiment) as records:
         programs = [s.code for s in records.subjects() if records.count_trials().get((s.code, TrialKind.TRIAL))]
-    assert apart._run_command_line("report", str(experiment), str(tmp_path), "refuse") == 0
+    assert apart._run_job_function("report", str(experiment), str(tmp_path), "refuse") == 0
     with Records.open(experiment) as records:
         for code in ("P1", "P2", "P3"):
             give_up(records, records.add_subject(code, SubjectKind.PERSON))
         records.set_state("P3", SubjectState.DROPPED)
-    assert apart._run_command_line("report", str(experiment), str(tmp_path), "refuse") == 0
+    assert apart._run_job_function("report", str(experiment), str(tmp_path), "refuse") == 0
     assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
     dropped, simulated = written[1].notes[1:]
     assert dropped.startswith("dropped out, and not part of any number: ")

@@ -237,14 +237,14 @@ def test_wrong_tokens_are_counted_by_address():
     now = [0.0]
     wrong = FailedAttempts(lambda: now[0])
     for _ in range(201):
-        assert not wrong.must_wait("a")
+        assert not wrong.has_too_many_failures("a")
         wrong.count_attempt("a")
-    assert wrong.must_wait("a")
-    assert not wrong.must_wait("b")
+    assert wrong.has_too_many_failures("a")
+    assert not wrong.has_too_many_failures("b")
     now[0] = 1.1
-    assert not wrong.must_wait("a")
+    assert not wrong.has_too_many_failures("a")
     wrong.count_attempt("a")
-    assert wrong.must_wait("a")
+    assert wrong.has_too_many_failures("a")
     for k in range(3000):
         wrong.count_attempt(str(k))
     assert len(wrong._limiters) <= 1024
@@ -258,11 +258,11 @@ def test_keys_are_made_anew():
 def test_bucket():
     now = [0.0]
     bucket = RateLimiter(rate=10, burst=5, clock=lambda: now[0])
-    assert [bucket.take_allowance() for _ in range(5)] == [0.0] * 5
-    assert bucket.take_allowance() == pytest.approx(0.1)
+    assert [bucket.reserve_and_get_wait() for _ in range(5)] == [0.0] * 5
+    assert bucket.reserve_and_get_wait() == pytest.approx(0.1)
     now[0] = 100.0
-    assert [bucket.take_allowance() for _ in range(5)] == [0.0] * 5
-    assert bucket.take_allowance() > 0
+    assert [bucket.reserve_and_get_wait() for _ in range(5)] == [0.0] * 5
+    assert bucket.reserve_and_get_wait() > 0
 
 
 def test_an_experiment_is_begun_or_opened(protocol, tmp_path):

@@ -136,7 +136,7 @@ def test_the_experimenter_watches_and_acts(experiment):
             fourth = Page()
             await control.enter_session(fourth, hello(session=key))
             assert "another page" in third.said[-1].reason
-            control.leave_session(third)  # it is gone, and does not hold the session any more
+            control.release_session(third)  # it is gone, and does not hold the session any more
             await control.drop_subject("P1")
             assert "ended by the experimenter" in fourth.said[-1].reason
             for act in (control.set_note("X", ""), control.drop_subject("X"), control.renew_key("X"), control.pause("X", True)):

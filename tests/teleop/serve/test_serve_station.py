@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import flips
 import holdfast as hf
-from holdfast.teleop.protocol.printed_arm import number_laws
+from holdfast.teleop.protocol.printed_arm import number_scenario_laws
 from holdfast.teleop.records import session
 from holdfast.teleop.records.entries import SubjectState, TrialKind
 from holdfast.teleop.records.records import Records
@@ -208,7 +208,7 @@ def test_the_plan_is_the_session_of_the_protocol(records, protocol):
     entered = admit_page(records, hello(code="P07"))
     subject = records.subject("P07")
     plan = Station(records, "P07").make_welcome(entered.key, False).plan
-    order, laws = protocol.session_order(subject.row, subject.number).tolist(), number_laws(protocol)
+    order, laws = protocol.session_order(subject.row, subject.number).tolist(), number_scenario_laws(protocol)
     assert [[t.task, t.law] for t in plan.trials] == [[task, laws[scenario]] for task, scenario in order]
     for t, (_, scenario) in zip(plan.trials, order, strict=True):
         assert t.joint == (protocol.tasks.joint[t.task] if protocol.scenarios[scenario].failed else -1)

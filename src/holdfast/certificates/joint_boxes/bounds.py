@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.joint_boxes.halving import BoxTest, require_capacity
+from holdfast.certificates.joint_boxes.halving import BoxTest, require_feasible_box_count
 from holdfast.certificates.joint_boxes.jobs import bisect_box, summarize_tree
-from holdfast.certificates.joint_boxes.kernels import FloorTest
-from holdfast.certificates.joint_boxes.wrenches import CeilingTest
+from holdfast.certificates.joint_boxes.kernels import ManipulabilityFloorTest
+from holdfast.certificates.joint_boxes.wrenches import ManipulabilityCeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
@@ -47,7 +47,7 @@ class ManipulabilityBound(BisectionResult):
     @property
     def refuted(self) -> bool:
         """True if the extreme configuration is beyond the threshold."""
-        return _bound_sign(self.claim) * (self.value - self.claim.threshold) > 0
+        return _maximization_sign(self.claim) * (self.value - self.claim.threshold) > 0
 
     def describe(self) -> list[str]:
         """Return the claim and the result of the search as sentences."""
@@ -71,12 +71,12 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
     started = perf_counter()
     extreme, value = _search_extreme(claim, np.random.default_rng(seed))
     bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), claim.arm.n, 1, True), CertificateChain.from_arm(claim.arm)
-    test: BoxTest = CeilingTest(chain, claim.locks, claim.threshold)
+    test: BoxTest = ManipulabilityCeilingTest(chain, claim.locks, claim.threshold)
     if claim.kind == "floor":
-        test = FloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
-    if _bound_sign(claim) * (value - claim.threshold) <= 0:
+        test = ManipulabilityFloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
+    if _maximization_sign(claim) * (value - claim.threshold) <= 0:
         advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
-        require_capacity(test, claim.joint_box, halvings, seed, advice)
+        require_feasible_box_count(test, claim.joint_box, halvings, seed, advice)
         bisection = bisect_box(test, claim.joint_box, halvings, budget)
     seconds = perf_counter() - started
     return ManipulabilityBound(
@@ -93,7 +93,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
     )
 
 
-def _bound_sign(claim: BoundClaim) -> float:
+def _maximization_sign(claim: BoundClaim) -> float:
     return 1.0 if claim.kind == "ceiling" else -1.0
 
 
@@ -102,7 +102,7 @@ def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[FloatA
     them.
     """
     index = relative_manipulability(claim.arm, claim.task, failures=list(claim.locks))
-    (lower, upper), sign = claim.joint_box.T, _bound_sign(claim)
+    (lower, upper), sign = claim.joint_box.T, _maximization_sign(claim)
     fractions = np.concatenate(
         [rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT // 4, len(lower))) / 2]
     )

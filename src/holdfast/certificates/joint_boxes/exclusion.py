@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index, require_capacity
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, Index, require_feasible_box_count
 from holdfast.certificates.joint_boxes.jobs import bisect_box
 from holdfast.certificates.joint_boxes.rows import TaskErrorBound
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
@@ -39,7 +39,7 @@ _WITNESS_LIMIT_MARGIN = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Lemma:
+class DistanceRangeLemma:
     """Bounds of the distance, ``least`` to ``most`` (m), of the tool from a point of a link, for all values of the joints
     behind the link.
 
@@ -69,7 +69,7 @@ class Exclusion:
         witness: (n,) rad, a configuration whose tool is in the box of targets: the claim is false.
     """
 
-    lemmas: list[Lemma]
+    lemmas: list[DistanceRangeLemma]
     tree: bytes
     undecided: Fraction
     leaves: int
@@ -88,19 +88,24 @@ def joint_ranges(claim: OutOfReachClaim) -> FloatArray:
     return limits
 
 
-def search_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Exclusion:
+def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Exclusion:
     """Search for a witness, and without one for a proof."""
     rng = np.random.default_rng(seed)
-    witness = _search_witness(claim, rng)
+    witness = _search_reaching_configuration(claim, rng)
     if witness is not None:
         return Exclusion([], b"\2", Fraction(1), 0, 1, True, witness)
     chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
-    box, lemmas, tested, error_bound = np.vstack([joints, claim.box]), list[Lemma](), 0, TaskErrorBound(claim, joints)
+    box, lemmas, tested, error_bound = (
+        np.vstack([joints, claim.box]),
+        list[DistanceRangeLemma](),
+        0,
+        TaskErrorBound(claim, joints),
+    )
     target_box = claim.box[: error_bound.reach.linear]
     for link, point in find_axis_points(chain, joints, rng)[:_MAX_LEMMAS]:
-        lemma, nodes = _search_lemma(chain, joints, target_box, link, point, budget.deadline, rng)
+        lemma, nodes = _prove_distance_range(chain, joints, target_box, link, point, budget.deadline, rng)
         tested += nodes
         if lemma is not None:
             lemmas.append(lemma)
@@ -108,7 +113,7 @@ def search_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: S
             if root_tokens[0] != OPEN_TOKEN:  # nothing more is needed
                 break
     test = _ExclusionTest(chain, lemmas, error_bound)
-    require_capacity(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
+    require_feasible_box_count(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
     bisection = bisect_box(test, box, halvings, budget)
     tree = bisection.tree
     used_indices = [index for index in range(len(lemmas)) if FIRST_LEMMA_TOKEN + index in tree]
@@ -127,7 +132,7 @@ def search_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: S
 class _ExclusionTest:
     """Test that excludes boxes of configurations and targets by a lemma, or by the tool itself."""
 
-    def __init__(self, chain: CertificateChain, lemmas: list[Lemma], error_bound: TaskErrorBound) -> None:
+    def __init__(self, chain: CertificateChain, lemmas: list[DistanceRangeLemma], error_bound: TaskErrorBound) -> None:
         self.n, self.m, self.lemmas, self.error_bound = len(chain.lengths), error_bound.reach.linear, lemmas, error_bound
         self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
@@ -157,13 +162,15 @@ class _ExclusionTest:
             if not rows.size:
                 break
             q, half_range = middle[rows, : lemma.link], half[rows, : lemma.link]
-            bound, center_distance, axis_costs = segment.bound_distance_below(q, half_range, targets[rows], target_half[rows])
+            bound, center_distance, axis_costs = segment.lower_distance_bound(q, half_range, targets[rows], target_half[rows])
             record_test(
                 rows, FIRST_LEMMA_TOKEN + index, bound - lemma.most, center_distance - lemma.most, axis_costs, lemma.link
             )
-            close_rows = np.flatnonzero(np.linalg.norm(segment.differentiate_point(q)[0] - targets[rows], axis=1) < lemma.least)
+            close_rows = np.flatnonzero(
+                np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - targets[rows], axis=1) < lemma.least
+            )
             if close_rows.size:
-                bound, center_distance, axis_costs = segment.bound_distance_above(
+                bound, center_distance, axis_costs = segment.upper_distance_bound(
                     q[close_rows], half_range[close_rows], targets[rows[close_rows]], target_half[rows[close_rows]]
                 )
                 record_test(
@@ -175,14 +182,14 @@ class _ExclusionTest:
                     lemma.link,
                 )
         rows = np.flatnonzero(tokens == OPEN_TOKEN)
-        bound, center_distance, axis_costs = self.error_bound.bound_error_below(
+        bound, center_distance, axis_costs = self.error_bound.lower_error_bound(
             middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:]
         )
         record_test(rows, 0, bound, center_distance, axis_costs, n)
         return tokens, gain
 
 
-def _search_lemma(
+def _prove_distance_range(
     chain: CertificateChain,
     joints: FloatArray,
     target_box: FloatArray,
@@ -190,7 +197,7 @@ def _search_lemma(
     point: FloatArray,
     deadline: float,
     rng: np.random.Generator,
-) -> tuple[Lemma | None, int]:
+) -> tuple[DistanceRangeLemma | None, int]:
     """Return a lemma about a point, as narrow as a few boxes prove, or None, and the number of examined boxes."""
     n = len(joints)
     segment = ChainSegment.from_chain(chain, link, n, chain.origins[-1])
@@ -211,10 +218,10 @@ def _search_lemma(
             interval = 0.0, lower - min(1e-6, (lower - max_distance) / 10)
         elif upper < min_distance:
             interval = upper + min(1e-6, (min_distance - upper) / 10), max_reach
-    ignored_joints, tested = np.arange(n - link) < segment.count_axes_through(point), 0
+    ignored_joints, tested = np.arange(n - link) < segment.count_leading_axes_through(point), 0
     while margin < max_reach:
         lower, upper = interval
-        halving = Halving(joints[link:], _MAX_LEMMA_HALVINGS)
+        halving = BoxBisection(joints[link:], _MAX_LEMMA_HALVINGS)
         finished = halving.run(
             partial(_test_distance_range, segment, point, ignored_joints, lower, upper if upper < max_reach else np.inf),
             deadline,
@@ -223,7 +230,7 @@ def _search_lemma(
         tested += halving.tested
         if finished and not halving.undecided:
             useful = lower > 0 or upper < max_reach
-            return (Lemma(link, point, lower, upper, halving.to_preorder()) if useful else None), tested
+            return (DistanceRangeLemma(link, point, lower, upper, halving.preorder_tokens()) if useful else None), tested
         margin *= 3
         interval = max(0.0, min_distance - margin), max_distance + margin
     return None, tested
@@ -243,8 +250,8 @@ def _test_distance_range(
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
     for is_needed, bound_distance, sign in (
-        (upper < np.inf, segment.bound_distance_above, 1.0),
-        (lower > 0, segment.bound_distance_below, -1.0),
+        (upper < np.inf, segment.upper_distance_bound, 1.0),
+        (lower > 0, segment.lower_distance_bound, -1.0),
     ):
         if is_needed:
             distance, _, axis_costs = bound_distance(middle, half, points, zeros)
@@ -264,26 +271,26 @@ def _search_distance_range(
     fractions = np.concatenate([rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT, len(lower))) / 2])
     q, extremes = lower + (upper - lower) * fractions, list[float]()
     for sign in (1.0, -1.0):
-        distances = sign * np.linalg.norm(segment.differentiate_point(q)[0] - point, axis=1)
+        distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - point, axis=1)
         best_rows = np.argsort(distances)[:_LOCAL_SEARCH_COUNT]
         candidates, best_distances = q[best_rows], distances[best_rows]
         for step_size in 0.3 * 0.8 ** np.arange(_LOCAL_SEARCH_STEPS):
             trials = np.clip(
                 candidates + rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape), lower, upper
             )
-            distances = sign * np.linalg.norm(segment.differentiate_point(trials)[0] - point, axis=1)
+            distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(trials)[0] - point, axis=1)
             improved = distances < best_distances
             candidates[improved], best_distances[improved] = trials[improved], distances[improved]
         extremes.append(sign * float(best_distances.min()))
     return extremes[0], extremes[1]
 
 
-def _search_witness(claim: OutOfReachClaim, rng: np.random.Generator) -> FloatArray | None:
+def _search_reaching_configuration(claim: OutOfReachClaim, rng: np.random.Generator) -> FloatArray | None:
     """Return a configuration within the claim whose tool is inside the box, or None if none is found."""
     joints = joint_ranges(claim)
     reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
     targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, len(claim.box)))
-    q = reach.solve_targets(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
+    q = reach.solve_inverse_kinematics(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
     is_valid = (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
     is_valid &= ((q >= joints[:, 0] + _WITNESS_LIMIT_MARGIN) & (q <= joints[:, 1] - _WITNESS_LIMIT_MARGIN) | ~reach.free).all(
         axis=1

@@ -23,7 +23,7 @@ _ESTIMATE_PATHS = 101  # for an estimate
 _MAX_ESTIMATE_DEPTH = 60  # halvings after which nobody asks
 
 
-class Halving:
+class BoxBisection:
     """Bisection of boxes.
 
     Args:
@@ -104,7 +104,7 @@ class Halving:
         middles[rows, axes] += np.where(rows % 2, 0.5, -0.5) * np.repeat(half, 2, axis=0)[rows, axes]
         return child_ids, middles, depths
 
-    def to_preorder(self) -> bytes:
+    def preorder_tokens(self) -> bytes:
         """Return the tokens of each tree in pre-order, lower half first; boxes that still wait have DEFERRED_TOKEN."""
         tokens, children, node_level = self._token[: self.nodes].copy(), self._below, self._level[: self.nodes]
         for node_ids, _, _ in self._waiting:
@@ -123,7 +123,7 @@ class Halving:
         return ordered.tobytes()
 
 
-def require_capacity(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:
+def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:
     """Raise an error if the search would take more boxes than a certificate may have, estimated by paths from the root to
     decided points.
 

@@ -13,7 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
-from holdfast.certificates.joint_boxes.halving import DEFERRED_TOKEN, BoxTest, Halving
+from holdfast.certificates.joint_boxes.halving import DEFERRED_TOKEN, BoxBisection, BoxTest
 from holdfast.certificates.search_pool import SearchBudget, StopCheck
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState
 from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
@@ -56,7 +56,7 @@ class JointBoxResult:
         fractions = np.array([self.proved, self.undecided, self.seconds])
         return {"trees": np.frombuffer(self.trees, dtype=np.uint8), "tested": np.array([self.tested]), "parts": fractions}
 
-    def require_capacity(self) -> None:
+    def check_cell_limit(self) -> None:
         """Do nothing, because the capacity is checked for the whole box beforehand."""
 
 
@@ -65,7 +65,7 @@ class JointBoxJob:
     """Bisection of some boxes of a root box.
 
     Attributes:
-        test: Of boxes, as of :class:`holdfast.certificates.joint_boxes.halving.Halving`.
+        test: Of boxes, as of :class:`holdfast.certificates.joint_boxes.halving.BoxBisection`.
         box: (A, 2) the whole.
         halvings: Of each axis of it, at most.
         max_boxes: Boxes that it makes, and each of those that it leaves some to.
@@ -93,7 +93,7 @@ class JointBoxJob:
         """Return a result in which everything is undecided."""
         return JointBoxResult(bytes([UNDECIDED_TOKEN]) * (len(self.boxes[0]) if self.boxes else 1), 0, False, 0.0, 0.0, 0.0)
 
-    def from_arrays(self, arrays: Parts) -> JointBoxResult:
+    def result_from_arrays(self, arrays: Parts) -> JointBoxResult:
         """Rebuild a result from the arrays of :meth:`JointBoxResult.to_arrays`."""
         proved, undecided, seconds = (float(value) for value in arrays["parts"])
         return JointBoxResult(arrays["trees"].tobytes(), int(arrays["tested"][0]), True, proved, undecided, seconds)
@@ -127,7 +127,7 @@ class JointBoxJob:
                 step[token - SPLIT_TOKEN] = width[token - SPLIT_TOKEN] * 0.5 ** (child_depth[token - SPLIT_TOKEN] + 1)
                 waiting += [(middle + step, child_depth), (middle - step, child_depth)]
 
-    def merge(self, result: JointBoxResult, child_results: Sequence[JointBoxResult]) -> JointBoxResult:
+    def merge_child_results(self, result: JointBoxResult, child_results: Sequence[JointBoxResult]) -> JointBoxResult:
         """Merge the results of the deferred boxes into this result."""
         child_trees = b"".join(part.trees for part in child_results)
         deferred, trees = iter(_split_trees(child_trees, len(self.box))), result.trees.split(bytes([DEFERRED_TOKEN]))
@@ -152,7 +152,7 @@ class RunningJointBoxJob:
 
     def __init__(self, job: JointBoxJob) -> None:
         self.job, self.finished, self._seconds = job, False, 0.0
-        self._halving = Halving(job.box, job.halvings, job.boxes)
+        self._halving = BoxBisection(job.box, job.halvings, job.boxes)
         self._max_nodes = self._halving.nodes + job.max_boxes
 
     def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
@@ -171,7 +171,7 @@ class RunningJointBoxJob:
     def result(self) -> JointBoxResult:
         """Return the result so far."""
         halving = self._halving
-        trees = halving.to_preorder()
+        trees = halving.preorder_tokens()
         return JointBoxResult(trees, halving.tested, self.finished, halving.proved, halving.undecided, self._seconds)
 
 

@@ -20,7 +20,7 @@ _BOUND_MARGIN = 1e-9
 _SECTION_ROUNDS = 12
 
 
-class FloorTest:
+class ManipulabilityFloorTest:
     """Test of boxes of configurations: relative manipulability is at least a threshold after each of some locks.
 
     Args:
@@ -101,7 +101,7 @@ class FloorTest:
             * half[:, :, None] ** 2
         )
         joint_costs = np.abs(gradient) * half[:, :, None] + own_costs + (pair_costs.sum(axis=1) + pair_costs.sum(axis=2)) / 2
-        z2, v2, z3, v3 = self.screws.bound_remainders(links, distances, half)
+        z2, v2, z3, v3 = self.screws.bound_screw_remainders(links, distances, half)
         second, third = (np.stack([a] * 3 + [b] * 3, axis=2)[..., rows] for a, b in ((z2, v2), (z3, v3)))
         joint_travel = np.einsum("nlj,nj->nl", np.abs(response), half)
         residual = np.abs(np.einsum("nbl,nl->nb", jacobian, nu)) + joint_costs.sum(axis=1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.exclusion import search_exclusion
+from holdfast.certificates.joint_boxes.exclusion import search_witness_or_exclusion
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
 from holdfast.certificates.search_pool import SearchBudget
@@ -54,7 +54,7 @@ class Refutation(BisectionResult):
 def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Refutation:
     """Search for a proof that nothing is reached, with the options of :func:`holdfast.certify`."""
     started = perf_counter()
-    exclusion = search_exclusion(claim, halvings, seed, budget)
+    exclusion = search_witness_or_exclusion(claim, halvings, seed, budget)
     seconds = perf_counter() - started
     return Refutation(
         claim=claim,
@@ -65,7 +65,7 @@ def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget:
         nodes=exclusion.nodes,
         finished=exclusion.finished,
         seconds=seconds,
-        document=documents.build_refutation_document(claim, exclusion, seconds=seconds),
+        document=documents.build_exclusion_document(claim, exclusion, seconds=seconds),
     )
 
 

@@ -31,7 +31,7 @@ class TaskErrorBound:
     def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
         return TaskErrorBound, self._arguments
 
-    def bound_error_below(
+    def lower_error_bound(
         self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound a combination of rows away from 0 over q +- half (N, n) and targets +- target_half (N, a).
@@ -42,11 +42,11 @@ class TaskErrorBound:
         reach, linear = self.reach, self._linear
         count, n, extra_rows = len(q), q.shape[1], int(reach.uses_rotation)
         m, variables = reach.m + extra_rows, q.shape[1] + reach.axes - linear
-        outputs = reach.expansion.cosine_kernel.rows(q, reach.encode_targets(targets))
+        outputs = reach.expansion.error_derivative_kernel.rows(q, reach.append_target_rotation(targets))
         error, gradients, second = np.split(outputs, np.cumsum([m, m * variables]), axis=1)
         gradients, second = gradients.reshape(count, m, variables), second.reshape(count, m, variables, variables)
         half_widths = np.concatenate([half, target_half[:, linear:]], axis=1)
-        position_remainder, angle = self._third_order_remainder(q, half, target_half)
+        position_remainder, angle = self._position_remainder_and_rotation(q, half, target_half)
         spans = gradients * half_widths[:, None]
         spread = spans @ spans.transpose(0, 2, 1) + (1e-6 * (error**2).sum(axis=1) + 1e-30)[:, None, None] * np.eye(m)
         spread[:, range(linear), range(linear)] += target_half[:, :linear] ** 2
@@ -76,7 +76,9 @@ class TaskErrorBound:
             )
         return best
 
-    def _third_order_remainder(self, q: FloatArray, half: FloatArray, target_half: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _position_remainder_and_rotation(
+        self, q: FloatArray, half: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the third-order remainder of the point, m, and the angle by which it rotates, rad."""
         slides, lengths = self.reach.slides, self.reach.expansion.lengths
         c, slide_range = np.cumsum(half * ~slides, axis=1), half * slides

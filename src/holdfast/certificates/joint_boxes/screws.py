@@ -42,7 +42,7 @@ class ScrewModel:
             Screws (N, l, 6), brackets (N, j, l, 6) of joint j and axis l, links from axis to axis (N, n) and how far axes are
             from the point (N, n).
         """
-        previous, z, points = self._arm.place_joints(q)
+        previous, z, points = self._arm.locate_point_and_axes(q)
         links = np.zeros(z.shape[:2])
         for joint in [*range(self.middle, self.n), *range(self.middle - 1, -1, -1)]:
             # Of the middle axis the point that is nearest to the tool, then of each the one nearest to that of its neighbour.
@@ -55,7 +55,7 @@ class ScrewModel:
         brackets = np.concatenate([np.cross(z[:, :, None], z[:, None]), moment_brackets], axis=3)
         return np.concatenate([z, moments], axis=2), brackets, links, np.linalg.norm(offsets, axis=2)
 
-    def bound_remainders(
+    def bound_screw_remainders(
         self, links: FloatArray, distances: FloatArray, half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Bound the remainders of axes and moments after first order, and after second order: (N, n) each."""

@@ -51,15 +51,15 @@ class ChainSegment:
             lengths.append(float(np.linalg.norm(extent)))
         return cls(first, last, rotations, chain.origins[first:last], np.asarray(end), np.array(lengths), slides)
 
-    def differentiate_point(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def point_axes_and_derivatives(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the point (N, 3), the rotation axes (N, k, 3), 0 for slides, and the derivatives of the point (N, k, 3) at q
         (N, k).
         """
-        tip, axes, origins = self.place_joints(q)
+        tip, axes, origins = self.locate_point_and_axes(q)
         rotary_columns = np.cross(axes, tip[:, None] - origins)
         return tip, axes * ~self.slides[:, None], np.where(self.slides[:, None], axes, rotary_columns)
 
-    def place_joints(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def locate_point_and_axes(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the point (N, 3), the joint axes (N, k, 3) and points on these axes (N, k, 3) at q (N, k)."""
         count, joint_count = q.shape
         rotation, tip = np.broadcast_to(np.eye(3), (count, 3, 3)), np.zeros((count, 3))
@@ -78,7 +78,7 @@ class ChainSegment:
         tip = tip + rotation @ self.end
         return tip, axes, origins
 
-    def count_axes_through(self, point: FloatArray) -> int:
+    def count_leading_axes_through(self, point: FloatArray) -> int:
         """Count the first joints whose axes go through a point (3,), so that they do not change its distance."""
         rotation, origin = np.eye(3), np.zeros(3)
         for index in range(len(self.lengths)):
@@ -99,8 +99,8 @@ class ChainSegment:
             self.slides, c**3 + 3 * c**2, _reverse_cumsum(3 * c**2 * max_lengths + 6 * c * slide_range)
         ) * half
 
-    def bound_distance_below(
-        self, q: FloatArray, half: FloatArray, x: FloatArray, target_half: FloatArray
+    def lower_distance_bound(
+        self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the distance of the point from targets x +- target_half (N, 3) from below, over q +- half (N, k).
 
@@ -108,8 +108,8 @@ class ChainSegment:
             The distance (N,), that of the middles less than it may be, and what of it each joint and target coordinate costs
             (N, k + 3).
         """
-        tip, axes, columns = self.differentiate_point(q)
-        v = tip - x
+        tip, axes, columns = self.point_axes_and_derivatives(q)
+        v = tip - targets
         d = np.maximum(np.linalg.norm(v, axis=1), 1e-300)
         carried, third_costs = self._derivative_bounds(q, half)
         third = carried[2] / 6
@@ -138,15 +138,15 @@ class ChainSegment:
         assert best is not None
         return best
 
-    def bound_distance_above(
-        self, q: FloatArray, half: FloatArray, x: FloatArray, target_half: FloatArray
+    def upper_distance_bound(
+        self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Bound the distance from above, as :meth:`bound_distance_below`: the bound, the distance of the middles, and the cost
+        """Bound the distance from above, as :meth:`lower_distance_bound`: the bound, the distance of the middles, and the cost
         of each axis.
         """
-        tip, axes, columns = self.differentiate_point(q)
+        tip, axes, columns = self.point_axes_and_derivatives(q)
         count, joint_count = q.shape
-        v = tip - x
+        v = tip - targets
         d = np.linalg.norm(v, axis=1)
         (v1, v2, v3), third_costs = self._derivative_bounds(q, half)
         v1 = v1 + np.linalg.norm(target_half, axis=1)
@@ -172,10 +172,10 @@ def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random
     q, previous = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for joint in np.flatnonzero(~chain.slides).tolist():
         heights = (
-            chain.find_closest_heights(joint) if joint + 1 < n else None
+            chain.closest_points_on_axes(joint) if joint + 1 < n else None
         )  # of parallel axes, and the last one, the height of what comes next
         point = chain.origins[joint] + chain.rotations[joint][:, 2] * (heights[0] if heights else chain.origins[joint + 1][2])
-        positions = ChainSegment.from_chain(chain, 0, joint, point).differentiate_point(q[:, :joint])[0]
+        positions = ChainSegment.from_chain(chain, 0, joint, point).point_axes_and_derivatives(q[:, :joint])[0]
         if np.abs(positions - previous).max() > 1e-6:
             axis_points.append((joint, point))
         previous = positions

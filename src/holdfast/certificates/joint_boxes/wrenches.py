@@ -22,7 +22,7 @@ _BOUND_MARGIN = 1e-9
 _DAMPING_FACTOR = 0.01  # times the square of the largest half width that counts, added to the squares of the screws
 
 
-class CeilingTest:
+class ManipulabilityCeilingTest:
     """Test of boxes of configurations: relative manipulability is at most a threshold after one of some locks.
 
     Args:
@@ -58,7 +58,7 @@ class CeilingTest:
 
     def _bound_moment_ratio(
         self,
-        k: Index,
+        locked_joints: Index,
         screws: FloatArray,
         gram: FloatArray,
         brackets: FloatArray,
@@ -70,15 +70,15 @@ class CeilingTest:
         """Return an upper bound of sqrt(A) / |a_k| (N,), and its cost by each joint's half width (N, n)."""
         sign, nearer = self.screws.sign, self.screws.nearer
         moving_brackets = brackets.transpose(0, 2, 1, 3) * sign[:, :, None]  # (N, l, j, 6)
-        rows = np.arange(len(k))
-        own_screw = screws[rows, k]
+        rows = np.arange(len(locked_joints))
+        own_screw = screws[rows, locked_joints]
         other_gram = gram - own_screw[:, :, None] * own_screw[:, None] + damping[:, None, None] * np.eye(6)
         y = np.linalg.solve(other_gram, own_screw[:, :, None])[:, :, 0]
         y = y / np.einsum("na,na->n", y, own_screw)[:, None]  # its moment about axis k is 1
         b = np.einsum("nljb,nb->nlj", moving_brackets, y)
-        pull = np.einsum("nla,nlj->naj", screws, b) - own_screw[:, :, None] * b[rows, k][:, None]
+        pull = np.einsum("nla,nlj->naj", screws, b) - own_screw[:, :, None] * b[rows, locked_joints][:, None]
         wrench_rate = -np.linalg.solve(other_gram, pull)  # (N, 6, j)
-        wrench_rate -= y[:, :, None] * (np.einsum("na,naj->nj", own_screw, wrench_rate) + b[rows, k])[:, None]
+        wrench_rate -= y[:, :, None] * (np.einsum("na,naj->nj", own_screw, wrench_rate) + b[rows, locked_joints])[:, None]
         gradient = b + np.einsum("nla,naj->nlj", screws, wrench_rate)
         m, f, z, v = y[:, None, :3], y[:, None, 3:], screws[:, :, :3], screws[:, :, 3:]
         w = np.concatenate([np.cross(m, z) + np.cross(f, v), np.cross(f, z)], axis=2)
@@ -93,7 +93,7 @@ class CeilingTest:
             + diagonal * half[:, None] ** 2
             + (pair_costs.sum(axis=2) + pair_costs.sum(axis=3)) / 2
         )
-        z2, v2, z3, v3 = self.screws.bound_remainders(links, distances, half)
+        z2, v2, z3, v3 = self.screws.bound_screw_remainders(links, distances, half)
         moment, force = (np.linalg.norm(vector, axis=1)[:, None] for vector in (y[:, :3], y[:, 3:]))
         rate_sums = [
             np.einsum("nj,nj->n", np.linalg.norm(vector, axis=1), half)[:, None]
@@ -101,8 +101,8 @@ class CeilingTest:
         ]
         third = moment * z3 + force * v3 + rate_sums[0] * z2 + rate_sums[1] * v2
         moment_bounds = np.abs(np.einsum("nla,na->nl", screws, y)) + by_axis.sum(axis=2) + third
-        own_lower = 2 - moment_bounds[rows, k]  # its moment is 1
-        moment_bounds[rows, k] = 0
+        own_lower = 2 - moment_bounds[rows, locked_joints]  # its moment is 1
+        moment_bounds[rows, locked_joints] = 0
         norms = np.sqrt((moment_bounds**2).sum(axis=1))
         joint_costs = np.einsum("nl,nlj->nj", moment_bounds, by_axis + third[:, :, None] * np.abs(sign) / 2)
         return np.where(own_lower > 0, norms / np.maximum(own_lower, 1e-9), np.inf), joint_costs

@@ -17,7 +17,7 @@ from holdfast.certificates.claims import ReachClaim
 from holdfast.certificates.search_pool import StopCheck
 from holdfast.certificates.target_boxes.search import TargetBoxSearch
 from holdfast.certificates.taylor import ReachSolver
-from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState, compute_undecided
+from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN, SearchState, compute_undecided_fraction
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_duration
 from holdfast.core.sweeps.memory import Parts
@@ -60,7 +60,7 @@ class TargetBoxResult:
         """True if the search would take more cells than a certificate can have."""
         return verifier.MAX_LEAVES < self.estimated_cells < np.inf
 
-    def require_capacity(self) -> None:
+    def check_cell_limit(self) -> None:
         """Raise an error if the search would take too many cells, or has no configurations.
 
         Raises:
@@ -79,7 +79,7 @@ class TargetBoxResult:
         """Progress of a finished search; a search that is split reports nothing because its boxes have states of their own."""
         if self.split_axes:
             return SearchState(proved=0.0, undecided=0.0, open=1.0, nodes=0)
-        remainder = float(compute_undecided(self.tree))
+        remainder = float(compute_undecided_fraction(self.tree))
         return SearchState(proved=1 - remainder, undecided=remainder, open=0.0, nodes=self.nodes)
 
     def to_arrays(self) -> Parts:
@@ -128,7 +128,7 @@ class TargetBoxJob:
         """Return a result in which everything is undecided."""
         return TargetBoxResult(bytes([UNDECIDED_TOKEN]), np.empty((0, self.claim.arm.n), dtype=np.int64), 0, False, 0.0)
 
-    def from_arrays(self, arrays: Parts) -> TargetBoxResult:
+    def result_from_arrays(self, arrays: Parts) -> TargetBoxResult:
         """Rebuild a result from the arrays of :meth:`TargetBoxResult.to_arrays`."""
         tree, counts = arrays["tree"].astype(np.uint8).tobytes(), [int(value) for value in arrays["counts"]]
         seconds, cells = (float(value) for value in arrays["times"])
@@ -142,7 +142,7 @@ class TargetBoxJob:
             for number in range(count)
         ]
 
-    def merge(self, result: TargetBoxResult, child_results: Sequence[TargetBoxResult]) -> TargetBoxResult:
+    def merge_child_results(self, result: TargetBoxResult, child_results: Sequence[TargetBoxResult]) -> TargetBoxResult:
         """Merge the results of the child jobs into the result of a split search."""
         if not result.split_axes:
             return result
@@ -157,7 +157,7 @@ class TargetBoxJob:
             sum(part.seconds for part in child_results),
         )
 
-    def _locate_box(self) -> tuple[FloatArray, IndexArray]:
+    def _box_and_axis_depths(self) -> tuple[FloatArray, IndexArray]:
         """Return the box (A, 2) of the job, and how often each axis was halved (A,)."""
         root = self.claim.box if self.claim.angle is None else np.vstack([self.claim.box, self.claim.angle])
         position, depth = np.zeros(len(root), dtype=np.int64), np.zeros(len(root), dtype=np.int64)
@@ -170,7 +170,7 @@ class TargetBoxJob:
 
     def start(self, deadline: float) -> RunningTargetBoxJob:
         """Start the search and build its pool of configurations until the monotonic time ``deadline``."""
-        return RunningTargetBoxJob(self, *self._locate_box(), deadline)
+        return RunningTargetBoxJob(self, *self._box_and_axis_depths(), deadline)
 
 
 class RunningTargetBoxJob:
@@ -187,7 +187,7 @@ class RunningTargetBoxJob:
         reach = ReachSolver(claim.arm, claim.task, claim.locked, claim.limits, claim.rotation, claim.angle)
         seed = job.seed if not job.split_axes else [job.seed, job.box_number, *job.split_axes]
         self._search = TargetBoxSearch(reach, box, job.halvings - depth, seed, deadline)
-        self._advice, (self._failure_reason, self._warning) = "", self._check_pool()
+        self._advice, (self._failure_reason, self._warning) = "", self._unreached_target_messages()
         self._estimated_cells, self._split_axes = (
             0.0 if job.split_axes else self._search.pool.estimated_cells,
             tuple[int, ...](),
@@ -227,7 +227,7 @@ class RunningTargetBoxJob:
 
     def result(self) -> TargetBoxResult:
         """Return the result so far."""
-        tree, centers = self._search.tree.to_preorder()
+        tree, centers = self._search.tree.preorder_tokens_and_centers()
         center_rows = np.array(centers, dtype=np.int64).reshape(-1, self.job.claim.arm.n)
         messages = self._advice, self._failure_reason
         return TargetBoxResult(
@@ -241,7 +241,7 @@ class RunningTargetBoxJob:
             *messages,
         )
 
-    def _check_pool(self) -> tuple[str, str]:
+    def _unreached_target_messages(self) -> tuple[str, str]:
         """Return why nothing can be proved, and a warning that much cannot, judging by the first sampled targets of the whole
         box.
         """

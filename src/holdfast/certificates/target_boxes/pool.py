@@ -67,17 +67,17 @@ class ConfigurationPool:
         self._best_batches, self._best_index = list[tuple[FloatArray, FloatArray]](), cast(Any, None)
         self._test_half = np.zeros(len(root))
         self.sampled_targets = self.unreached_targets = 0
-        self.q, self._coordinates = self._add_samples()
+        self.q, self._coordinates = self._sample_configurations()
         self.estimated_cells, self.mean_halvings, self.estimated_seconds = self._estimate_cost(self.q, self._coordinates)
         self.pending_rounds = int(monotonic() >= deadline) + max(
             int(min(_MAX_TARGETS, self.estimated_cells / _CELLS_PER_TARGET)) // _INITIAL_TARGETS - 1, 0
         )
 
-    def add_targets(self, deadline: float) -> None:
+    def sample_pending_targets(self, deadline: float) -> None:
         """Add as many targets as the claim needs or the monotonic ``deadline`` allows; an estimate does without them."""
         self._deadline = max(self._deadline, deadline)
         while self.pending_rounds and monotonic() < self._deadline:
-            self._add_samples()
+            self._sample_configurations()
             self.pending_rounds -= monotonic() < self._deadline
 
     def sample_in_cells(self, lower: FloatArray, width: FloatArray, deadline: float) -> None:
@@ -85,17 +85,17 @@ class ConfigurationPool:
         (monotonic).
         """
         self._deadline, chosen = max(self._deadline, deadline), np.resize(self._rng.permutation(len(lower)), _INITIAL_TARGETS)
-        self._add_samples(lower[chosen] + self._rng.random(lower[chosen].shape) * width[chosen])
+        self._sample_configurations(lower[chosen] + self._rng.random(lower[chosen].shape) * width[chosen])
 
-    def _add_samples(self, targets: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
+    def _sample_configurations(self, targets: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Add configurations for more targets, where one is found, and return them with their targets."""
         reach = self._reach
         if targets is None:
             targets = self._root[:, 0] + self._rng.random((_INITIAL_TARGETS, len(self._root))) * self._width
         coordinates = np.repeat(targets, _RANDOM_STARTS, axis=0)[: None if monotonic() < self._deadline else 0]
         lower, upper = reach.sampling_limits.T
-        q = reach.set_fixed_joints(self._rng.uniform(lower, upper, (len(coordinates), reach.n)), coordinates)
-        q = reach.solve_targets(q, coordinates[:, : reach.axes], 40)
+        q = reach.set_nonfree_joints(self._rng.uniform(lower, upper, (len(coordinates), reach.n)), coordinates)
+        q = reach.solve_inverse_kinematics(q, coordinates[:, : reach.axes], 40)
         is_reached = (reach.measure_pose_error(q, coordinates[:, : reach.axes]) < _TARGET_TOLERANCE).all(axis=1)
         if not self.sampled_targets:
             self.sampled_targets, self.unreached_targets = (
@@ -124,9 +124,11 @@ class ConfigurationPool:
         for step in range(1 + steps * self._reach.is_redundant):
             if monotonic() > self._deadline:
                 break
-            candidates = self._reach.solve_targets(step_self_motion(self._reach, q, self._rng), targets) if step else q
+            candidates = (
+                self._reach.solve_inverse_kinematics(step_self_motion(self._reach, q, self._rng), targets) if step else q
+            )
             half = np.minimum(self._test_half * widths[:, None], self._width / 2)
-            scale = widths * TaylorForm.expand_at(self._reach, candidates, targets).find_provable_fraction(
+            scale = widths * TaylorForm.expand_at(self._reach, candidates, targets).find_provable_width_fraction(
                 half, best_scale / widths if step else None
             )
             improved = scale > best_scale
@@ -141,7 +143,7 @@ class ConfigurationPool:
         """Add configurations q (N, n) that proved cells around centers (N, A), because cells near them may need the same."""
         self._added.append((center / self._unit, q))
 
-    def _find_nearest(self, center: FloatArray, count: int) -> tuple[FloatArray, IndexArray]:
+    def _nearest_distances_and_indices(self, center: FloatArray, count: int) -> tuple[FloatArray, IndexArray]:
         """Return the distances (N, count), in parts of the root, and the indices of the nearest configurations, fewer if there
         are fewer.
         """
@@ -164,7 +166,7 @@ class ConfigurationPool:
         """Return the (N, count, n) nearest configurations by target and locked angle for centers (N, A), fewer if there are
         fewer.
         """
-        _, nearest = self._find_nearest(center, count)
+        _, nearest = self._nearest_distances_and_indices(center, count)
         return np.asarray(self._configurations[nearest])
 
     def find_best_configurations(self, center: FloatArray) -> FloatArray:
@@ -180,11 +182,11 @@ class ConfigurationPool:
             self._best_index = KDTree(coordinates)
         return np.asarray(q[self._best_index.query(center / self._unit, p=np.inf)[1]])
 
-    def has_configuration(self, center: FloatArray, half: FloatArray) -> NDArray[np.bool_]:
+    def has_configuration_nearby(self, center: FloatArray, half: FloatArray) -> NDArray[np.bool_]:
         """Return a mask (N,) of the cells (N, A) that contain a configuration, or have one next to them if they are
         elongated.
         """
-        distances, _ = self._find_nearest(center, 1)
+        distances, _ = self._nearest_distances_and_indices(center, 1)
         return np.asarray((distances <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
 
     def choose_split_axes(self, count: int, max_per_axis: int) -> tuple[int, ...]:
@@ -212,14 +214,16 @@ class ConfigurationPool:
         halvings, allowed = np.zeros(half.shape), np.broadcast_to(self._width > 0, half.shape)
         open_rows = np.arange(len(sample))
         for _ in range(_MAX_ESTIMATE_HALVINGS):
-            open_rows = open_rows[~form.select(open_rows).prove_cells(half[open_rows])]
+            open_rows = open_rows[~form.select(open_rows).is_cell_proved(half[open_rows])]
             if not open_rows.size:
                 break
             axis = form.select(open_rows).choose_split_axis(half[open_rows], allowed[open_rows])
             halvings[open_rows, axis] += 1
             half[open_rows, axis] /= 2
         started = perf_counter()
-        TaylorForm.expand_at(self._reach, self._reach.solve_targets(form.q, targets), targets).find_provable_fraction(half)
+        TaylorForm.expand_at(
+            self._reach, self._reach.solve_inverse_kinematics(form.q, targets), targets
+        ).find_provable_width_fraction(half)
         trial_seconds = (perf_counter() - started) / len(sample)
         finished = halvings[
             np.setdiff1d(np.arange(len(sample)), open_rows)

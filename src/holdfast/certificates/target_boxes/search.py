@@ -83,7 +83,7 @@ class TargetBoxSearch:
             Whether nothing is left to do.
         """
         if self.pool.pending_rounds:
-            self.pool.add_targets((monotonic() + deadline) / 2)
+            self.pool.sample_pending_targets((monotonic() + deadline) / 2)
         while (
             (self._open_cells or (self._abandoned_cells and self._retry_abandoned(deadline)))
             and monotonic() < deadline
@@ -101,7 +101,7 @@ class TargetBoxSearch:
 
         They cannot be proved, or all that was near them was bad: configurations are drawn for them alone.
         """
-        cells = self.tree.merge_siblings(CellBatch.concatenate(self._abandoned_cells))
+        cells = self.tree.merge_undecided_siblings(CellBatch.concatenate(self._abandoned_cells))
         order, retry_count = (
             self.rng.permutation(len(cells.name)),
             _FIRST_RETRY_CELLS if self._retry_goal is None else len(cells.name),
@@ -118,15 +118,15 @@ class TargetBoxSearch:
         self._enqueue_cells(cells, np.ones(len(cells.name)))
         return True
 
-    def _enqueue_cells(self, cells: CellBatch, fractions: FloatArray) -> None:
-        """Queue cells; ``fractions`` (N,), by width, of the cells around them were proved by one configuration.
+    def _enqueue_cells(self, cells: CellBatch, proved_fractions: FloatArray) -> None:
+        """Queue cells; ``proved_fractions`` (N,), by width, of the cells around them were proved by one configuration.
 
         A cell takes as many configurations as such parts fill it: what each of them proves is the same for cells of all
         sizes where the arm is the same, so that smaller cells, which are nearer to being proved, come first by a little.
         """
         self.open_fraction += cells.root_fraction
         axis_count, halvings = int((self.width > 0).sum()), cells.depth.sum(axis=1)
-        priority = (_DEPTH_BONUS - 1) * halvings + axis_count * np.log2(np.maximum(fractions, _MIN_FRACTION))
+        priority = (_DEPTH_BONUS - 1) * halvings + axis_count * np.log2(np.maximum(proved_fractions, _MIN_FRACTION))
         sort_keys = (-priority).tolist(), cells.name.tolist()
         for entry in zip(*sort_keys, cells.place, cells.depth, cells.q, cells.barren.tolist(), strict=True):
             heappush(self._open_cells, entry)
@@ -154,10 +154,10 @@ class TargetBoxSearch:
         distances, orientation_errors = self.reach.measure_pose_error(q, center[:, : self.reach.axes]).T
         half_angles = half[:, self.reach.axes :].sum(axis=1)
         is_unreachable = distances > 2 * (
-            np.linalg.norm(half[:, : self.reach.linear], axis=1) + half_angles * self.reach.max_lock_displacement
+            np.linalg.norm(half[:, : self.reach.linear], axis=1) + half_angles * self.reach.max_lock_displacement_rate
         )
         is_unreachable |= orientation_errors > 2 * half[:, self.reach.linear :].sum(axis=1) + _ORIENTATION_SLACK_RAD
-        is_unreachable[is_unreachable] = ~self.pool.has_configuration(center[is_unreachable], half[is_unreachable])
+        is_unreachable[is_unreachable] = ~self.pool.has_configuration_nearby(center[is_unreachable], half[is_unreachable])
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(fractions > 0, 0, cells.barren + 1)
         axis_count = int((self.width > 0).sum())
@@ -186,7 +186,7 @@ class TargetBoxSearch:
         open_rows = np.flatnonzero(~is_proved)
         best = self.pool.find_best_configurations(center[open_rows])
         if len(best):
-            self._improve_cells(q, is_proved, fractions, open_rows, best, center, half)
+            self._replace_weaker_configurations(q, is_proved, fractions, open_rows, best, center, half)
         weak_rows = np.flatnonzero(~is_proved & ((fractions < _HOPELESS_FRACTION) | smallest))
         candidates = self.pool.find_nearest_configurations(center[weak_rows], _POOL_TRIALS[1])
         for rank in range(candidates.shape[1]):
@@ -194,7 +194,9 @@ class TargetBoxSearch:
                 (fractions[weak_rows] < _HOPELESS_FRACTION) & (rank < _POOL_TRIALS[0]) | smallest[weak_rows]
             )
             if remaining.any():
-                self._improve_cells(q, is_proved, fractions, weak_rows[remaining], candidates[remaining, rank], center, half)
+                self._replace_weaker_configurations(
+                    q, is_proved, fractions, weak_rows[remaining], candidates[remaining, rank], center, half
+                )
 
     def _try_self_motions(
         self,
@@ -210,11 +212,11 @@ class TargetBoxSearch:
             open_rows = np.flatnonzero(~is_proved & ((fractions > _PROMISING_FRACTION) | smallest | (fractions == 0)))
             if not open_rows.size:
                 break
-            self._improve_cells(
+            self._replace_weaker_configurations(
                 q, is_proved, fractions, open_rows, step_self_motion(self.reach, q[open_rows], self.rng), center, half
             )
 
-    def _improve_cells(
+    def _replace_weaker_configurations(
         self,
         q: FloatArray,
         is_proved: BoolArray,
@@ -244,25 +246,31 @@ class TargetBoxSearch:
         ``minimum`` (N,): Less than that is told to be that.
         """
         targets = center[:, : self.reach.axes]
-        q = self._round_configurations(self.reach.solve_targets(self.reach.set_fixed_joints(q, center), targets), center)
+        q = self._round_free_joints(
+            self.reach.solve_inverse_kinematics(self.reach.set_nonfree_joints(q, center), targets), center
+        )
         form = TaylorForm.expand_at(self.reach, q, targets)
-        is_proved = form.prove_cells(half)
+        is_proved = form.is_cell_proved(half)
         fractions = is_proved.astype(float)
         open_rows = np.flatnonzero(~is_proved)
         if open_rows.size:
-            fractions[open_rows] = form.select(open_rows).find_provable_fraction(
+            fractions[open_rows] = form.select(open_rows).find_provable_width_fraction(
                 half[open_rows], None if minimum is None else minimum[open_rows]
             )
             # The error in the middle may cancel half of the curvature.
             nearly_proved = open_rows[fractions[open_rows] > _RECENTER_FRACTION]
             form, zeros = form.select(nearly_proved), np.zeros((nearly_proved.size, self.reach.m))
-            upper_error, lower_error, _ = form.bound_error(half[nearly_proved], zeros)
-            upper_error, lower_error, _ = form.bound_error(half[nearly_proved], np.maximum(upper_error, lower_error))
-            recentered = self._round_configurations(
-                self.reach.solve_targets(q[nearly_proved], targets[nearly_proved], 3, (lower_error - upper_error) / 2),
+            upper_error, lower_error, _ = form.bound_error_and_travel(half[nearly_proved], zeros)
+            upper_error, lower_error, _ = form.bound_error_and_travel(half[nearly_proved], np.maximum(upper_error, lower_error))
+            recentered = self._round_free_joints(
+                self.reach.solve_inverse_kinematics(
+                    q[nearly_proved], targets[nearly_proved], 3, (lower_error - upper_error) / 2
+                ),
                 center[nearly_proved],
             )
-            now_proved = TaylorForm.expand_at(self.reach, recentered, targets[nearly_proved]).prove_cells(half[nearly_proved])
+            now_proved = TaylorForm.expand_at(self.reach, recentered, targets[nearly_proved]).is_cell_proved(
+                half[nearly_proved]
+            )
             q[nearly_proved[now_proved]], is_proved[nearly_proved[now_proved]], fractions[nearly_proved[now_proved]] = (
                 recentered[now_proved],
                 True,
@@ -270,5 +278,5 @@ class TargetBoxSearch:
             )
         return q, is_proved, fractions
 
-    def _round_configurations(self, q: FloatArray, center: FloatArray) -> FloatArray:
-        return self.reach.set_fixed_joints(np.round(q / CENTER_UNIT) * CENTER_UNIT, center)
+    def _round_free_joints(self, q: FloatArray, center: FloatArray) -> FloatArray:
+        return self.reach.set_nonfree_joints(np.round(q / CENTER_UNIT) * CENTER_UNIT, center)

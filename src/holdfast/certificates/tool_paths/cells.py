@@ -33,7 +33,7 @@ class PathCellBatch:
     width: Ints
 
     @property
-    def half(self) -> FloatArray:
+    def half_widths(self) -> FloatArray:
         """(N, 2) half widths of both intervals, in segments."""
         half = np.stack([self.stop - self.begin, self.end - self.start], axis=1) / (2 * SEGMENT_INSTANTS)
         half[:, 1] += self.width * PATH_CENTER_UNIT
@@ -67,9 +67,9 @@ class PathFormBatch:
         return PathFormBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
 
     @classmethod
-    def make_empty(cls, n: int, m: int, columns: int) -> PathFormBatch:
+    def make_zero_form(cls, n: int, m: int, coordinate_count: int) -> PathFormBatch:
         """Make the empty form of one cell."""
-        response, half = np.zeros((1, m + 1, columns)), np.zeros((1, columns))
+        response, half = np.zeros((1, m + 1, coordinate_count)), np.zeros((1, coordinate_count))
         flags = np.zeros(1, dtype=bool)
         return cls(np.zeros((1, n)), np.zeros(1), flags, response, half, np.zeros((1, m)), flags)
 

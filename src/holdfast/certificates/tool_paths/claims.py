@@ -124,12 +124,12 @@ def path_claim(
     if len(knots) - 1 > _MAX_SEGMENTS:
         raise InputError(f"{len(knots) - 1} segments are more than {_MAX_SEGMENTS}; give segments=50, say, to use fewer")
     return PathClaim(
-        arm=arm, task=task, knots=knots, locks=locks, during=_to_instants(during, len(knots) - 1), tube=_parse_tube(tube),
-        deviation=_measure_deviation(arm, configurations, knots),
+        arm=arm, task=task, knots=knots, locks=locks, during=_claimed_lock_instants(during, len(knots) - 1),
+        tube=_parse_tube(tube), deviation=_measure_deviation(arm, configurations, knots),
     )  # fmt: skip
 
 
-def _to_instants(during: Sequence[float], count: int) -> tuple[int, int]:
+def _claimed_lock_instants(during: Sequence[float], count: int) -> tuple[int, int]:
     """Return the first and last lock instant in units of the file."""
     if len(during) != 2 or not 0 <= during[0] < during[1] <= 1:
         raise InputError("during must be two parts of the motion between 0 and 1, the earlier one first")

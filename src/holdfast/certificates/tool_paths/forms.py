@@ -15,12 +15,12 @@ from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.tool_derivatives import (
-    axial_map,
     axial_vector,
+    axial_vector_jacobian,
     axis_jacobian,
-    compute_tangents,
-    second_derivatives,
+    directional_second_derivatives,
     solve_regularized,
+    tangents_and_pseudo_inverses,
     transverse_axes,
 )
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
@@ -82,43 +82,45 @@ class LockedTrackingEnclosure:
         self._linear = sum(row < 3 for row in self._rows)
         self._revolute = np.tile(~slides, 2).astype(float)
 
-    def interpolate_healthy(self, doubled_instants: IndexArray, ends: IndexArray) -> tuple[FloatArray, FloatArray]:
+    def healthy_joints_and_rates(
+        self, doubled_instants: IndexArray, rate_instants: IndexArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Return the joints of the healthy motion at half of ``doubled_instants``, and the rates over the segments that contain
-        ``ends``.
+        ``rate_instants``.
         """
-        segment = (ends - 1) // SEGMENT_INSTANTS
+        segment = (rate_instants - 1) // SEGMENT_INSTANTS
         rates = self.knots[segment + 1] - self.knots[segment]
         return self.knots[segment] + rates * (doubled_instants / (2 * SEGMENT_INSTANTS) - segment)[:, None], rates
 
     def set_driven_joints(self, q: FloatArray, cells: PathCellBatch) -> FloatArray:
         """Return configurations (N, n) with the driven joints at their values in the middles of cells."""
         q = q.copy()
-        q[:, self.driven[0]] = self.interpolate_healthy(cells.begin + cells.stop, cells.stop)[0][:, self.driven[0]]
-        q[:, self.driven[1:]] = self.interpolate_healthy(cells.start + cells.end, cells.end)[0][:, self.driven[1:]]
+        q[:, self.driven[0]] = self.healthy_joints_and_rates(cells.begin + cells.stop, cells.stop)[0][:, self.driven[0]]
+        q[:, self.driven[1:]] = self.healthy_joints_and_rates(cells.start + cells.end, cells.end)[0][:, self.driven[1:]]
         return q
 
     def solve_centers(self, q: FloatArray, cells: PathCellBatch) -> FloatArray:
         """Run Newton's method from q (N, n) to the middles of cells, and round the result to units of the file."""
-        q, (goal, _) = self.set_driven_joints(q, cells), self.interpolate_healthy(cells.start + cells.end, cells.end)
-        target = self.compute_tool_state(goal)
+        q, (goal, _) = self.set_driven_joints(q, cells), self.healthy_joints_and_rates(cells.start + cells.end, cells.end)
+        target = self.tool_pose_and_jacobian(goal)
         for _ in range(_ENCLOSURE_NEWTON_STEPS):
-            tool_state = self.compute_tool_state(q)
-            error, jacobian = self.compute_tracking_error(tool_state, target)
+            tool_state = self.tool_pose_and_jacobian(q)
+            error, jacobian = self.tracking_error_and_jacobian(tool_state, target)
             if np.abs(error).max(initial=0.0) < _NEWTON_TOLERANCE:
                 break
             q[:, self.free] -= np.clip(solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
         q[:, self.free] = np.round(q[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
         return q
 
-    def expand_cells(self, q: FloatArray, cells: PathCellBatch) -> PathFormBatch:
+    def enclose_cell_motions(self, q: FloatArray, cells: PathCellBatch) -> PathFormBatch:
         """Enclose the motion around the centers q (N, n) of cells."""
         m, n, tube = self.m, self.n, len(self.tube)
-        goal, path_rate = self.interpolate_healthy(cells.start + cells.end, cells.end)
-        lock_rate = self.interpolate_healthy(cells.begin + cells.stop, cells.stop)[1]
-        tool_state, target = self.compute_tool_state(q), self.compute_tool_state(goal)
-        error, jacobian = self.compute_tracking_error(tool_state, target)
+        goal, path_rate = self.healthy_joints_and_rates(cells.start + cells.end, cells.end)
+        lock_rate = self.healthy_joints_and_rates(cells.begin + cells.stop, cells.stop)[1]
+        tool_state, target = self.tool_pose_and_jacobian(q), self.tool_pose_and_jacobian(goal)
+        error, jacobian = self.tracking_error_and_jacobian(tool_state, target)
         gradients = np.concatenate([jacobian, self._healthy_jacobian(tool_state, target)], axis=2)
-        is_tangent, response = cells.width > 0, self._section_response(gradients, lock_rate, path_rate, cells.width > 0)
+        is_tangent, response = cells.width > 0, self._free_motion_response(gradients, lock_rate, path_rate, cells.width > 0)
         directions = np.zeros((len(q), 2 * n, 2 + tube + m))
         path_motion = path_rate[:, :, None] * response[:, -1:]
         directions[:, self.driven[0], 0] = lock_rate[:, self.driven[0]]
@@ -131,7 +133,7 @@ class LockedTrackingEnclosure:
         residual = np.abs(
             gradients @ directions - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1)
         )
-        half = np.concatenate([cells.half, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
+        half = np.concatenate([cells.half_widths, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
         positions = np.concatenate([q, goal], axis=1)
         bounds = _CellBounds(
             error,
@@ -141,7 +143,7 @@ class LockedTrackingEnclosure:
             np.einsum("nacc->nac", second),
             np.abs(positions) * (1 - self._revolute),
         )
-        closed, joint_travel, angle = self._close_section(bounds, half)
+        closed, joint_travel, angle = self._find_invariant_section_boxes(bounds, half)
         s = half[:, -m:]
         unique_box, is_unique = np.zeros_like(s), np.zeros(len(q), dtype=bool)
         for size in _UNIQUE_BOX_SIZES:
@@ -149,7 +151,7 @@ class LockedTrackingEnclosure:
             if not rows.size:
                 break
             section_box = s[rows] + size
-            is_contraction = self._is_contraction(bounds.select(rows), half[rows], section_box)
+            is_contraction = self._has_unique_solution(bounds.select(rows), half[rows], section_box)
             unique_box[rows[is_contraction]], is_unique[rows[is_contraction]] = section_box[is_contraction], True
         lower, upper = self.limits[self.free].T
         travel = 1.001 * joint_travel[:, self.free] + 1e-7
@@ -167,7 +169,7 @@ class LockedTrackingEnclosure:
             )
         return PathFormBatch(q, path_position, is_tangent, response, half, unique_box, is_valid)
 
-    def _section_response(
+    def _free_motion_response(
         self, gradients: FloatArray, lock_rate: FloatArray, path_rate: FloatArray, is_tangent: BoolArray
     ) -> FloatArray:
         """Return how the free joints, then the path position, follow the coordinates (N, m + 1, columns), from gradients (N, m,
@@ -183,7 +185,7 @@ class LockedTrackingEnclosure:
         response[:, :-1, :2] = -inverse @ np.stack([drift, path_gradient], axis=2)
         response[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
         if is_tangent.any():
-            tangent, pseudo_inverse = compute_tangents(
+            tangent, pseudo_inverse = tangents_and_pseudo_inverses(
                 np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)[is_tangent]
             )
             # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
@@ -194,24 +196,24 @@ class LockedTrackingEnclosure:
             response[is_tangent, :, 1], response[is_tangent, :, 2:] = tangent, pseudo_inverse
         return response
 
-    def starts_at_lock(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
+    def contains_lock_configurations(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
         """Return a mask of cells whose solutions contain the configurations at all lock instants of their slabs."""
-        q, rate = (values[:, self.free] for values in self.interpolate_healthy(cells.begin + cells.stop, cells.stop))
+        q, rate = (values[:, self.free] for values in self.healthy_joints_and_rates(cells.begin + cells.stop, cells.stop))
         start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT_INSTANTS)])
         departure = np.column_stack([rate, np.ones(len(q))])
         offsets = (departure - forms.own[:, :, 0]) * forms.half[:, :1]
         return self._is_in_unique_box(start, offsets[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
-    def continues_from(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
+    def continues_previous_solution(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
         """Return a mask of cells whose solution is that of the previous cell, on the face where the previous cell ends."""
-        end_q, end_position = self.compute_cell_end(previous)
+        end_q, end_position = self.cell_end_configurations(previous)
         columns = [column for column in range(previous.half.shape[1] - self.m) if column != 1]
         response_change = (previous.own - forms.own)[:, :, columns] * previous.half[:, None, columns]
         section_spread = previous.own[:, :, -self.m :] * previous.half[:, None, -self.m :]
         point = np.column_stack([end_q[:, self.free], end_position])
         return self._is_in_unique_box(point, np.concatenate([response_change, section_spread], axis=2), forms, previous.turned)
 
-    def compute_cell_end(self, forms: PathFormBatch) -> tuple[FloatArray, FloatArray]:
+    def cell_end_configurations(self, forms: PathFormBatch) -> tuple[FloatArray, FloatArray]:
         """Return the configurations (N, n) and path positions (N,) where cells end, for the middles of their slabs."""
         q = forms.q.copy()
         q[:, self.free] += forms.own[:, :-1, 1] * forms.half[:, 1:2]
@@ -230,7 +232,7 @@ class LockedTrackingEnclosure:
         inside = (max_coordinates[:, 0] < forms.half[:, 1]) | ~(was_tangent | forms.turned)
         return np.asarray((max_coordinates[:, 1:] < forms.only).all(axis=1) & inside)
 
-    def predict_start(self, previous: PathFormBatch, cells: PathCellBatch, distances: FloatArray) -> FloatArray:
+    def predict_cell_centers(self, previous: PathFormBatch, cells: PathCellBatch, distances: FloatArray) -> FloatArray:
         """Return predicted centers (N, n) of cells, ``distances`` (N,) segments behind the middles of the previous cells."""
         q = previous.q.copy()
         q[:, self.free] += previous.own[:, :-1, 1] * distances[:, None]
@@ -244,17 +246,17 @@ class LockedTrackingEnclosure:
         """
         z, end, locked_values = np.column_stack([q, path_position]), segment_starts + SEGMENT_INSTANTS, q[:, self.driven[0]]
         for iteration in range(_ENCLOSURE_NEWTON_STEPS):
-            goal, path_rate = self.interpolate_healthy(np.rint(2 * SEGMENT_INSTANTS * z[:, -1]), end)
+            goal, path_rate = self.healthy_joints_and_rates(np.rint(2 * SEGMENT_INSTANTS * z[:, -1]), end)
             z[:, self.driven[1:]] = goal[:, self.driven[1:]]
-            tool_state, target = self.compute_tool_state(z[:, :-1]), self.compute_tool_state(goal)
-            error, jacobian = self.compute_tracking_error(tool_state, target)
+            tool_state, target = self.tool_pose_and_jacobian(z[:, :-1]), self.tool_pose_and_jacobian(goal)
+            error, jacobian = self.tracking_error_and_jacobian(tool_state, target)
             gradients = np.concatenate([jacobian, self._healthy_jacobian(tool_state, target)], axis=2)
             path_gradient = np.einsum("nmk,nk->nm", gradients[:, :, self.n :], path_rate)
             path_gradient += np.einsum("nmk,nk->nm", jacobian[:, :, self.driven[1:]], path_rate[:, self.driven[1:]])
             extended = np.concatenate([jacobian[:, :, self.free], path_gradient[:, :, None]], axis=2)
             transposed = extended.transpose(0, 2, 1)
             step = (
-                compute_tangents(extended)[0] * distances[:, None]
+                tangents_and_pseudo_inverses(extended)[0] * distances[:, None]
                 if iteration == 0
                 else -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
             )
@@ -264,20 +266,20 @@ class LockedTrackingEnclosure:
         z[:, self.driven[0]] = locked_values
         return z[:, :-1], np.rint(z[:, -1] * SEGMENT_INSTANTS).astype(np.int64)
 
-    def can_finish(self, locks: IndexArray) -> BoolArray:
+    def can_finish_path(self, locks: IndexArray) -> BoolArray:
         """Return a mask of lock instants (N,) from which Newton's method follows the path to its end within the limits; a
         heuristic look-ahead.
         """
         path_end = (len(self.knots) - 1) * SEGMENT_INSTANTS
-        q, (lower, upper) = self.interpolate_healthy(2 * locks, np.maximum(locks, 1))[0], self.limits.T
+        q, (lower, upper) = self.healthy_joints_and_rates(2 * locks, np.maximum(locks, 1))[0], self.limits.T
         instants, steps, is_followed = locks.copy(), np.full(len(locks), _FIRST_STEP_INSTANTS), np.ones(len(locks), dtype=bool)
         while (active := np.flatnonzero(is_followed & (instants < path_end))).size:
             next_instants = np.minimum(instants[active] + steps[active], path_end)
-            goal, next_q = self.interpolate_healthy(2 * next_instants, next_instants)[0], q[active]
-            target = self.compute_tool_state(goal)
+            goal, next_q = self.healthy_joints_and_rates(2 * next_instants, next_instants)[0], q[active]
+            target = self.tool_pose_and_jacobian(goal)
             next_q[:, self.driven[1:]] = goal[:, self.driven[1:]]
             for _ in range(_ENCLOSURE_NEWTON_STEPS):
-                error, jacobian = self.compute_tracking_error(self.compute_tool_state(next_q), target)
+                error, jacobian = self.tracking_error_and_jacobian(self.tool_pose_and_jacobian(next_q), target)
                 if np.abs(error).max(initial=0.0) < _TRACKING_TOLERANCE:
                     break
                 next_q[:, self.free] -= np.clip(
@@ -292,7 +294,7 @@ class LockedTrackingEnclosure:
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    def compute_tool_state(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def tool_pose_and_jacobian(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return position and rotation of the tool, the axes that rotate it (N, n, 3), and the derivatives of its position by
         the joints (N, n, 3).
         """
@@ -313,7 +315,7 @@ class LockedTrackingEnclosure:
         spin, sliding = axes * ~self.slides[:, None], axes * self.slides[:, None]
         return position, rotation @ self.chain.rotations[self.n], spin, np.cross(spin, position[:, None] - points) + sliding
 
-    def compute_tracking_error(
+    def tracking_error_and_jacobian(
         self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]
     ) -> tuple[FloatArray, FloatArray]:
         """Return the tracking error (N, m) and its Jacobian by the arm's joints (N, m, n)."""
@@ -327,7 +329,7 @@ class LockedTrackingEnclosure:
             angular_jacobian = (
                 transverse_axes(target) @ axis_jacobian(tool_state)
                 if self._pointing
-                else axial_map(rotation_error) @ tool_state[2].transpose(0, 2, 1)
+                else axial_vector_jacobian(rotation_error) @ tool_state[2].transpose(0, 2, 1)
             )
             jacobian = np.concatenate([jacobian, angular_jacobian], axis=1)
         return error[:, self._rows], jacobian[:, self._rows]
@@ -348,7 +350,7 @@ class LockedTrackingEnclosure:
             angular_jacobian = (
                 transverse_axes(target) @ axis_jacobian(target)
                 if self._pointing
-                else axial_map(rotation_error) @ rotation_error @ target[2].transpose(0, 2, 1)
+                else axial_vector_jacobian(rotation_error) @ rotation_error @ target[2].transpose(0, 2, 1)
             )
             jacobian = np.concatenate([jacobian, -angular_jacobian], axis=1)
         return np.asarray(jacobian[:, self._rows])
@@ -359,12 +361,12 @@ class LockedTrackingEnclosure:
         """Return the second derivatives (N, m, c, c) of the error along the columns of ``directions``."""
         n, locked_moves, healthy_moves = self.n, directions[:, : self.n], directions[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
-        second = second_derivatives(tool_state[2], tool_state[3], locked_moves) - second_derivatives(
+        second = directional_second_derivatives(tool_state[2], tool_state[3], locked_moves) - directional_second_derivatives(
             target[2], target[3], healthy_moves
         )
         if self._pointing:
             axis_terms = (
-                second_derivatives(state[2], axis_jacobian(state).transpose(0, 2, 1), moves)
+                directional_second_derivatives(state[2], axis_jacobian(state).transpose(0, 2, 1), moves)
                 for state, moves in ((tool_state, locked_moves), (target, healthy_moves))
             )
             rows = np.einsum("nri,nicd->nrcd", transverse_axes(target), next(axis_terms) - next(axis_terms))
@@ -376,7 +378,7 @@ class LockedTrackingEnclosure:
             cumulative = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
             midpoints = cumulative - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
             rotated = np.cross(axes[:, :, None, :], rotation_error.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
-            derivative_maps = axial_map(rotated.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(
+            derivative_maps = axial_vector_jacobian(rotated.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(
                 len(rotation_error), 2 * n, 3, 3
             )
             half_terms = np.einsum("nkri,nkai,nkb->nrab", derivative_maps, midpoints, moves, optimize=True)
@@ -397,7 +399,7 @@ class LockedTrackingEnclosure:
         rotation_remainder = (joint_travel @ self._revolute) ** 3 / 6
         return np.stack([position_remainder] * self._linear + [rotation_remainder] * (self.m - self._linear), axis=1)
 
-    def _close_section(self, bounds: _CellBounds, half: FloatArray) -> tuple[BoolArray, FloatArray, FloatArray]:
+    def _find_invariant_section_boxes(self, bounds: _CellBounds, half: FloatArray) -> tuple[BoolArray, FloatArray, FloatArray]:
         """Find section boxes, stored in place in ``half``, that are mapped into themselves; return a mask, the joint travel,
         and the rotation of the tool.
         """
@@ -412,7 +414,7 @@ class LockedTrackingEnclosure:
             if not rows.size and iteration < _SECTION_ROUNDS:  # each is closed, or never will be
                 continue
             rows = np.flatnonzero(closed) if iteration >= _SECTION_ROUNDS else rows
-            excess, joint_travel[rows], angle[rows] = self._bound_excess(bounds.select(rows), half[rows])
+            excess, joint_travel[rows], angle[rows] = self._bound_error_and_motion(bounds.select(rows), half[rows])
             is_closed = (_VERIFIER_MARGIN * excess + _MIN_SLACK <= s[rows]).all(axis=1) & (s[rows] < 1).all(axis=1)
             closed[rows] = is_closed
             if iteration < _SECTION_ROUNDS:
@@ -425,7 +427,7 @@ class LockedTrackingEnclosure:
                 s[rows] = _VERIFIER_MARGIN * excess + 1.01 * _MIN_SLACK
         return closed, joint_travel[:, : self.n], angle
 
-    def _bound_excess(self, bounds: _CellBounds, half: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _bound_error_and_motion(self, bounds: _CellBounds, half: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the distance of the error from the section, the joint travel, and the rotation of the tool."""
         joint_travel, square = (bounds.reach @ half[:, :, None])[:, :, 0], half**2
         remainder = self._third_order_remainder(joint_travel, bounds.out) + (bounds.left @ half[:, :, None])[:, :, 0]
@@ -436,7 +438,7 @@ class LockedTrackingEnclosure:
         )
         return np.maximum(bounds.error + upper, lower - bounds.error), joint_travel, joint_travel @ self._revolute
 
-    def _bound_gradients(self, bounds: _CellBounds, half: FloatArray) -> FloatArray:
+    def _bound_residual_gradients(self, bounds: _CellBounds, half: FloatArray) -> FloatArray:
         """Bound the gradients (N, m, 1 + m) of the error less the section by the path and by the section."""
         columns = [1, *range(half.shape[1] - self.m, half.shape[1])]
         joint_travel = (bounds.reach @ half[:, :, None])[:, :, 0]
@@ -457,16 +459,16 @@ class LockedTrackingEnclosure:
         gradients[:, self._linear :] += (angle_gradient * (joint_travel @ self._revolute)[:, None] ** 2 / 2)[:, None]
         return np.asarray(gradients)
 
-    def _is_contraction(self, bounds: _CellBounds, half: FloatArray, section_box: FloatArray) -> BoolArray:
+    def _has_unique_solution(self, bounds: _CellBounds, half: FloatArray, section_box: FloatArray) -> BoolArray:
         """Return a mask of the section boxes (N, m) with at most one solution."""
-        gradients = self._bound_gradients(bounds, np.concatenate([half[:, : -self.m], section_box], axis=1))[:, :, 1:]
+        gradients = self._bound_residual_gradients(bounds, np.concatenate([half[:, : -self.m], section_box], axis=1))[:, :, 1:]
         return np.asarray((_VERIFIER_MARGIN * (gradients @ section_box[:, :, None])[:, :, 0] < 0.998 * section_box).all(axis=1))
 
     def _moves_forward(self, bounds: _CellBounds, half: FloatArray, response: FloatArray, overshoot: FloatArray) -> BoolArray:
         """Return a mask of tangent cells that only go forward on the path and end within their segment, from ``overshoot`` (N,)
         of its end.
         """
-        gradients = self._bound_gradients(bounds, half)
+        gradients = self._bound_residual_gradients(bounds, half)
         section_rates = solve_regularized(np.eye(self.m) - gradients[:, :, 1:], gradients[:, :, :1])[:, :, 0]
         slowdown = (np.abs(response[:, -1, -self.m :]) * section_rates).sum(axis=1)
         extent = (np.abs(response[:, -1]) * half).sum(axis=1)

@@ -20,9 +20,9 @@ from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.tool_paths.loop_closure import RefutedInterval, make_closure_exclusion
-from holdfast.certificates.tool_paths.march import SlabMarch
-from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.certificates.tool_paths.loop_closure import RefutedInterval, make_loop_closure_exclusion
+from holdfast.certificates.tool_paths.march import LockSlabSearch
+from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.certificates.tree import SearchState
 from holdfast.core.sweeps.memory import Parts
 
@@ -45,9 +45,9 @@ class ToolPathResult:
         claimed_instants: Instants of the claim.
     """
 
-    slabs: Sequence[Slab]
+    slabs: Sequence[LockSlab]
     never: Sequence[RefutedInterval]
-    deferred: Sequence[Slab]
+    deferred: Sequence[LockSlab]
     closed_instants: int
     nodes: int
     finished: bool
@@ -87,7 +87,7 @@ class ToolPathResult:
         }
         return {**arrays, "seconds": np.array([self.seconds])}
 
-    def require_capacity(self) -> None:
+    def check_cell_limit(self) -> None:
         """Do nothing: the cells always fit, since a slab is one of the claim, halved a limited number of times."""
 
 
@@ -109,7 +109,7 @@ class ToolPathJob:
     joint: int
     followers: tuple[int, ...]
     halvings: int
-    slabs: tuple[Slab, ...]
+    slabs: tuple[LockSlab, ...]
     max_cells: int
     name: str
 
@@ -118,7 +118,7 @@ class ToolPathJob:
         """Make the job of all lock instants of a joint."""
         first, last = claim.during
         faces = [first, *range((first // SEGMENT_INSTANTS + 1) * SEGMENT_INSTANTS, last, SEGMENT_INSTANTS), last]
-        slabs = tuple(Slab(begin, stop) for begin, stop in pairwise(faces))
+        slabs = tuple(LockSlab(begin, stop) for begin, stop in pairwise(faces))
         return cls(claim, joint, followers, halvings, slabs, _CELLS_PER_JOB, f"lock {joint + 1}")
 
     @property
@@ -127,7 +127,7 @@ class ToolPathJob:
         return 1.0
 
     @property
-    def claimed_instants(self) -> int:
+    def claimed_instant_count(self) -> int:
         """Number of lock instants of the claim."""
         return self.claim.during[1] - self.claim.during[0]
 
@@ -137,21 +137,21 @@ class ToolPathJob:
 
     def empty_result(self) -> ToolPathResult:
         """Return a result in which everything is undecided."""
-        return ToolPathResult((), (), (), 0, 0, False, 0.0, self.claimed_instants)
+        return ToolPathResult((), (), (), 0, 0, False, 0.0, self.claimed_instant_count)
 
-    def from_arrays(self, arrays: Parts) -> ToolPathResult:
+    def result_from_arrays(self, arrays: Parts) -> ToolPathResult:
         """Rebuild a result from the arrays of :meth:`ToolPathResult.to_arrays`."""
-        numbers, centers, slabs = arrays["cells"].tolist(), iter(arrays["centres"]), list[Slab]()
+        numbers, centers, slabs = arrays["cells"].tolist(), iter(arrays["centres"]), list[LockSlab]()
         while numbers:
             begin, stop, halvings, count = numbers[:4]
             ends, numbers = numbers[4 : 4 + count], numbers[4 + count :]
-            slabs.append(Slab(begin, stop, halvings, ends, [next(centers) for _ in ends]))
+            slabs.append(LockSlab(begin, stop, halvings, ends, [next(centers) for _ in ends]))
         values, refuted = arrays["never"].tolist(), list[RefutedInterval]()
         while values:
             (begin, stop, path_instant, tree_bytes), values = values[:4], values[4:]
             refuted.append(RefutedInterval(begin, stop, path_instant, bytes(values[:tree_bytes])))
             values = values[tree_bytes:]
-        deferred = [Slab(*numbers) for numbers in arrays["left"].reshape(-1, 3).tolist()]
+        deferred = [LockSlab(*numbers) for numbers in arrays["left"].reshape(-1, 3).tolist()]
         closed, nodes, total = arrays["counts"].tolist()
         return ToolPathResult(slabs, refuted, deferred, closed, nodes, True, float(arrays["seconds"][0]), total)
 
@@ -167,7 +167,7 @@ class ToolPathJob:
             for number, rows in enumerate(row_groups, 1)
         ]
 
-    def merge(self, result: ToolPathResult, child_results: Sequence[ToolPathResult]) -> ToolPathResult:
+    def merge_child_results(self, result: ToolPathResult, child_results: Sequence[ToolPathResult]) -> ToolPathResult:
         """Merge the results of the deferred slabs into this result."""
         results = [result, *child_results]
         slabs = sorted((slab for entry in results for slab in entry.slabs), key=lambda slab: slab.begin)
@@ -195,7 +195,9 @@ class RunningToolPathJob:
             CertificateChain.from_arm(claim.arm), claim.knots, claim.task, driven=[job.joint, *job.followers], tube=tube,
             limits=limits, slides=claim.arm.prismatic,
         )  # fmt: skip
-        self._march = SlabMarch(enclosure, job.slabs, job.halvings, job.max_cells, make_closure_exclusion(claim, job.joint))
+        self._march = LockSlabSearch(
+            enclosure, job.slabs, job.halvings, job.max_cells, make_loop_closure_exclusion(claim, job.joint)
+        )
 
     def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
         """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
@@ -222,5 +224,5 @@ class RunningToolPathJob:
             march.nodes,
             self.finished,
             self._seconds,
-            self.job.claimed_instants,
+            self.job.claimed_instant_count,
         )

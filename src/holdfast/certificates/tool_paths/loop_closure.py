@@ -13,7 +13,7 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Halving, Index
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, Index
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, Ints
@@ -77,10 +77,12 @@ class _LoopBranch:
             segment,
             np.arange(first, last) % (len(loop.lengths) // 2),
             start,
-            np.arange(last - first) >= segment.count_axes_through(start),
+            np.arange(last - first) >= segment.count_leading_axes_through(start),
         )
 
-    def bound_distance(self, middle: FloatArray, half: FloatArray, farthest: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def bound_distance(
+        self, middle: FloatArray, half: FloatArray, from_above: bool
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Bound the least or greatest distance over boxes of all joints; return the bound, the distance of the middles, and
         each joint's cost (N, n).
         """
@@ -90,16 +92,16 @@ class _LoopBranch:
             return distance, distance, joint_costs
         q, half_range = middle[:, self.joints], half[:, self.joints] * self.moves
         starts, zeros = np.broadcast_to(self.start, (count, 3)), np.zeros((count, 3))
-        bound, center_distance, costs = (self.segment.bound_distance_above if farthest else self.segment.bound_distance_below)(
-            q, half_range, starts, zeros
-        )
-        if farthest:
+        bound, center_distance, costs = (
+            self.segment.upper_distance_bound if from_above else self.segment.lower_distance_bound
+        )(q, half_range, starts, zeros)
+        if from_above:
             costs = costs / np.maximum(center_distance, 1e-9)[:, None]
         joint_costs[:, self.joints] = costs[:, : len(self.joints)]
         return bound, center_distance, joint_costs
 
 
-class ClosureExclusion:
+class LoopClosureExclusion:
     """The search for refuted lock instants of one joint.
 
     Args:
@@ -136,7 +138,7 @@ class ClosureExclusion:
                 continue
             branches, depends_on = self._split_loop(self._path_end, points, (i, j)), np.zeros(n, dtype=bool)
             for branch in branches:
-                tip, _, columns = branch.segment.differentiate_point(q[:, branch.joints])
+                tip, _, columns = branch.segment.point_axes_and_derivatives(q[:, branch.joints])
                 changes = np.abs(np.einsum("na,nka->nk", tip - branch.start, columns)).max(axis=0) > 1e-9
                 depends_on[branch.joints] |= changes | ((i == j) & (np.abs(columns).max(axis=(0, 2)) > 1e-9))
             if depends_on.any():
@@ -155,8 +157,8 @@ class ClosureExclusion:
         chain, n, ((first, a), (last, b)) = self._chain, self._enclosure.n, (points[index] for index in pair)
         position, rotation = (
             values[0]
-            for values in self._enclosure.compute_tool_state(
-                self._enclosure.interpolate_healthy(np.array([2 * path_instant]), np.array([path_instant]))[0]
+            for values in self._enclosure.tool_pose_and_jacobian(
+                self._enclosure.healthy_joints_and_rates(np.array([2 * path_instant]), np.array([path_instant]))[0]
             )[:2]
         )
         base_rotation = chain.rotations[n] @ rotation.T
@@ -168,7 +170,7 @@ class ClosureExclusion:
             loop, last, n + first, b, a if first else base_origin + base_rotation @ a
         )
 
-    def refute_instants(self, begin: int, stop: int) -> tuple[RefutedInterval | None, bool, int]:
+    def refute_lock_interval(self, begin: int, stop: int) -> tuple[RefutedInterval | None, bool, int]:
         """Try to refute the lock instants of one segment; return the interval or None, whether parts of it may be refuted, and
         the number of examined boxes.
         """
@@ -182,33 +184,33 @@ class ClosureExclusion:
             position = int(path_instant) // SEGMENT_INSTANTS * SEGMENT_INSTANTS
             if position < stop:
                 continue
-            has_solution = self._find_solvable(locks, position)
+            has_solution = self._has_reaching_configuration(locks, position)
             may_split |= not has_solution.all()
             if not has_solution.any():
                 self._last_position = position
-                halving, is_excluded = self._exclude_joints(begin, stop, position)
+                halving, is_excluded = self._bisect_joint_ranges(begin, stop, position)
                 return (
-                    (RefutedInterval(begin, stop, position, halving.to_preorder()) if is_excluded else None),
+                    (RefutedInterval(begin, stop, position, halving.preorder_tokens()) if is_excluded else None),
                     True,
                     halving.tested,
                 )
         return None, may_split, 0
 
-    def _find_solvable(self, locks: Ints, path_instant: int) -> BoolArray:
+    def _has_reaching_configuration(self, locks: Ints, path_instant: int) -> BoolArray:
         """Return a mask of locks for which Newton's method finds configurations within the limits with the tool at a path
         instant.
         """
         enclosure, (lower, upper), count = self._enclosure, self._limits.T, len(locks)
         lock_q, goal_q = (
-            enclosure.interpolate_healthy(2 * instants, np.maximum(instants, 1))[0]
+            enclosure.healthy_joints_and_rates(2 * instants, np.maximum(instants, 1))[0]
             for instants in (locks, np.array([path_instant]))
         )
         q = self._rng.uniform(lower, upper, (count, _RANDOM_STARTS, enclosure.n))
         q[:, 0], q[:, 1] = lock_q, goal_q
         q[:, :, self._joint] = lock_q[:, [self._joint]]
-        q, target = q.reshape(-1, enclosure.n), enclosure.compute_tool_state(goal_q)
+        q, target = q.reshape(-1, enclosure.n), enclosure.tool_pose_and_jacobian(goal_q)
         for _ in range(_NEWTON_STEPS):
-            error, jacobian = enclosure.compute_tracking_error(enclosure.compute_tool_state(q), target)
+            error, jacobian = enclosure.tracking_error_and_jacobian(enclosure.tool_pose_and_jacobian(q), target)
             free_jacobian = jacobian[:, :, enclosure.free]
             gram = free_jacobian @ free_jacobian.transpose(0, 2, 1) + 1e-9 * np.eye(enclosure.m)
             q[:, enclosure.free] -= np.clip(
@@ -221,28 +223,28 @@ class ClosureExclusion:
             * np.round((q - (lower + upper) / 2) / (2 * np.pi))
             * ([joint in enclosure.free for joint in range(enclosure.n)] & ~enclosure.slides)
         )
-        tool_state = enclosure.compute_tool_state(q)
-        is_solved = (np.abs(enclosure.compute_tracking_error(tool_state, target)[0]) < _TARGET_TOLERANCE).all(axis=1) & (
+        tool_state = enclosure.tool_pose_and_jacobian(q)
+        is_solved = (np.abs(enclosure.tracking_error_and_jacobian(tool_state, target)[0]) < _TARGET_TOLERANCE).all(axis=1) & (
             (q >= lower) & (q <= upper)
         )[:, enclosure.free].all(axis=1)
         if enclosure.uses_rotation:
             is_solved &= enclosure.compute_rotation_trace(tool_state, target) > 1
         return np.asarray(is_solved.reshape(count, -1).any(axis=1))
 
-    def _exclude_joints(self, begin: int, stop: int, path_instant: int) -> tuple[Halving, bool]:
+    def _bisect_joint_ranges(self, begin: int, stop: int, path_instant: int) -> tuple[BoxBisection, bool]:
         """Bisect the ranges of all joints, the locked one between two instants; return the bisection and whether each box is
         excluded.
         """
         box = self._limits.copy()
         box[self._joint] = np.sort(
-            self._enclosure.interpolate_healthy(np.array([2 * begin, 2 * stop]), np.array([stop]))[0][:, self._joint]
+            self._enclosure.healthy_joints_and_rates(np.array([2 * begin, 2 * stop]), np.array([stop]))[0][:, self._joint]
         )
-        halving = Halving(box, _MAX_HALVINGS)
+        halving = BoxBisection(box, _MAX_HALVINGS)
         test = _LoopExclusionTest([self._split_loop(path_instant, self.points, pair) for pair in self.pairs])
         return halving, halving.run(test, max_nodes=_MAX_TREE_NODES) and halving.undecided == 0
 
 
-def make_closure_exclusion(claim: PathClaim, joint: int) -> ClosureExclusion | None:
+def make_loop_closure_exclusion(claim: PathClaim, joint: int) -> LoopClosureExclusion | None:
     """Make the loop closure test for a joint; None for an arm with unlimited slides, or one that leaves the plane
     of its task.
     """
@@ -255,7 +257,7 @@ def make_closure_exclusion(claim: PathClaim, joint: int) -> ClosureExclusion | N
     enclosure = LockedTrackingEnclosure(
         chain, claim.knots, claim.task, driven=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic
     )
-    return ClosureExclusion(enclosure, "pose" in claim.task, planar)
+    return LoopClosureExclusion(enclosure, "pose" in claim.task, planar)
 
 
 class _LoopExclusionTest:
@@ -276,7 +278,9 @@ class _LoopExclusionTest:
             if not rows.size:
                 break
             distances = [
-                np.linalg.norm(branch.segment.differentiate_point(middle[rows][:, branch.joints])[0] - branch.start, axis=1)
+                np.linalg.norm(
+                    branch.segment.point_axes_and_derivatives(middle[rows][:, branch.joints])[0] - branch.start, axis=1
+                )
                 for branch in branches
             ]
             for longer, shorter, mask in ((0, 1, distances[0] >= distances[1]), (1, 0, distances[0] < distances[1])):
@@ -284,10 +288,10 @@ class _LoopExclusionTest:
                 if not chosen.size:
                     continue
                 lower, longer_center, longer_costs = branches[longer].bound_distance(
-                    middle[chosen], half[chosen], farthest=False
+                    middle[chosen], half[chosen], from_above=False
                 )
                 upper, shorter_center, shorter_costs = branches[shorter].bound_distance(
-                    middle[chosen], half[chosen], farthest=True
+                    middle[chosen], half[chosen], from_above=True
                 )
                 margins, center_margins = lower - upper, longer_center - shorter_center
                 tokens[chosen[margins > _DISTANCE_MARGIN_M]] = token

@@ -12,9 +12,9 @@ import numpy as np
 
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.tool_paths.loop_closure import ClosureExclusion, RefutedInterval
+from holdfast.certificates.tool_paths.loop_closure import LoopClosureExclusion, RefutedInterval
 from holdfast.certificates.tool_paths.singular_cells import MIN_SINGULAR_HALVINGS, march_through_singularity
-from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.certificates.tool_paths.slabs import LockSlab
 
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 
@@ -36,7 +36,7 @@ class LockedPath:
 
     joint: int
     followers: tuple[int, ...]
-    slabs: tuple[Slab, ...]
+    slabs: tuple[LockSlab, ...]
     refuted_intervals: tuple[RefutedInterval, ...]
     proved: Fraction
     refuted: Fraction
@@ -45,12 +45,12 @@ class LockedPath:
     seconds: float
 
     @property
-    def proved_spans(self) -> list[tuple[int, int]]:
+    def proved_lock_intervals(self) -> list[tuple[int, int]]:
         """Proved intervals of lock instants."""
         return [(slab.begin, slab.stop) for slab in self.slabs]
 
     @property
-    def refuted_spans(self) -> list[tuple[int, int]]:
+    def refuted_lock_intervals(self) -> list[tuple[int, int]]:
         """Refuted intervals of lock instants."""
         return [(interval.begin, interval.stop) for interval in self.refuted_intervals]
 
@@ -67,7 +67,7 @@ class LockedPath:
         )
 
 
-class SlabMarch:
+class LockSlabSearch:
     """The search for one lock.
 
     Args:
@@ -87,20 +87,20 @@ class SlabMarch:
     def __init__(
         self,
         enclosure: LockedTrackingEnclosure,
-        slabs: Sequence[Slab],
+        slabs: Sequence[LockSlab],
         halvings: int,
         max_nodes: float = np.inf,
-        exclusion: ClosureExclusion | None = None,
+        exclusion: LoopClosureExclusion | None = None,
     ) -> None:
         self.enclosure, self._max_halvings, self._max_nodes, self._exclusion = enclosure, halvings, max_nodes, exclusion
         self._path_end = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
-        self.proved: list[Slab] = []
+        self.proved: list[LockSlab] = []
         self.refuted: list[RefutedInterval] = []
         self.nodes, self.closed_instants = 0, 0
         self._waiting = deque(slab.restarted_slab for slab in slabs)
-        self._active: list[Slab] = []
-        self._failed: list[Slab] = []
-        self._hopeless: list[Slab] = []
+        self._active: list[LockSlab] = []
+        self._failed: list[LockSlab] = []
+        self._hopeless: list[LockSlab] = []
         self._previous: PathFormBatch | None = None
 
     def run(self, deadline: float, should_stop: Callable[[], bool], report_progress: Callable[[], None]) -> bool:
@@ -109,18 +109,18 @@ class SlabMarch:
             if self.nodes < self._max_nodes:
                 self._activate_slabs()
             if self._hopeless:  # it takes little
-                self._refute_slab(self._hopeless.pop())
+                self._refute_or_halve_slab(self._hopeless.pop())
             elif self._active:
-                self._advance_slabs()
+                self._try_next_cells()
             elif self._failed:
-                self._split_failed()
+                self._pass_or_split_failed()
             else:
                 break
             report_progress()
         return not (self._active or self._failed or self._hopeless or (self._waiting and self.nodes < self._max_nodes))
 
     @property
-    def deferred_slabs(self) -> list[Slab]:
+    def deferred_slabs(self) -> list[LockSlab]:
         """Slabs that were not started, in order."""
         return [slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
 
@@ -131,34 +131,38 @@ class SlabMarch:
             return
         self._active += new_slabs
         enclosure = self.enclosure
-        empty = PathFormBatch.make_empty(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
+        empty = PathFormBatch.make_zero_form(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
         for slab in new_slabs:
             form, slab.last_form = slab.last_form or empty, None
             self._previous = form if self._previous is None else self._previous.append(form)
 
-    def _advance_slabs(self) -> None:
+    def _try_next_cells(self) -> None:
         """Try the next cell of each active slab: accept it, halve its length, or give the slab up."""
         assert self._previous is not None
         enclosure, slabs, previous = self.enclosure, self._active, self._previous
         begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
         cells = PathCellBatch(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
         is_first = np.array([not slab.ends for slab in slabs])
-        distances = previous.half[:, 1] + cells.half[:, 1]
-        q = enclosure.predict_start(previous, cells, distances)
-        q[is_first] = enclosure.interpolate_healthy(cells.start + cells.end, cells.end)[0][is_first]
+        distances = previous.half[:, 1] + cells.half_widths[:, 1]
+        q = enclosure.predict_cell_centers(previous, cells, distances)
+        q[is_first] = enclosure.healthy_joints_and_rates(cells.start + cells.end, cells.end)[0][is_first]
         q = enclosure.solve_centers(q, cells)
         center_units = np.round(q / PATH_CENTER_UNIT).astype(np.int64)
         center_units[:, enclosure.driven] = 0
-        forms = enclosure.expand_cells(q, cells)
+        forms = enclosure.enclose_cell_motions(q, cells)
         self.nodes += len(slabs)
-        continues = np.where(is_first, enclosure.starts_at_lock(forms, cells), enclosure.continues_from(previous, forms))
+        continues = np.where(
+            is_first,
+            enclosure.contains_lock_configurations(forms, cells),
+            enclosure.continues_previous_solution(previous, forms),
+        )
         accepted, active_rows = forms.good & continues, []
         for index, slab in enumerate(slabs):
             if accepted[index]:
                 slab.ends.append(slab.next)
                 slab.centers.append(center_units[index])
                 slab.lengthen_step()
-            elif not slab.is_shortest:
+            elif not slab.has_shortest_step:
                 slab.step //= 2
             else:
                 slab.last_form = previous.select(np.array([index]))
@@ -173,12 +177,12 @@ class SlabMarch:
         )
         self._active = [slabs[index] for index in active_rows]
 
-    def _record_proved(self, slab: Slab) -> None:
+    def _record_proved(self, slab: LockSlab) -> None:
         """Record a slab as proved."""
         self.proved.append(slab)
         self.closed_instants += slab.stop - slab.begin
 
-    def _march_singular(self, slabs: list[Slab]) -> list[Slab]:
+    def _pass_singularities(self, slabs: list[LockSlab]) -> list[LockSlab]:
         """March slabs through singularities by tangent cells and one plain cell; return the slabs for which that fails."""
         enclosure = self.enclosure
         candidates = [] if len(enclosure.tube) else [slab for slab in slabs if slab.halvings >= MIN_SINGULAR_HALVINGS]
@@ -198,13 +202,13 @@ class SlabMarch:
                 self._record_proved(slab)
         return slabs
 
-    def _split_failed(self) -> None:
+    def _pass_or_split_failed(self) -> None:
         """March failed slabs on through tangent cells, or split them, if single lock instants can be followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
-        finishes = np.asarray(self.enclosure.can_finish(locks.ravel())).reshape(-1, 3)
+        finishes = np.asarray(self.enclosure.can_finish_path(locks.ravel())).reshape(-1, 3)
         followed = [slab for slab, reached in zip(slabs, finishes, strict=True) if reached.all()]
-        unsolved_ids = {id(slab) for slab in self._march_singular(followed)}
+        unsolved_ids = {id(slab) for slab in self._pass_singularities(followed)}
         for slab, reached in zip(slabs, finishes, strict=True):
             if reached.all() and id(slab) not in unsolved_ids:
                 continue
@@ -215,10 +219,10 @@ class SlabMarch:
             else:
                 self._waiting += slab.halves
 
-    def _refute_slab(self, slab: Slab) -> None:
+    def _refute_or_halve_slab(self, slab: LockSlab) -> None:
         """Refute a slab from no examined instant of which a motion was found, or queue its halves."""
         interval, may_split, nodes = (
-            (None, False, 0) if self._exclusion is None else self._exclusion.refute_instants(slab.begin, slab.stop)
+            (None, False, 0) if self._exclusion is None else self._exclusion.refute_lock_interval(slab.begin, slab.stop)
         )
         self.nodes += nodes
         if interval is None and may_split and slab.halvings < self._max_halvings:

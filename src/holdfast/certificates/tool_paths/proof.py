@@ -55,12 +55,14 @@ class PathProof(CompositeResult):
     @property
     def tolerant(self) -> Fraction:
         """Exact fraction of the lock instants that is proved for every single lock."""
-        unproved_spans = [gap for part in self.parts for gap in paths.find_gaps(part.proved_spans, self.document)]
+        unproved_spans = [
+            gap for part in self.parts for gap in paths.find_uncovered_intervals(part.proved_lock_intervals, self.document)
+        ]
         return 1 - paths.measure_coverage(unproved_spans, self.document)
 
     def gaps(self, part: LockedPath) -> list[Span]:
         """Return the undecided intervals of lock instants."""
-        return paths.find_gaps(part.proved_spans + part.refuted_spans, self.document)
+        return paths.find_uncovered_intervals(part.proved_lock_intervals + part.refuted_lock_intervals, self.document)
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.core.typing import IndexArray
 
 TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centres, and what is found in the last cell
@@ -20,20 +20,20 @@ _CENTER_STEP = 0.8  # the middle of one, in half widths ahead
 _HALF_WIDTHS = 0.5 * 0.5 ** np.arange(16)  # half widths
 
 
-def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequence[Slab]) -> list[TangentPassage | None]:
+def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequence[LockSlab]) -> list[TangentPassage | None]:
     """March slabs through a singularity by tangent cells and one plain cell behind them; None for a slab without such a
     passage.
     """
     passages: list[TangentPassage | None] = [None] * len(slabs)
     if not slabs:
         return passages
-    empty = PathFormBatch.make_empty(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
+    empty = PathFormBatch.make_zero_form(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
     begin, stop, reached = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at"))
     segment_starts, is_first = reached // SEGMENT_INSTANTS * SEGMENT_INSTANTS, np.array([not slab.ends for slab in slabs])
     previous = PathFormBatch.concatenate([slab.last_form or empty for slab in slabs])
-    q, path_position = enclosure.compute_cell_end(previous)
+    q, path_position = enclosure.cell_end_configurations(previous)
     q[is_first], path_position[is_first] = (
-        enclosure.interpolate_healthy(begin + stop, stop)[0][is_first],
+        enclosure.healthy_joints_and_rates(begin + stop, stop)[0][is_first],
         ((begin + stop) / (2 * SEGMENT_INSTANTS))[is_first],
     )
     cell_lists = [(list[int](), list[IndexArray]()) for _ in slabs]
@@ -51,13 +51,13 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
             np.rint(step_widths[inside] / PATH_CENTER_UNIT).astype(np.int64),
         )
         cells = PathCellBatch(begin[owners], stop[owners], instants, instants, half_widths)
-        forms = enclosure.expand_cells(enclosure.set_driven_joints(middles, cells), cells)
+        forms = enclosure.enclose_cell_motions(enclosure.set_driven_joints(middles, cells), cells)
         accepted = np.flatnonzero(
             forms.good
             & np.where(
                 is_first[owners],
-                enclosure.starts_at_lock(forms, cells),
-                enclosure.continues_from(previous.select(owners), forms),
+                enclosure.contains_lock_configurations(forms, cells),
+                enclosure.continues_previous_solution(previous.select(owners), forms),
             )
         )
         active, widest = np.unique(owners[accepted], return_index=True)
@@ -71,7 +71,7 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
             cell_lists[slab_index][1].append(
                 _encode_center(enclosure, forms.q[row], int(instants[row] - segment_starts[slab_index]))
             )
-        plain_cells = _find_plain_cells(enclosure, (begin[active], stop[active]), segment_starts[active], chosen_forms)
+        plain_cells = _find_nontangent_cells(enclosure, (begin[active], stop[active]), segment_starts[active], chosen_forms)
         for slab_index, plain_cell in zip(active.tolist(), plain_cells, strict=True):
             if plain_cell is not None:
                 form, start, end = plain_cell
@@ -81,15 +81,18 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
                     form,
                 )
         active = np.array([slab_index for slab_index in active.tolist() if passages[slab_index] is None], dtype=np.int64)
-        q, path_position = enclosure.compute_cell_end(previous)
+        q, path_position = enclosure.cell_end_configurations(previous)
     return passages
 
 
-def _find_plain_cells(
-    enclosure: LockedTrackingEnclosure, lock: tuple[IndexArray, IndexArray], segment_starts: IndexArray, previous: PathFormBatch
+def _find_nontangent_cells(
+    enclosure: LockedTrackingEnclosure,
+    slab_bounds: tuple[IndexArray, IndexArray],
+    segment_starts: IndexArray,
+    previous: PathFormBatch,
 ) -> list[tuple[PathFormBatch, int, int] | None]:
     """Return the longest plain cells behind tangent cells, with their starts and ends; None where there is none."""
-    q, path_position = enclosure.compute_cell_end(previous)
+    q, path_position = enclosure.cell_end_configurations(previous)
     spread = np.abs(previous.own[:, -1, 0]) * previous.half[:, 0] + (
         np.abs(previous.own[:, -1, 2:]) * previous.half[:, 2:]
     ).sum(axis=1)
@@ -105,9 +108,11 @@ def _find_plain_cells(
     plain_cells: list[tuple[PathFormBatch, int, int] | None] = [None] * len(lower)
     if owners:
         rows = np.array(owners)
-        cells = PathCellBatch(lock[0][rows], lock[1][rows], starts[rows], np.array(ends), np.zeros(len(rows), dtype=np.int64))
-        forms = enclosure.expand_cells(enclosure.solve_centers(q[rows], cells), cells)
-        for index in np.flatnonzero(forms.good & enclosure.continues_from(previous.select(rows), forms)).tolist():
+        cells = PathCellBatch(
+            slab_bounds[0][rows], slab_bounds[1][rows], starts[rows], np.array(ends), np.zeros(len(rows), dtype=np.int64)
+        )
+        forms = enclosure.enclose_cell_motions(enclosure.solve_centers(q[rows], cells), cells)
+        for index in np.flatnonzero(forms.good & enclosure.continues_previous_solution(previous.select(rows), forms)).tolist():
             plain_cells[owners[index]] = forms.select(np.array([index])), int(starts[owners[index]]), ends[index]
     return plain_cells
 

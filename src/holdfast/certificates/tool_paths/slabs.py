@@ -11,7 +11,7 @@ _MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # of cells, or a quarter of their sl
 
 
 @dataclass
-class Slab:
+class LockSlab:
     """Lock instants from ``begin`` to ``stop``, with the cells found for them.
 
     Attributes:
@@ -33,16 +33,17 @@ class Slab:
     last_form: PathFormBatch | None = None
 
     @property
-    def restarted_slab(self) -> Slab:
+    def restarted_slab(self) -> LockSlab:
         """The slab without cells, whose first cell is as long as the slab."""
-        return Slab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
+        return LockSlab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
 
     @property
-    def halves(self) -> list[Slab]:
+    def halves(self) -> list[LockSlab]:
         """The two halves of the slab."""
         middle = (self.begin + self.stop) // 2
         return [
-            Slab(begin, stop, self.halvings + 1).restarted_slab for begin, stop in ((self.begin, middle), (middle, self.stop))
+            LockSlab(begin, stop, self.halvings + 1).restarted_slab
+            for begin, stop in ((self.begin, middle), (middle, self.stop))
         ]
 
     @property
@@ -56,7 +57,7 @@ class Slab:
         return self.at + self.step
 
     @property
-    def is_shortest(self) -> bool:
+    def has_shortest_step(self) -> bool:
         """True if the next cell may not be shorter."""
         return not self.ends or self.step <= max(1, min(_MIN_CELL_INSTANTS, (self.stop - self.begin) // 4))
 

@@ -7,16 +7,16 @@ import numpy as np
 from holdfast.core.typing import FloatArray
 
 
-def compute_tangents(wide: FloatArray) -> tuple[FloatArray, FloatArray]:
+def tangents_and_pseudo_inverses(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return unit vectors (N, m + 1) in the null space of matrices (N, m, m + 1), with positive last number, and
     pseudo-inverses.
     """
-    u, sizes, v = np.linalg.svd(wide)
+    u, sizes, v = np.linalg.svd(matrices)
     tangent, pseudo_inverse = v[:, -1], v[:, :-1].transpose(0, 2, 1) / np.maximum(sizes, 1e-14)[:, None] @ u.transpose(0, 2, 1)
     return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(pseudo_inverse)
 
 
-def second_derivatives(axes: FloatArray, columns: FloatArray, moves: FloatArray) -> FloatArray:
+def directional_second_derivatives(axes: FloatArray, columns: FloatArray, moves: FloatArray) -> FloatArray:
     """Return the (N, 3, c, c) second derivatives of a position along the columns of moves (N, n, c)."""
     steps = axes[:, :, None] * moves[..., None]
     midpoints = np.cumsum(steps, axis=1) - steps / 2
@@ -43,7 +43,7 @@ def axial_vector(rotation: FloatArray) -> FloatArray:
     return np.asarray(doubled / 2)
 
 
-def axial_map(rotation: FloatArray) -> FloatArray:
+def axial_vector_jacobian(rotation: FloatArray) -> FloatArray:
     """Return the (N, 3, 3) maps from a to the axial vector of [a] R."""
     return np.asarray((np.trace(rotation, axis1=1, axis2=2)[:, None, None] * np.eye(3) - rotation) / 2)
 

@@ -47,7 +47,7 @@ class BallArray:
         """Multiply by an array of -1, 0 and 1, which causes no rounding."""
         return BallArray(self.center * signs, self.radius * abs(signs))
 
-    def symmetrize(self) -> BallArray:
+    def mirror_upper_triangle(self) -> BallArray:
         """Copy the part of square matrices above the diagonal to the part below it."""
         upper = np.triu(np.ones(self.center.shape[-2:]))
         half, strict_upper = self.multiply_signs(upper), self.multiply_signs(np.triu(upper, 1))
@@ -93,7 +93,7 @@ def bound_length(x: Array, axis: int = 1) -> Array:
     return np.asarray(np.sqrt((x**2).sum(axis=axis)) * ROUND_UP + 1e-160)
 
 
-def solve_regular(a: Array, b: Array) -> Array:
+def solve_or_nan(a: Array, b: Array) -> Array:
     """Solve linear systems (N, k, k) approximately; the solution of a singular system is NaN, which proves nothing."""
     regular = abs(np.linalg.slogdet(a)[0])[:, None, None] > 0
     return np.where(regular, np.linalg.solve(np.where(regular, a, np.eye(a.shape[-1])), b), np.nan)

@@ -28,7 +28,7 @@ from .balls import (
     einsum,
     flint,
     round_up,
-    solve_regular,
+    solve_or_nan,
     stack_second,
 )
 from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration
@@ -122,7 +122,7 @@ class CeilingVerifier(LeafVerifier):
         second_brackets = einsum("nib,njlb->nlij", einsum("niab,na->nib", screws.operators, y), screws.brackets).multiply_signs(
             screws.moves[:, :, None]
         )
-        second = second_brackets.symmetrize() + cross_terms + cross_terms.transpose(0, 1, 3, 2)
+        second = second_brackets.mirror_upper_triangle() + cross_terms + cross_terms.transpose(0, 1, 3, 2)
         form = DerivativeEnclosure(einsum("nla,na->nl", screws.screws, y), gradients, second)
         remainder = sum(
             (bound_length(wrench_rate[:, part]) * half).sum(axis=1)[:, None] * screws.second_remainder[:, :, part.start]
@@ -131,30 +131,36 @@ class CeilingVerifier(LeafVerifier):
         )
         moments = form.bound_magnitude(half, remainder)
         own_moment = np.maximum(
-            np.nextafter(form.value.lower - (form.bound_change(half)[0] + remainder) * ROUND_UP, -np.inf)[:, position], 0
+            np.nextafter(form.value.lower - (form.bound_decrease_and_increase(half)[0] + remainder) * ROUND_UP, -np.inf)[
+                :, position
+            ],
+            0,
         )
         moments[:, position] = 0
         upper = (moments**2).sum(axis=1) * ((1 - threshold) * (1 + threshold)) * ROUND_UP
         lower = threshold**2 * own_moment**2 * (1 - 1e-12)
         return np.asarray((upper < lower) & (own_moment > 1e-100))
 
-    def choose_wrench(self, screws: ScrewEnclosure, k: int) -> tuple[Array, Array]:
+    def choose_wrench(self, screws: ScrewEnclosure, lock_position: int) -> tuple[Array, Array]:
         """Choose a wrench y (N, 6) and its derivatives by the joints (N, 6, n) such that the other moments hardly change; any
         choice is valid.
         """
-        own_screw, other_screws = screws.screws.center[:, k], np.delete(screws.screws.center, k, axis=1)
+        own_screw, other_screws = screws.screws.center[:, lock_position], np.delete(screws.screws.center, lock_position, axis=1)
         moving_half = (screws.half * screws.moves.any(axis=0)).max(axis=1)
         gram = np.einsum("nla,nlb->nab", other_screws, other_screws) + (0.01 * moving_half**2 + 1e-30)[:, None, None] * np.eye(
             6
         )
-        y = solve_regular(gram, own_screw[:, :, None])[:, :, 0]
+        y = solve_or_nan(gram, own_screw[:, :, None])[:, :, 0]
         y = y / (y * own_screw).sum(axis=1)[:, None]
         gradients = np.einsum("njla,na->nlj", screws.brackets.center, y) * screws.side
-        wrench_rate = -solve_regular(gram, np.einsum("nla,nlj->naj", other_screws, np.delete(gradients, k, axis=1)))
-        wrench_rate = wrench_rate - y[:, :, None] * (np.einsum("na,naj->nj", own_screw, wrench_rate) + gradients[:, k])[:, None]
+        wrench_rate = -solve_or_nan(gram, np.einsum("nla,nlj->naj", other_screws, np.delete(gradients, lock_position, axis=1)))
+        wrench_rate = (
+            wrench_rate
+            - y[:, :, None] * (np.einsum("na,naj->nj", own_screw, wrench_rate) + gradients[:, lock_position])[:, None]
+        )
         return np.nan_to_num(y), np.nan_to_num(wrench_rate)
 
-    def enclose_attained(self, q: list[str]) -> tuple[float, float]:
+    def enclose_manipulability_at(self, q: list[str]) -> tuple[float, float]:
         """Enclose the least relative manipulability at a configuration, whose square is 1 - J_k' (JJ')^-1 J_k."""
         inside = all(
             parse_hex(a) <= parse_hex(x) <= parse_hex(b) for x, (a, b) in zip(q, self._document["joint_box"], strict=True)
@@ -200,7 +206,9 @@ class FloorVerifier(CeilingVerifier):
         response = np.nan_to_num(-np.einsum("nlb,nbj->nlj", inverse, gradients.center))
         cross_terms = einsum("njlb,nli->nbij", moves, response)
         second_brackets = (
-            einsum("niab,njb->naij", screws.operators, motion_brackets)[:, rows].multiply_signs(screws.same_side).symmetrize()
+            einsum("niab,njb->naij", screws.operators, motion_brackets)[:, rows]
+            .multiply_signs(screws.same_side)
+            .mirror_upper_triangle()
         )
         gradients = gradients + einsum("nlb,nlj->nbj", screw, response)
         second = second_brackets + cross_terms + cross_terms.transpose(0, 1, 3, 2)
@@ -230,7 +238,7 @@ class FloorVerifier(CeilingVerifier):
         return np.asarray(is_closed & (min_component > 1e-100) & (min_component > self.threshold * norm_bound * ROUND_UP))
 
 
-def bound_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def bound_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a ceiling or floor has in addition to the common ones."""
     require_revolute(document)
     require(document["task"] in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")

@@ -34,15 +34,15 @@ def enclose_rotation(numbers: list[str]) -> BallArray:
     return BallArray(np.reshape([parse_hex(number) for number in numbers], (3, 3)), radius)
 
 
-def enclose_angle(exact: Fraction) -> list[float]:
+def enclose_sine_and_cosine(exact: Fraction) -> list[float]:
     """Return a number as a double, its error radius, 0 (for a half width), and its sine and cosine."""
     sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
     require(max(round_up(sine.rad()), round_up(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
     return [float(exact), 2.0**-52 * abs(float(exact)), 0.0, float(sine), float(cosine)]
 
 
-def enclose_values(values: Array) -> Array:
-    """Return the rows of :func:`enclose_angle` for doubles below 2^7, which are exact numbers (N, 5)."""
+def enclose_sines_and_cosines(values: Array) -> Array:
+    """Return the rows of :func:`enclose_sine_and_cosine` for doubles below 2^7, which are exact numbers (N, 5)."""
     rows = np.zeros((len(values), 5))
     rows[:, 0], rows[:, 3:] = values, [[float(number) for number in flint.arb(value).sin_cos()] for value in values.tolist()]
     return rows
@@ -93,7 +93,7 @@ class BallChain:
     def enclose_point(self, joints: list[Array], first: int = 0, end: Array | None = None, count: int = 1) -> PointKinematics:
         """Enclose a point in the frame of the joint behind some joints that begin with ``first``; default: the tool point.
 
-        Joints are each as :func:`enclose_angle` gives them, (N, 5); ``count`` is N where there are none.
+        Joints are each as :func:`enclose_sine_and_cosine` gives them, (N, 5); ``count`` is N where there are none.
         """
         count, end = len(joints[0]) if joints else count, self.origins[-1] if end is None else end
         tip, orientation = BallArray(np.zeros((count, 3))), BallArray(np.broadcast_to(np.eye(3), (count, 3, 3)))
@@ -157,11 +157,11 @@ class LeafVerifier:
         return type(self), (self._document,)
 
     def enclose_centers(self, cells: Iterable[Cell], first: int = 0) -> list[Array]:
-        """Return the rows of :func:`enclose_angle` for the centers of each axis from ``first`` on, with half widths rounded up,
-        (N, 5).
+        """Return the rows of :func:`enclose_sine_and_cosine` for the centers of each axis from ``first`` on, with half widths
+        rounded up, (N, 5).
         """
         columns = enumerate(zip(*cells, strict=True), first)
-        return [np.array([self._enclose_center(axis, part) for part in parts]) for axis, parts in columns]
+        return [np.array([self._enclose_interval_center(axis, part) for part in parts]) for axis, parts in columns]
 
     def find_unproved_cells(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """Return the cells of the root box that rejected leaves leave unproved."""
@@ -184,10 +184,10 @@ class LeafVerifier:
         """Return for leaves of one kind whether each is proved."""
         raise NotImplementedError
 
-    def _enclose_center(self, axis: int, part: tuple[int, int]) -> list[float]:
-        (k, d), key = part, (axis, *part)
+    def _enclose_interval_center(self, axis: int, index_and_depth: tuple[int, int]) -> list[float]:
+        (k, d), key = index_and_depth, (axis, *index_and_depth)
         if key not in self._cache:
-            self._cache[key] = enclose_angle(self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d))
+            self._cache[key] = enclose_sine_and_cosine(self.low[axis] + self.width[axis] * Fraction(2 * k + 1, 2 << d))
             self._cache[key][2] = math.nextafter(float(self.width[axis] / (2 << d)), math.inf)
         return self._cache[key]
 
@@ -196,4 +196,4 @@ def enclose_configuration(q: list[str]) -> list[Array]:
     """Return joint values, one row for each joint, as :meth:`BallChain.enclose_point` takes them."""
     values = [parse_hex(number) for number in q]
     require(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
-    return [enclose_values(np.array([number])) for number in values]
+    return [enclose_sines_and_cosines(np.array([number])) for number in values]

@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from .balls import ROUND_UP, Array, BallArray, Flags, bound_length, cross_matrix, einsum, flint, solve_regular
-from .chain import BallChain, Leaf, LeafVerifier, enclose_angle, enclose_configuration
+from .balls import ROUND_UP, Array, BallArray, Flags, bound_length, cross_matrix, einsum, flint, solve_or_nan
+from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration, enclose_sine_and_cosine
 from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, parse_hex, require
 from .motions import HealthyMotion
 from .paths import SEGMENT_INSTANTS, StoredRefutation
-from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier, locked_target_form
-from .taylor import DerivativeEnclosure, compute_derivatives, enclose_difference
+from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier, locked_target_schema
+from .taylor import DerivativeEnclosure, enclose_difference, vector_derivatives
 from .tree import MAX_LEAVES, PROVED_TOKEN, SPLIT_TOKEN, Cell, iterate_cells
 
 FIRST_LEMMA_TOKEN = 3  # what the first lemma excludes; 0: where the tool itself is elsewhere
@@ -36,19 +36,19 @@ def bound_norm_below(form: DerivativeEnclosure, linear: int, remainders: tuple[A
     """
     value, spans, identity = form.value.center, form.slopes.center * half[:, None], np.eye(form.value.center.shape[1])
     spread = spans @ spans.transpose(0, 2, 1) + (1e-6 * (value**2).sum(axis=1) + 1e-30)[:, None, None] * identity
-    whitened = solve_regular(np.nan_to_num(spread) + 1e-30 * identity, value[:, :, None])[:, :, 0]
+    whitened = solve_or_nan(np.nan_to_num(spread) + 1e-30 * identity, value[:, :, None])[:, :, 0]
     best, is_position = np.full(len(value), -np.inf), np.arange(len(identity)) < linear
     for direction in (value, whitened, *([value * is_position, value * ~is_position] if linear < len(identity) else [])):
         unit = direction / np.sqrt((direction**2).sum(axis=1))[:, None] * (1 - 1e-12)
         unit = np.where(((unit**2).sum(axis=1) < 1 - 1e-13)[:, None], unit, 0.0)
         projection = form.combine_rows(BallArray(unit))
-        loss = projection.bound_change(half)[0][:, 0] + bound_length(unit * is_position) * remainders[0]
+        loss = projection.bound_decrease_and_increase(half)[0][:, 0] + bound_length(unit * is_position) * remainders[0]
         loss = loss + bound_length(unit * ~is_position) * remainders[1]
         best = np.maximum(best, np.nextafter(projection.value.lower[:, 0] - loss * ROUND_UP, -np.inf))
     return best
 
 
-def bound_norm(form: DerivativeEnclosure, derivatives: list[Array], half: Array) -> tuple[Array, Array]:
+def bound_norm_range(form: DerivativeEnclosure, derivatives: list[Array], half: Array) -> tuple[Array, Array]:
     """Bound the length of a vector v from below and above, the latter from half its square.
 
     ``derivatives``: above the lengths of its derivatives along half widths. Of half its square the third is at most three times
@@ -58,12 +58,12 @@ def bound_norm(form: DerivativeEnclosure, derivatives: list[Array], half: Array)
     second = einsum("naj,nak->njk", form.slopes, form.slopes) + einsum("na,najk->njk", form.value, form.second)
     square = DerivativeEnclosure(form.value, einsum("na,nak->nk", form.value, form.slopes)[:, None], second[:, None])
     cubic = (3 * first_derivative * second_derivative + (norm + first_derivative) * third_derivative) / 6
-    squared = norm**2 + 2 * (square.bound_change(half)[1][:, 0] + cubic)
+    squared = norm**2 + 2 * (square.bound_decrease_and_increase(half)[1][:, 0] + cubic)
     upper = np.nextafter(np.sqrt(squared * ROUND_UP), np.inf)
     return bound_norm_below(form, 3, (third_derivative / 6, 0), half), np.asarray(upper)
 
 
-def bound_distance(
+def bound_distance_range(
     chain: BallChain, joints: list[Array], first: int, start: Array, end: Array, count: int
 ) -> tuple[Array, Array]:
     """Bound the distance of a point of link ``first`` from a point behind some joints from below and above, (N,)."""
@@ -79,8 +79,8 @@ def bound_distance(
         half[:, index] = np.where(is_ignored, 0.0, half[:, index])
         displacement = (displacement + np.where(is_ignored, cost, 0.0)) * ROUND_UP
     lengths = chain.bound_link_lengths(first, first + len(joints), end)
-    form = DerivativeEnclosure(kinematics.tip + -start, *compute_derivatives(kinematics.spin_axes, kinematics.columns))
-    lower, upper = bound_norm(
+    form = DerivativeEnclosure(kinematics.tip + -start, *vector_derivatives(kinematics.spin_axes, kinematics.columns))
+    lower, upper = bound_norm_range(
         form, [chain.bound_derivative(order, half, lengths, slide_extent, first) for order in (1, 2, 3)], half
     )
     return np.nextafter(lower - displacement, -np.inf), np.nextafter(upper + displacement, np.inf)
@@ -134,14 +134,16 @@ class RefutationVerifier(TargetLeafVerifier):
             return [self.verify_witness(self._document["witness"])]
         if tree >= 0:
             joints, tool_point = self.enclose_centers(leaf_cells, self.links[tree]), self.arm.origins[-1]
-            lower, upper = bound_distance(self.arm, joints, self.links[tree], self.points[tree], tool_point, len(leaf_cells))
+            lower, upper = bound_distance_range(
+                self.arm, joints, self.links[tree], self.points[tree], tool_point, len(leaf_cells)
+            )
             return ((lower >= self.least[tree]) | (self.least[tree] <= 0)) & (upper <= self.most[tree])
         axes = self.enclose_centers(leaf_cells)
         joints, target = axes[: self.n if lemma < 0 else self.links[lemma]], axes[self.n :]
         half = np.stack([values[:, 2] for values in (*joints, *(target[axis] for axis in self.error_axes))], 1)
         if lemma < 0:
             error = self.enclose_error(joints, target)
-            remainders, _ = error.bound_remainder(half)
+            remainders, _ = error.bound_remainder_and_angle(half)
             return bound_norm_below(error, error.linear, (remainders[:, 0], remainders[:, -1] * error.uses_rotation), half) > 0
         lower, upper = self.bound_target_distance(lemma, joints, target, half)
         return (lower > self.most[lemma]) | (upper < self.least[lemma])
@@ -158,7 +160,7 @@ class RefutationVerifier(TargetLeafVerifier):
         derivatives = [self.arm.bound_derivative(order, joint_half, lengths, slide_extent) for order in (1, 2, 3)]
         derivatives[0] += bound_length(half[:, joint_count + self.turning :])
         arm_vectors, target_vectors = ((x, x.columns, x.tip) for x in (arm_point, target_point))
-        return bound_norm(enclose_difference(*arm_vectors, *target_vectors), derivatives, half)
+        return bound_norm_range(enclose_difference(*arm_vectors, *target_vectors), derivatives, half)
 
     def verify_witness(self, witness: list[str]) -> bool:
         """Return True if a witness satisfies the claim's limits and has its tool in the box of targets."""
@@ -201,20 +203,20 @@ class LoopClosureVerifier(LeafVerifier):
         self.uses_rotation = uses_rotation
         self._plane_mask = np.array([1, 1, not planar])
         chain, self.tip = self.chain, self.chain.origins[-1]
-        kinematics = chain.enclose_point([np.array([enclose_angle(x)]) for x in tool_q])
+        kinematics = chain.enclose_point([np.array([enclose_sine_and_cosine(x)]) for x in tool_q])
         # From the tool back to the base: where that is seen from the last link, and how turned.
         base_rotation = einsum("ij,jk->ik", chain.turns[-1], kinematics.rotation[0].transpose(1, 0))
         self._base_frame = -einsum("ij,j->i", base_rotation, kinematics.tip[0]) + self.tip, base_rotation
-        base_point = self._from_last_link(chain.origins[0])
+        base_point = self._to_last_link_frame(chain.origins[0])
         chain.origins = [*chain.origins[:-1], base_point.center, *chain.origins[1:]]
         chain.turns = [*chain.turns[:-1], einsum("ij,jk->ik", base_rotation, chain.turns[0]), *chain.turns[1:]]
         chain.slides, chain.n, self._base_radius = np.tile(chain.slides, 2), 2 * self.n, base_point.radius
 
-    def _from_last_link(self, point: Array) -> BallArray:
+    def _to_last_link_frame(self, point: Array) -> BallArray:
         """Return a point of the base in the frame of the last link."""
         return self._base_frame[0] + einsum("ij,j->i", self._base_frame[1], point)
 
-    def exclude_cells(self, pair: list[tuple[int, Array]], leaf_cells: list[Cell]) -> Flags:
+    def find_excluded_cells(self, pair: list[tuple[int, Array]], leaf_cells: list[Cell]) -> Flags:
         """Return a mask of cells in which two points, each (link, (3,) m in its frame), cannot have equal distances along both
         branches.
         """
@@ -222,9 +224,11 @@ class LoopClosureVerifier(LeafVerifier):
         is_known = self.uses_rotation or (last == self.n and (b == self.tip).all())
         require(first <= last and is_known, "a point is behind the one it is paired with, or its place is not known")
         joints, count = self.enclose_centers(leaf_cells), len(leaf_cells)
-        lower, upper = bound_distance(self.chain, joints[first:last], first, a, b, count)
-        end_point = BallArray(a) if first else self._from_last_link(a)
-        other_lower, other_upper = bound_distance(self.chain, joints[last:] + joints[:first], last, b, end_point.center, count)
+        lower, upper = bound_distance_range(self.chain, joints[first:last], first, a, b, count)
+        end_point = BallArray(a) if first else self._to_last_link_frame(a)
+        other_lower, other_upper = bound_distance_range(
+            self.chain, joints[last:] + joints[:first], last, b, end_point.center, count
+        )
         radius = bound_length(self._base_radius + end_point.radius, 0) * 2
         return np.asarray((lower > (other_upper + radius) * ROUND_UP) | (upper < other_lower - radius * ROUND_UP))
 
@@ -254,7 +258,7 @@ class PathRefutationVerifier(HealthyMotion):
                 excluded = 0
                 for token in sorted({token for token, _ in leaves}):
                     pair = [self._points[index] for index in document["pairs"][token]]
-                    excluded += int(loop.exclude_cells(pair, [cell for kind, cell in leaves if kind == token]).sum())
+                    excluded += int(loop.find_excluded_cells(pair, [cell for kind, cell in leaves if kind == token]).sum())
                 rejected += [(refutation, len(leaves) - excluded)] * (excluded < len(leaves))
         return sum(len(leaves) for *_, leaves in chunk), rejected
 
@@ -270,9 +274,9 @@ def limit_to_revolution(ranges: list[Any], joints: list[dict[str, Any]]) -> list
     return limited
 
 
-def refutation_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def refutation_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a refutation has in addition to the common ones."""
-    form = locked_target_form(document, n)
+    form = locked_target_schema(document, n)
     lemma: dict[str, Any] = {"link": range(n), "point": [NUMBER_PATTERN, 3], "least": NUMBER_PATTERN}
     lemma |= {"most": NUMBER_PATTERN, "tree": TEXT_PATTERN}
     return form | {"lemmas": [lemma, ...], "witness": [NUMBER_PATTERN, n] if document.get("witness") else None}

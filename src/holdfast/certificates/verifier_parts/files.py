@@ -94,7 +94,7 @@ def require_form(value: Any, form: Any, label: str) -> None:
         require(form is ... or value is None, f"{label} must be null here")
 
 
-def require_within(pairs: list[Any], outer: list[Any], label: str) -> None:
+def require_nested_intervals(pairs: list[Any], outer: list[Any], label: str) -> None:
     """Require intervals to be in order and inside other intervals."""
     for (lower, upper), (lower_limit, upper_limit) in (
         [map(parse_hex, pair) for pair in both] for both in zip(pairs, outer, strict=True)
@@ -128,19 +128,19 @@ def _check_values(document: dict[str, Any]) -> None:
     locks = document.get("locks", [0])
     limits = document.get("limits", arm_limits)
     for key, outer in (("limits", arm_limits), ("joint_box", arm_limits), ("working_ranges", limits)):
-        require_within(document.get(key, []), outer[: len(document.get(key, []))], key)
+        require_nested_intervals(document.get(key, []), outer[: len(document.get(key, []))], key)
     locked = [lock["joint"] for lock in locks] if kind == "path" else locks
     require(locked and locked == sorted(set(locked)), "locks must be in order, each once")
     if document.get("angle"):
-        require_within([document["angle"]], [limits[document["locked"]]], "angle")
+        require_nested_intervals([document["angle"]], [limits[document["locked"]]], "angle")
     box = document["target"]["box"] if "target" in document else []
-    require_within(box, [["-inf", "inf"]] * len(box), "box of the target")
+    require_nested_intervals(box, [["-inf", "inf"]] * len(box), "box of the target")
     require(1e-6 <= parse_hex(document.get("threshold", "0x1p-1")) < 1, "threshold must be from 1e-6 to 1")
     require(all(any(int(number) for number in frame["rotation"]) for frame in document.get("snapped", [])), "a quaternion is 0")
     if kind == "path":
         tube, (first, last) = [parse_hex(number) for number in document["tube"]], document["during"]
         for knot in document["knots"]:
-            require_within([[number, number] for number in knot], limits, "a knot")
+            require_nested_intervals([[number, number] for number in knot], limits, "a knot")
             require(all(abs(parse_hex(number)) < 7 for number in knot), "a joint of a knot is beyond 7 rad or m")
         require(all(0 <= number <= 0.1 for number in tube), "a tube is from 0 to 0.1 m and rad")
         require(document["task"] != "pointing" or not any(tube), "there is no tube around a pointing path")

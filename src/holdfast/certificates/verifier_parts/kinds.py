@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .bounds import CeilingVerifier, FloorVerifier, bound_form, describe_bound
-from .distances import RefutationVerifier, refutation_form
-from .paths import describe_path, path_form
-from .targets import ReachVerifier, bundle_form, describe_targets, reach_form
-from .zeros import StructuralZeroVerifier, describe_structural_zero, structural_zero_form
+from .bounds import CeilingVerifier, FloorVerifier, bound_claim_schema, describe_bound
+from .distances import RefutationVerifier, refutation_schema
+from .paths import describe_path, path_claim_schema
+from .targets import ReachVerifier, bundle_claim_schema, describe_targets, reach_claim_schema
+from .zeros import StructuralZeroVerifier, describe_structural_zero, structural_zero_schema
 
 
 @dataclass(frozen=True)
@@ -27,13 +27,13 @@ class CertificateKind:
 
 
 CERTIFICATE_KINDS = {
-    "reach": CertificateKind(reach_form, describe_targets, ReachVerifier),
-    "bundle": CertificateKind(bundle_form, describe_targets),
-    "refutation": CertificateKind(refutation_form, describe_targets, RefutationVerifier),
-    "ceiling": CertificateKind(bound_form, describe_bound, CeilingVerifier),
-    "floor": CertificateKind(bound_form, describe_bound, FloorVerifier),
-    "structural-zero": CertificateKind(structural_zero_form, describe_structural_zero, StructuralZeroVerifier),
-    "path": CertificateKind(path_form, describe_path),
+    "reach": CertificateKind(reach_claim_schema, describe_targets, ReachVerifier),
+    "bundle": CertificateKind(bundle_claim_schema, describe_targets),
+    "refutation": CertificateKind(refutation_schema, describe_targets, RefutationVerifier),
+    "ceiling": CertificateKind(bound_claim_schema, describe_bound, CeilingVerifier),
+    "floor": CertificateKind(bound_claim_schema, describe_bound, FloorVerifier),
+    "structural-zero": CertificateKind(structural_zero_schema, describe_structural_zero, StructuralZeroVerifier),
+    "path": CertificateKind(path_claim_schema, describe_path),
 }
 
 

@@ -26,11 +26,11 @@ from typing import Any
 
 import numpy as np
 
-from .balls import MIN_ROUNDING, ROUND_UP, Array, BallArray, Flags, concatenate, einsum, flint, select_rows, solve_regular
-from .chain import BallChain, enclose_angle, enclose_values
+from .balls import MIN_ROUNDING, ROUND_UP, Array, BallArray, Flags, concatenate, einsum, flint, select_rows, solve_or_nan
+from .chain import BallChain, enclose_sine_and_cosine, enclose_sines_and_cosines
 from .forms import TASK_FORMS, parse_hex
 from .paths import PATH_CENTER_UNIT, SEGMENT_INSTANTS, Ints, StoredSlab
-from .taylor import Inclusion, TaskErrorEnclosure
+from .taylor import InvariantSectionBoxes, TaskErrorEnclosure
 
 BATCH_CELLS = 256  # cells
 _UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
@@ -68,20 +68,22 @@ class PathVerifier(HealthyMotion):
         self.tube = np.array([metres] * linear + [radians] * turning) if metres or radians else np.empty(0)
         self.driven = [[lock["joint"], *lock["followers"]] for lock in document["locks"]]
 
-    def enclose_motion(self, middles: Ints, ends: Ints) -> tuple[list[Array], BallArray]:
+    def enclose_healthy_motion(self, doubled_instants: Ints, rate_instants: Ints) -> tuple[list[Array], BallArray]:
         """Return the joints of the healthy motion at middles (twice the instants), as :func:`enclose_angle` gives them, and
         their rates.
 
         Rates are those over the segments of ends.
         """
-        segment, rows = (ends - 1) // SEGMENT_INSTANTS, []
-        for key in zip(segment.tolist(), middles.tolist(), strict=True):
+        segment, rows = (rate_instants - 1) // SEGMENT_INSTANTS, []
+        for key in zip(segment.tolist(), doubled_instants.tolist(), strict=True):
             if key not in self._cache:
-                self._cache[key] = np.array([enclose_angle(number) for number in self.interpolate_joints(key[1], key[0])])
+                self._cache[key] = np.array(
+                    [enclose_sine_and_cosine(number) for number in self.interpolate_joints(key[1], key[0])]
+                )
             rows.append(self._cache[key])
         return list(np.array(rows).transpose(1, 0, 2)), BallArray(self.knots[segment + 1]) + -self.knots[segment]
 
-    def choose_section(
+    def choose_motion_response(
         self, gradients: Array, rates: tuple[BallArray, BallArray], driven: list[int], is_tangent: Flags
     ) -> tuple[BallArray, BallArray]:
         """Choose D (N, 2n, 2 + tube + m), and the response of the free joints and the path position to its columns (N, f + 1,
@@ -115,7 +117,7 @@ class PathVerifier(HealthyMotion):
         lock_motion = einsum("nk,c->nkc", motion, 1.0 * (np.arange(response.shape[2]) == 0))
         return einsum("nk,nc->nkc", driven_rates, response[:, -1]) + lock_motion + free_motion, BallArray(response)
 
-    def bound_gradients(self, cells: Inclusion, half: Array) -> Array:
+    def bound_residual_gradients(self, cells: InvariantSectionBoxes, half: Array) -> Array:
         """Bound the gradients (N, m, 1 + m) of g - s by the path and by s."""
         columns, error = [1, *range(half.shape[1] - self.m, half.shape[1])], cells.error
         joint_travel = np.einsum("nkc,nc->nk", cells.response, half) * ROUND_UP
@@ -136,26 +138,30 @@ class PathVerifier(HealthyMotion):
             )
             gradients[:, : error.linear] += third[:, None] / 2
             angle_gradient += cumulative[:, -1]
-        gradients[:, error.linear :] += (angle_gradient * cells.error.bound_remainder(joint_travel)[1][:, None] ** 2 / 2)[
-            :, None
-        ]
+        gradients[:, error.linear :] += (
+            angle_gradient * cells.error.bound_remainder_and_angle(joint_travel)[1][:, None] ** 2 / 2
+        )[:, None]
         return np.asarray(gradients * ROUND_UP * ROUND_UP + MIN_ROUNDING)
 
-    def is_contraction(self, cells: Inclusion, s: Array) -> Flags:
+    def is_contraction(self, cells: InvariantSectionBoxes, section_box: Array) -> Flags:
         """Return a mask of cells in which s -> s - g moves any two points of the box closer to each other."""
-        gradients = self.bound_gradients(cells, np.concatenate([cells.half_widths[:, : -self.m], s], axis=1))[:, :, 1:]
-        return np.asarray((np.einsum("nab,nb->na", gradients, s) * ROUND_UP + MIN_ROUNDING < 0.999 * s).all(axis=1))
+        gradients = self.bound_residual_gradients(
+            cells, np.concatenate([cells.half_widths[:, : -self.m], section_box], axis=1)
+        )[:, :, 1:]
+        return np.asarray(
+            (np.einsum("nab,nb->na", gradients, section_box) * ROUND_UP + MIN_ROUNDING < 0.999 * section_box).all(axis=1)
+        )
 
-    def moves_forward(self, cells: Inclusion, response: BallArray, overshoot: Array) -> Flags:
+    def moves_forward(self, cells: InvariantSectionBoxes, response: BallArray, overshoot: Array) -> Flags:
         """Return a mask of tangent cells that only go forward on the path and end within their segment; ``overshoot`` (N,) is
         measured from its end.
 
         As motions begin in it, they stay there. Where slopes by s are at most M, and by the path at most b, the solution moves
         by at most u if b + M u <= u.
         """
-        gradients = self.bound_gradients(cells, cells.half_widths)
+        gradients = self.bound_residual_gradients(cells, cells.half_widths)
         b, inner = gradients[:, :, 0], gradients[:, :, 1:]
-        u = solve_regular(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
+        u = solve_or_nan(np.eye(self.m) - np.nan_to_num(inner), b[:, :, None])[:, :, 0] * 1.001 + 1e-12
         is_bounded = (u >= 0).all(axis=1) & (
             (b + np.einsum("nab,nb->na", inner, u) * ROUND_UP) * ROUND_UP + MIN_ROUNDING <= u
         ).all(axis=1)
@@ -170,18 +176,22 @@ class PathVerifier(HealthyMotion):
         begin, stop = np.repeat([slab[1] for slab in slabs], counts, axis=0).T
         starts, ends, half_width = np.concatenate([slab[2] for slab in slabs]).T
         is_first, is_tangent = np.concatenate([np.arange(count) == 0 for count in counts]), half_width > 0
-        locked, lock_rate = self.enclose_motion(begin + stop, stop)
-        healthy, path_rate = self.enclose_motion(starts + ends, ends)
-        joints = [enclose_values(values) for values in (np.concatenate([slab[3] for slab in slabs]) * PATH_CENTER_UNIT).T]
+        locked, lock_rate = self.enclose_healthy_motion(begin + stop, stop)
+        healthy, path_rate = self.enclose_healthy_motion(starts + ends, ends)
+        joints = [
+            enclose_sines_and_cosines(values) for values in (np.concatenate([slab[3] for slab in slabs]) * PATH_CENTER_UNIT).T
+        ]
         for joint in driven:
             joints[joint] = (locked if joint == driven[0] else healthy)[joint]
         error = TaskErrorEnclosure(self.task, self.chain, joints, self.chain, healthy)
-        directions, response = self.choose_section(error.slopes.center[:, :m], (lock_rate, path_rate), driven, is_tangent)
+        directions, response = self.choose_motion_response(
+            error.slopes.center[:, :m], (lock_rate, path_rate), driven, is_tangent
+        )
         offsets, half = np.zeros((m, 2 + tube + m)), np.zeros((len(ends), 2 + tube + m))
         offsets[:, 2 : 2 + tube] = np.eye(m)[:, :tube]
         half[:, 0], half[:, 2 : 2 + tube] = (stop - begin) / (2 * SEGMENT_INSTANTS), self.tube
         half[:, 1] = np.where(is_tangent, half_width * PATH_CENTER_UNIT, (ends - starts) / (2 * SEGMENT_INSTANTS))
-        inclusion = Inclusion(error, directions, offsets, half)
+        inclusion = InvariantSectionBoxes(error, directions, offsets, half)
         unique_box, unique = np.zeros((len(ends), m)), np.zeros(len(ends), dtype=bool)
         for size in _UNIQUE_BOX_SIZES:
             trial_box = np.where(unique[:, None], unique_box, half[:, -m:] + size)
@@ -196,9 +206,9 @@ class PathVerifier(HealthyMotion):
         centers = concatenate(1, q[:, free], BallArray(middle[:, None]))
         instants = BallArray((begin + stop)[:, None] / (2 * SEGMENT_INSTANTS))
         lock_start = concatenate(1, _joint_values(locked)[:, free], instants), concatenate(1, lock_rate[:, free], ones)
-        return is_valid & self.stays_in_unique_box(centers, response, half, unique_box, lock_start, is_first, is_tangent)
+        return is_valid & self.contains_previous_solution(centers, response, half, unique_box, lock_start, is_first, is_tangent)
 
-    def stays_in_unique_box(
+    def contains_previous_solution(
         self,
         centers: BallArray,
         response: BallArray,
@@ -227,7 +237,7 @@ class PathVerifier(HealthyMotion):
             is_first, BallArray(np.zeros((*response.center.shape[:2], m))), previous_response[:, :, -m:]
         )
         matrix = response[:, :, [1, *range(-m, 0)]]
-        inverse = BallArray(solve_regular(matrix.center, np.eye(m + 1)[None]))
+        inverse = BallArray(solve_or_nan(matrix.center, np.eye(m + 1)[None]))
         inverse_error = (einsum("nab,nbc->nac", inverse, matrix) + -np.eye(m + 1)).magnitude
         # Between cells that are not turned this is on a face, exactly, and the diagonal where motions begin is in the cell.
         on_face = ~is_tangent & (is_first | ~np.roll(is_tangent, 1))

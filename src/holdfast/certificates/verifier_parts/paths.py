@@ -50,7 +50,7 @@ def measure_coverage(spans: Iterable[tuple[int, int]], document: dict[str, Any])
     return Fraction(total, last - first)
 
 
-def find_gaps(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> list[tuple[int, int]]:
+def find_uncovered_intervals(spans: Iterable[tuple[int, int]], document: dict[str, Any]) -> list[tuple[int, int]]:
     """Return the gaps between intervals among the claimed lock instants."""
     (reached, last), uncovered = document["during"], []
     for begin, stop in sorted(spans):
@@ -64,7 +64,7 @@ def format_fraction(fraction: Fraction) -> str:
     return f"{fraction.numerator}/{fraction.denominator}"
 
 
-def compute_volumes(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
+def format_worst_fractions(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
     """Return the smallest proved and the largest refuted and undecided fractions over the locks of all joints, given (proved,
     refuted).
     """
@@ -122,7 +122,7 @@ def read_refutations(document: dict[str, Any]) -> Iterator[StoredRefutation]:
             earliest = stop
 
 
-def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> Ints:
+def _decode_cells(begin: int, encoded_ends: Ints, encoded_starts: Ints) -> Ints:
     """Return starts, ends and half widths (0 unless tangent) of cells, from their ends or negative half widths, and the
     positions of some.
     """
@@ -130,9 +130,9 @@ def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> In
     faces = np.append(begin, np.maximum.accumulate(np.where(is_tangent, begin, encoded_ends)))
     follows_tangent = np.append(False, is_tangent[:-1])
     segment_starts, has_position = faces[:-1] // SEGMENT_INSTANTS * SEGMENT_INSTANTS, is_tangent | follows_tangent
-    starts = np.where(has_position, segment_starts + encoded_positions, faces[:-1])
+    starts = np.where(has_position, segment_starts + encoded_starts, faces[:-1])
     ends = np.where(is_tangent, starts, encoded_ends)
-    require(not encoded_positions[~has_position].any(), "centres of joints that are not free must be 0")
+    require(not encoded_starts[~has_position].any(), "centres of joints that are not free must be 0")
     lengths = starts - segment_starts
     is_valid = (lengths >= is_tangent) & (lengths <= SEGMENT_INSTANTS - ~is_tangent) & (encoded_ends >= -(1 << 31))
     is_valid &= is_tangent | (
@@ -142,7 +142,7 @@ def _decode_cells(begin: int, encoded_ends: Ints, encoded_positions: Ints) -> In
     return np.stack([starts, ends, np.where(is_tangent, -encoded_ends, 0)], axis=1)
 
 
-def path_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def path_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a path has in addition to the common ones."""
     task = require_task(document)
     count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))

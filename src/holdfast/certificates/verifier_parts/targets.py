@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .balls import Array, BallArray, Flags
-from .chain import BallChain, Leaf, LeafVerifier, build_target_chain, enclose_angle, enclose_values
+from .chain import BallChain, Leaf, LeafVerifier, build_target_chain, enclose_sine_and_cosine, enclose_sines_and_cosines
 from .forms import (
     HASH_PATTERN,
     LIMITS_FORM,
@@ -26,7 +26,7 @@ from .forms import (
     require,
     require_task,
 )
-from .taylor import Inclusion, TaskErrorEnclosure
+from .taylor import InvariantSectionBoxes, TaskErrorEnclosure
 from .tree import MAX_LEAVES, PROVED_TOKEN, Cell, iterate_cells
 
 CENTER_UNIT = 2.0**-24  # rad or m, of centres
@@ -81,14 +81,14 @@ class ReachVerifier(TargetLeafVerifier):
     def enclose_leaf_centers(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
         """Return the joints at the centers, and the axes of the cells, as :func:`enclose_angle` gives them."""
         axes = self.enclose_centers(cell for cell, _ in leaves)
-        joints = [enclose_values(values) for values in (np.array([counts for _, counts in leaves]) * CENTER_UNIT).T]
+        joints = [enclose_sines_and_cosines(values) for values in (np.array([counts for _, counts in leaves]) * CENTER_UNIT).T]
         for joint in self.fixed:
-            joints[joint] = np.array([enclose_angle(Fraction(self.limits[joint, 0]))] * len(leaves))
+            joints[joint] = np.array([enclose_sine_and_cosine(Fraction(self.limits[joint, 0]))] * len(leaves))
         if self.locked >= 0:
             joints[self.locked] = axes[-1]
         return joints, axes
 
-    def choose_section(self, error: TaskErrorEnclosure) -> Array:
+    def choose_joint_response(self, error: TaskErrorEnclosure) -> Array:
         """Choose matrices D (N, V, axes of the cell and of the section) that follow the solution; any choice is valid."""
         gradients, axis_count = error.slopes.center[:, : error.m], len(self.width)
         inverse = np.linalg.pinv(np.nan_to_num(gradients[:, :, self.free]))
@@ -101,14 +101,14 @@ class ReachVerifier(TargetLeafVerifier):
             directions[:, self.free, axis] = -np.einsum("nfm,nm->nf", inverse, gradients[:, :, variable])
         return np.nan_to_num(directions)
 
-    def enclose_leaves(self, leaves: list[Leaf]) -> tuple[Inclusion, BallArray]:
+    def enclose_leaves(self, leaves: list[Leaf]) -> tuple[InvariantSectionBoxes, BallArray]:
         """Return the leaves with their sections, and the middles (N, n)."""
         joints, axes = self.enclose_leaf_centers(leaves)
         error, q = self.enclose_error(joints, axes), np.stack([joint[:, :2] for joint in joints], 2)
         half = np.stack([*(axis[:, 2] for axis in axes), *[np.zeros(len(leaves))] * error.m], 1)
-        return Inclusion(error, BallArray(self.choose_section(error)), np.zeros((error.m, half.shape[1])), half), BallArray(
-            q[:, 0], q[:, 1]
-        )
+        return InvariantSectionBoxes(
+            error, BallArray(self.choose_joint_response(error)), np.zeros((error.m, half.shape[1])), half
+        ), BallArray(q[:, 0], q[:, 1])
 
     def leaf_kind(self, leaf: Leaf) -> int:
         """Return 0, because all leaves are of one kind."""
@@ -120,7 +120,7 @@ class ReachVerifier(TargetLeafVerifier):
         return inclusion.is_proved & inclusion.is_within_limits(q, self.limits, self.free)
 
 
-def target_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def target_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys about targets and limits."""
     task, target = require_task(document), document.get("target")
     axes = str(target.get("axes")) if isinstance(target, dict) else ""
@@ -129,24 +129,24 @@ def target_form(document: dict[str, Any], n: int) -> dict[str, Any]:
     return {"target": box, "limits": [LIMITS_FORM, n]}
 
 
-def bundle_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def bundle_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a bundle has in addition to the common ones."""
-    form, locks = target_form(document, n), document.get("locks")
+    form, locks = target_schema(document, n), document.get("locks")
     part = {"file": r"\w[\w.-]*", "digest": HASH_PATTERN, "locked": range(-1, n)}
     parts = [part, len(locks) + 1 if isinstance(locks, list) else 0]
     return form | {"working_ranges": [LIMITS_FORM, n], "locks": [range(n), ...], "parts": parts}
 
 
-def locked_target_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def locked_target_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys about targets, limits, and a locked joint, with the tree."""
     angle = None if document.get("locked") == -1 else [NUMBER_PATTERN, 2]
-    form = target_form(document, n)
+    form = target_schema(document, n)
     return form | {"locked": range(-1, n), "angle": angle, "tree": TEXT_PATTERN}
 
 
-def reach_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def reach_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a reach has in addition to the common ones."""
-    form = locked_target_form(document, n)
+    form = locked_target_schema(document, n)
     return form | {"centres": TEXT_PATTERN, "unit": re.escape(CENTER_UNIT.hex()), "refutations": [..., 0]}
 
 

@@ -39,15 +39,15 @@ class DerivativeEnclosure:
         """Select some of the numbers."""
         return DerivativeEnclosure(self.value[:, key], self.slopes[:, key], self.second[:, key])
 
-    def substitute_columns(self, d: BallArray, offsets: Array) -> DerivativeEnclosure:
+    def substitute_columns(self, columns: BallArray, offsets: Array) -> DerivativeEnclosure:
         """Substitute columns D (N, V, C) for the variables, less ``offsets`` (a, C) of each column."""
-        second = einsum("nki,nakj->naij", d, einsum("nakl,nlj->nakj", self.second, d))
-        return DerivativeEnclosure(self.value, einsum("nak,nkc->nac", self.slopes, d) + -offsets, second)
+        second = einsum("nki,nakj->naij", columns, einsum("nakl,nlj->nakj", self.second, columns))
+        return DerivativeEnclosure(self.value, einsum("nak,nkc->nac", self.slopes, columns) + -offsets, second)
 
-    def combine_rows(self, e: BallArray) -> DerivativeEnclosure:
+    def combine_rows(self, weights: BallArray) -> DerivativeEnclosure:
         """Combine the numbers with weights e (N, a) into one number."""
-        value, gradients = einsum("na,na->n", e, self.value), einsum("na,nak->nk", e, self.slopes)
-        return DerivativeEnclosure(value[:, None], gradients[:, None], einsum("na,najk->njk", e, self.second)[:, None])
+        value, gradients = einsum("na,na->n", weights, self.value), einsum("na,nak->nk", weights, self.slopes)
+        return DerivativeEnclosure(value[:, None], gradients[:, None], einsum("na,najk->njk", weights, self.second)[:, None])
 
     @cached_property
     def gradient_magnitude(self) -> Array:
@@ -70,7 +70,7 @@ class DerivativeEnclosure:
         lower, upper = (np.diagonal(balls.lower, axis1=2, axis2=3) for balls in (self.second, -self.second))
         return lower, upper
 
-    def bound_change(self, half: Array) -> list[Array]:
+    def bound_decrease_and_increase(self, half: Array) -> list[Array]:
         """Bound the decrease and the increase of the numbers within half widths (N, V), to second order."""
         h, changes = half[:, None], list[Array]()
         mixed_terms = ((self.mixed_curvature @ h[..., None])[..., 0] * h).sum(axis=2)
@@ -82,7 +82,10 @@ class DerivativeEnclosure:
 
     def bound_magnitude(self, half: Array, remainder: Array) -> Array:
         """Bound the absolute values of the numbers, with the remainder after second order."""
-        (decrease, increase), value = ((change + remainder) * ROUND_UP for change in self.bound_change(half)), self.value
+        (decrease, increase), value = (
+            ((change + remainder) * ROUND_UP for change in self.bound_decrease_and_increase(half)),
+            self.value,
+        )
         upper = np.nextafter(value.center + value.radius, np.inf) + increase
         lower = np.nextafter(value.radius - value.center, np.inf) + decrease
         return np.nextafter(np.maximum(upper, lower), np.inf) + MIN_ROUNDING
@@ -119,7 +122,9 @@ class TaskErrorEnclosure(DerivativeEnclosure):
             value = einsum("rij,nij->nr", weights, rotation) + -np.append(np.zeros(turning), 1.5)
             second_map = einsum("rlkj,nbkj->nrbl", moves, einsum("nbik,nkj->nbij", cross_matrix(spin_axes), rotation))
             gradients = einsum("nrl,nal->nra", einsum("rlkj,nkj->nrl", moves, rotation), spin_axes)
-            parts.append(DerivativeEnclosure(value, gradients, einsum("nrbl,nal->nrab", second_map, spin_axes).symmetrize()))
+            parts.append(
+                DerivativeEnclosure(value, gradients, einsum("nrbl,nal->nrab", second_map, spin_axes).mirror_upper_triangle())
+            )
         super().__init__(*(concatenate(1, *[getattr(x, key) for x in parts]) for key in ("value", "slopes", "second")))
 
     def split_by_chain(self, values: Array) -> list[tuple[BallChain, Array, Array]]:
@@ -128,7 +133,7 @@ class TaskErrorEnclosure(DerivativeEnclosure):
         travels = values[:, :n], values[:, : n - 1 : -1]
         return [(chain, slide_extent, part) for (chain, slide_extent), part in zip(self.chains, travels, strict=True)]
 
-    def bound_remainder(self, joint_travel: Array) -> tuple[Array, Array]:
+    def bound_remainder_and_angle(self, joint_travel: Array) -> tuple[Array, Array]:
         """Bound the remainder of each row after second order where joints travel ``joint_travel`` (N, V), and the angle of
         their rotation.
         """
@@ -143,7 +148,7 @@ class TaskErrorEnclosure(DerivativeEnclosure):
         return np.stack([third] * self.linear + [angle**3 / 6 * ROUND_UP] * rotation_rows, axis=1), angle
 
 
-class Inclusion:
+class InvariantSectionBoxes:
     """Boxes of positions and sections, of half widths (N, C), the last m of the section, which s -> s - g maps into itself."""
 
     def __init__(self, error: TaskErrorEnclosure, d: BallArray, column_offsets: Array, half_widths: Array) -> None:
@@ -167,7 +172,7 @@ class Inclusion:
     def update_bounds(self) -> Flags:
         """Update e(S), the joint travel and the rotation of the tool, rounded up; return a mask where e(S) <= S."""
         self.joint_travel = np.einsum("nkc,nc->nk", self.response, self.half_widths) * ROUND_UP
-        remainder, self.angle = self.error.bound_remainder(self.joint_travel)
+        remainder, self.angle = self.error.bound_remainder_and_angle(self.joint_travel)
         self.excess, s = self.form.bound_magnitude(self.half_widths, remainder[:, : self.m]), self.half_widths[:, -self.m :]
         return np.asarray(((self.excess <= s) & (s < 1e3)).all(axis=1))
 
@@ -181,27 +186,29 @@ class Inclusion:
 def enclose_difference(
     point: PointKinematics,
     columns: BallArray,
-    tip: BallArray,
+    vector: BallArray,
     other_point: PointKinematics,
     other_columns: BallArray,
-    other_tip: BallArray,
+    other_vector: BallArray,
 ) -> DerivativeEnclosure:
     """Enclose the difference (N, 3) of a vector of one chain and one of another, by the joints of both, the other's
     backwards.
     """
     (gradients, second), (other_gradients, other_second) = (
-        compute_derivatives(*vectors) for vectors in ((point.spin_axes, columns), (other_point.spin_axes, other_columns))
+        vector_derivatives(*vectors) for vectors in ((point.spin_axes, columns), (other_point.spin_axes, other_columns))
     )
     n, v = columns.center.shape[1], columns.center.shape[1] + other_columns.center.shape[1]
-    arrays = [np.zeros((len(tip.center), 3, v, v)) for _ in range(2)]
+    arrays = [np.zeros((len(vector.center), 3, v, v)) for _ in range(2)]
     for array, own_block, other_block in (
         (arrays[0], second.center, -other_second.center),
         (arrays[1], second.radius, other_second.radius),
     ):
         array[:, :, :n, :n], array[:, :, n:, n:] = own_block, other_block[:, :, ::-1, ::-1]
-    return DerivativeEnclosure(tip + -other_tip, concatenate(2, gradients, -other_gradients[:, :, ::-1]), BallArray(*arrays))
+    return DerivativeEnclosure(
+        vector + -other_vector, concatenate(2, gradients, -other_gradients[:, :, ::-1]), BallArray(*arrays)
+    )
 
 
-def compute_derivatives(spin_axes: BallArray, columns: BallArray) -> tuple[BallArray, BallArray]:
+def vector_derivatives(spin_axes: BallArray, columns: BallArray) -> tuple[BallArray, BallArray]:
     """Return the gradients (N, 3, V) of a vector and its second derivatives (N, 3, V, V), z_a x J_b by a and a later b."""
-    return columns.transpose(0, 2, 1), einsum("nari,nbi->nrab", cross_matrix(spin_axes), columns).symmetrize()
+    return columns.transpose(0, 2, 1), einsum("nari,nbi->nrab", cross_matrix(spin_axes), columns).mirror_upper_triangle()

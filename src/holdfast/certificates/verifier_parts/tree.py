@@ -34,22 +34,22 @@ def iterate_cells(tree: bytes, axes: int, last_leaf_token: int = 2, first_lock_t
     require(not waiting, "the tree ends early")
 
 
-def compute_volume(parts: Iterable[Cell]) -> Fraction:
+def compute_disjoint_volume(parts: Iterable[Cell]) -> Fraction:
     """Return the fraction of the root box that disjoint cells fill."""
     return sum((Fraction(1, 1 << sum(d for _, d in cell)) for cell in parts), Fraction(0))
 
 
-def compute_covered_volume(parts: Collection[Cell], steps: list[int]) -> Fraction:
-    """Return the fraction of the root box that overlapping cells cover, or an upper bound once ``steps`` (one number) are
-    spent.
+def compute_covered_volume(parts: Collection[Cell], remaining_steps: list[int]) -> Fraction:
+    """Return the fraction of the root box that overlapping cells cover, or an upper bound once ``remaining_steps`` (one number)
+    are spent.
     """
-    steps[0] -= len(parts)
-    if len(parts) < 2 or steps[0] < 0 or any(not any(d for _, d in cell) for cell in parts):
-        return min(Fraction(1), compute_volume(parts))
+    remaining_steps[0] -= len(parts)
+    if len(parts) < 2 or remaining_steps[0] < 0 or any(not any(d for _, d in cell) for cell in parts):
+        return min(Fraction(1), compute_disjoint_volume(parts))
     axis = min(range(len(next(iter(parts)))), key=lambda a: sum(cell[a][1] == 0 for cell in parts))
     halves: tuple[set[Cell], set[Cell]] = set(), set()
     for cell in parts:
         (k, d), earlier_axes, later_axes = cell[axis], cell[:axis], cell[axis + 1 :]
         for upper in (0, 1) if d == 0 else (k >> (d - 1),):
             halves[upper].add((*earlier_axes, (k - (upper << (d - 1)), d - 1) if d else (0, 0), *later_axes))
-    return (compute_covered_volume(halves[0], steps) + compute_covered_volume(halves[1], steps)) / 2
+    return (compute_covered_volume(halves[0], remaining_steps) + compute_covered_volume(halves[1], remaining_steps)) / 2

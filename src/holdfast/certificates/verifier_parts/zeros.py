@@ -40,12 +40,12 @@ class StructuralZeroVerifier(LeafVerifier):
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> list[bool]:
         """Return whether the pair of axes shares its point."""
         frame, points = self._document["snapped"][kind], [Fraction(number) for number in self._document["points"]]
-        rotation = exact_rotation(map(int, frame["rotation"]))
+        rotation = rotation_from_quaternion(map(int, frame["rotation"]))
         meeting_point = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], rotation, strict=True)]
         return [meeting_point == [0, 0, points[kind - 1]]]
 
 
-def exact_rotation(quaternion: Iterable[int]) -> list[list[Fraction]]:
+def rotation_from_quaternion(quaternion: Iterable[int]) -> list[list[Fraction]]:
     """Return the rotation of an integer quaternion (w, x, y, z) of any nonzero length."""
     w, x, y, z = quaternion
     rows = [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -54,11 +54,11 @@ def exact_rotation(quaternion: Iterable[int]) -> list[list[Fraction]]:
     return [[Fraction(value, w * w + x * x + y * y + z * z) for value in row] for row in rows]
 
 
-def bound_snap_errors(document: dict[str, Any]) -> tuple[float, float]:
+def bound_frame_errors(document: dict[str, Any]) -> tuple[float, float]:
     """Bound the angle, rad, and the distance, m, between the frames of a structural zero and those of the file."""
     rotation_error, position_error = 0.0, 0.0
     for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
-        exact = [number for row in exact_rotation(map(int, frame["rotation"])) for number in row]
+        exact = [number for row in rotation_from_quaternion(map(int, frame["rotation"])) for number in row]
         squared_error = sum((x - Fraction(parse_hex(y))) ** 2 for x, y in zip(exact, joint["rotation"], strict=True))
         require(squared_error < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
         # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
@@ -69,7 +69,7 @@ def bound_snap_errors(document: dict[str, Any]) -> tuple[float, float]:
     return rotation_error, position_error
 
 
-def structural_zero_form(document: dict[str, Any], n: int) -> dict[str, Any]:
+def structural_zero_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a structural zero has in addition to the common ones."""
     require_revolute(document)
     require(document["task"] == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
@@ -80,7 +80,7 @@ def structural_zero_form(document: dict[str, Any], n: int) -> dict[str, Any]:
 def describe_structural_zero(document: dict[str, Any], names: list[str]) -> str:
     """Return the claim of a structural zero as a sentence without its end."""
     tolerance = "{} rad and {} m".format(
-        *(f"{round_to_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_snap_errors(document))
+        *(f"{round_to_two_digits(Fraction(error), True):g}" if error else "0" for error in bound_frame_errors(document))
     )
     text = f"For every configuration of an arm whose frames are within {tolerance} of the file's, "
     return f"{text}relative manipulability of the pose after a lock of {names[document['locked']]} is 0;"

@@ -58,7 +58,7 @@ class StartConfigurations:
         )
         self._cached_blocks: dict[tuple[int, int], tuple[Index, FloatArray]] = {}
 
-    def find_block(self, first: int, stop: int) -> tuple[Index, FloatArray]:
+    def find_configurations(self, first: int, stop: int) -> tuple[Index, FloatArray]:
         """Return the owners (R,), from 0, and the configurations (R, n) of the places from ``first`` up to ``stop``."""
         if (first, stop) not in self._cached_blocks:
             arm, task, poses = self._law.arm, self._law.task, self.places.poses[first:stop]
@@ -131,32 +131,34 @@ class TargetAnalysis:
             Column("ends", "int64", (("end", len(FAILURE_ENDS)),), units="1", about=", ".join(FAILURE_ENDS)),
         ]
 
-    def analyse(self, owner: Index, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
-        """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``owner`` (R,), and return all results."""
+    def analyse(self, start_index: Index, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
+        """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``start_index`` (R,), and return
+        all results.
+        """
         arm = self.law.arm
         paths = compiled_healthy_paths(self.law)
         target = np.broadcast_to(self.pose, (len(q0), 4, 4))
         q = np.empty((self.cells, len(q0), arm.n))
-        for cell, configurations in enumerate(paths.follow_cells(q0, target, self.cells)):
+        for cell, configurations in enumerate(paths.iterate_cell_midpoints(q0, target, self.cells)):
             q[cell] = configurations
         is_finite: BoolArray = np.asarray(np.isfinite(q[-1]).all(axis=1))
-        lost_counts = np.bincount(owner[~is_finite], minlength=count)
-        tried_counts = np.bincount(owner, minlength=count)
-        owner, q = owner[is_finite], q[:, is_finite]
+        lost_counts = np.bincount(start_index[~is_finite], minlength=count)
+        tried_counts = np.bincount(start_index, minlength=count)
+        start_index, q = start_index[is_finite], q[:, is_finite]
         inside = np.stack([is_in_arcs(q[..., joint], self.bounds[joint], not arm.prismatic[joint]) for joint in range(arm.n)])
         inside = np.concatenate([inside, inside.all(axis=0, keepdims=True)])  # (n + 1, K, R)
         inside_fraction = inside.mean(axis=1).T
-        fractions, ends = self._evaluate_failures(q, inside, owner, count)
+        fractions, ends = self._compute_converging_fractions(q, inside, start_index, count)
         if self.relative_to == "whole":
             fractions = np.where(inside_fraction > 0, fractions * inside_fraction, 0.0 if self.points else np.nan)
         measures = (
-            *Measures.from_fractions(inside_fraction, owner, count).parts,
-            *Measures.from_fractions(fractions, owner, count).parts,
+            *Measures.from_fractions(inside_fraction, start_index, count).parts,
+            *Measures.from_fractions(fractions, start_index, count).parts,
         )
         values: list[NDArray[Any]] = [*measures, tried_counts, lost_counts, ends]
         return dict(zip(self.names, values, strict=True))
 
-    def _evaluate_failures(
+    def _compute_converging_fractions(
         self, q: FloatArray, inside: BoolArray, owner: Index, starts: int
     ) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return the fraction (R, n + 1) of the part inside from which the failed arm converges, and failure ends
@@ -176,7 +178,7 @@ class TargetAnalysis:
         rows_of_cells = np.concatenate([group[0] for group in groups])
         cell_indices = np.concatenate([group[1] for group in groups])
         joint = np.repeat([group[2] for group in groups], [len(group[0]) for group in groups])
-        failure_ends = self._simulate_failures(q[cell_indices, rows_of_cells], joint)
+        failure_ends = self._classify_failure_ends(q[cell_indices, rows_of_cells], joint)
         np.add.at(ends, (owner[rows_of_cells], failure_ends), 1)
         reach_values = _REACH_VALUES[failure_ends]
         parts = np.split(reach_values, np.cumsum([len(group[0]) for group in groups])[:-1])
@@ -200,7 +202,7 @@ class TargetAnalysis:
         fractions[:, n] = mean_by_row(np.where(has_failed, 0.0, reached_jointly.sum(axis=0) / n), shared_cells[0], row_count)
         return fractions, ends
 
-    def _simulate_failures(self, q: FloatArray, joint: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _classify_failure_ends(self, q: FloatArray, joint: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return (N,) the ends of failures of joints (N,) at configurations (N, n), as indices of ``FAILURE_ENDS``."""
         failure_ends = np.full(len(q), END_NO_SINK)
         needs_run = np.ones(len(q), dtype=bool)

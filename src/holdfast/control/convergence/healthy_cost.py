@@ -15,7 +15,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.kinematics.solvers.inverse_kinematics import task_error
+from holdfast.kinematics.solvers.inverse_kinematics import task_error_and_jacobian
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.poses import check_poses
 
@@ -82,7 +82,11 @@ class _ErrorEvaluator:
     def _error_kernel(self) -> Kernel:
         arm = self._law.arm
         q, position, rotation = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        return Kernel("error of the task", [q, position, rotation], [task_error(arm, self._law.task, q, position, rotation)[0]])
+        return Kernel(
+            "error of the task",
+            [q, position, rotation],
+            [task_error_and_jacobian(arm, self._law.task, q, position, rotation)[0]],
+        )
 
     def __call__(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return errors (K, N), errors in the arm's own unit, remaining offsets (K, N, 3), and angles (K, N)."""

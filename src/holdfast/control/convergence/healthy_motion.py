@@ -36,7 +36,7 @@ class HealthyPaths:
         progress, step = ca.SX.sym("s"), ca.SX.sym("h")
 
         def path_rates(q: SX, fraction: SX) -> SX:
-            error_vector, _ = system.compute_error(q)
+            error_vector, _ = system.error_and_jacobian(q)
             return law.rates(q, error_vector) / (1 - fraction)
 
         rates = [path_rates(system.q, progress)]
@@ -49,7 +49,7 @@ class HealthyPaths:
             "healthy motion", [system.q, progress, step, system.target, system.rotation], [ca.vertcat(q, error_norm)]
         )
 
-    def follow_cells(self, q0: FloatArray, poses: FloatArray, count: int) -> Iterator[FloatArray]:
+    def iterate_cell_midpoints(self, q0: FloatArray, poses: FloatArray, count: int) -> Iterator[FloatArray]:
         """Yield configurations (R, n) at the middle of each of ``count`` equal parts of the path from q0 (R, n) to poses (R, 4,
         4).
 

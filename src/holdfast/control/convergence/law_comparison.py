@@ -147,7 +147,7 @@ class LawComparison(Result):
     def accuracy(self) -> float:
         """Error at which a target counts as reached, m and rad."""
         first_runs = self.runs[0]
-        return first_runs._settings.accuracy if first_runs.cycles else rest_error(first_runs.law)
+        return first_runs._settings.accuracy if first_runs.cycles else target_error_threshold(first_runs.law)
 
     def _law_index(self, name: str) -> int:
         if name not in self.names:
@@ -373,14 +373,14 @@ class LawComparison(Result):
         return lines
 
 
-def rest_error(law: Law) -> float:
+def target_error_threshold(law: Law) -> float:
     """Return the norm of the error, m and rad, below which a target counts as reached at rest."""
     return CONVERGENCE_TOLERANCE if law.task.angular else CONVERGENCE_TOLERANCE * law.arm.length_unit
 
 
-def _has_converged(case: Case, is_generous: bool) -> BoolArray:
+def _has_converged(case: Case, counts_undecided: bool) -> BoolArray:
     """Return (N,) True for the runs that converged, and if generous also for those that may still converge."""
-    return case.has_outcome("converged") | (is_generous & case.has_outcome("undecided") & case.reachable)
+    return case.has_outcome("converged") | (counts_undecided & case.has_outcome("undecided") & case.reachable)
 
 
 def _finite_quantile(values: FloatArray, level: float) -> float | None:

@@ -342,7 +342,7 @@ def _is_in_reach(
     if locked_rows.size:
         angles = q[locked_rows, joints]
         source = np.random.SeedSequence([seed, 1])
-        is_found[locked_rows] = engine.reaches_locked(
+        is_found[locked_rows] = engine.is_reachable_with_lock(
             pose[locked_rows], joints, angles, source, REACH_RESTARTS, REACH_TOLERANCE
         )
     healthy = open_rows[locked[open_rows] < 0]

@@ -98,9 +98,9 @@ def make_lattice(arm: Arm, task: Task, count: int = LATTICE_POINTS) -> Places:
 
 def sample_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
     """Sample the tool poses at ``count`` random configurations, uniform within the joint limits."""
-    from holdfast.model.arm.configurations import finite_limits
+    from holdfast.model.arm.configurations import sampling_limits
 
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     return Places(arm.forward_kinematics(generator.uniform(lower, upper, (count, arm.n))))
 
 
@@ -164,7 +164,7 @@ def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, s
     """
     arm = arm.without_idle_limits
     if arm.n - task.m == 1:
-        owner, guess = sample_curves(
+        owner, guess = sample_self_motions(
             arm, fibres(arm, places, task, spacing=_CURVE_SPACING_RAD, seed=seed, starts=_SEED_STARTS), count
         )
         q, is_solved = solver(arm, task).attempt(guess, places[owner], CURVE_TOLERANCE)
@@ -193,7 +193,7 @@ def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, s
     return owner[order], joint_space.wrap_joints(arm, solutions[order])
 
 
-def sample_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, FloatArray]:
+def sample_self_motions(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, FloatArray]:
     """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
     owner = [number for number, motion in enumerate(motions) for _ in motion.components]
     points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]

@@ -12,7 +12,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers.inverse_kinematics import solver
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 from holdfast.model.failure_modes import FailureSpec, single_joints
@@ -101,7 +101,7 @@ def point_to_point(
         joint_text = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[joint] for joint in joints)
         constraints.append(f"target still within reach (task {chosen.name}) with {joint_text} locked at the start")
     constraint_text = ", ".join(constraints) or "drawn within the limits"
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     seeds = np.random.SeedSequence(seed)
     blocks: list[PointToPoint] = []
     found_count = sampled_count = 0
@@ -137,7 +137,7 @@ def _is_still_reachable(
         return np.zeros(0, dtype=bool)
     locked = np.full(len(motions), joint)
     ik_solver = solver(motions.arm, task)
-    return ik_solver.reaches_locked(motions.target, locked, motions.q0[:, joint], seed, restarts, REACH_TOLERANCE)
+    return ik_solver.is_reachable_with_lock(motions.target, locked, motions.q0[:, joint], seed, restarts, REACH_TOLERANCE)
 
 
 def _select_motions(motions: PointToPoint, selection: NDArray[np.bool_]) -> PointToPoint:

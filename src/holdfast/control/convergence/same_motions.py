@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.convergence.healthy_cost import measure_healthy_cost
-from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison, rest_error
+from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison, target_error_threshold
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.closed_loop import DEFAULT_TOLERANCE, TARGET_RADIUS_M, simulate
 from holdfast.control.simulation.runs import RunOutcome, Runs
@@ -112,9 +112,9 @@ def compare_laws(
             poses = _to_poses(law, targets)
             costs.append(measure_healthy_cost(law, starts, poses, cycles, radius))
             report_progress(number + 1, len(all_laws) + 1)
-        least_errors = _find_least_errors(runs, radius if cycles else rest_error(all_laws[0]), restarts, seed).reshape(
-            case_count, count
-        )
+        least_errors = _find_least_errors(
+            runs, radius if cycles else target_error_threshold(all_laws[0]), restarts, seed
+        ).reshape(case_count, count)
     failure_names = (HEALTHY_CASE, *[arm.joint_names[number] for number in joints])
     offsets = prescribed_offset(all_laws[0], arm.forward_kinematics(starts), poses)
     return LawComparison(

@@ -110,7 +110,7 @@ class Workspace(Result):
 
     def means(self) -> dict[str, FloatArray]:
         """Return the mean of every measure over the starts that have it, (n + 1,) each, percent."""
-        return {name: mean_over(values, 0) for name, values in self.measures.items()}
+        return {name: mean_ignoring_nan(values, 0) for name, values in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
         """Return the intervals of the means for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
@@ -270,10 +270,10 @@ def workspace(
         raise InputError(
             f"no configuration of '{law.arm.name}' was found at the target ({position}) m; choose one within its reach"
         )
-    return analyse_target(job, StartConfigurations(law, places, configuration_count, chosen, seed), store, progress)
+    return compute_workspace(job, StartConfigurations(law, places, configuration_count, chosen, seed), store, progress)
 
 
-def analyse_target(
+def compute_workspace(
     job: TargetAnalysis, starts: StartConfigurations, store: str | Path | None = None, progress: Progress | None = None
 ) -> Workspace:
     """Analyse one target, some starts at a time."""
@@ -294,7 +294,7 @@ def analyse_target(
         if folder is not None and chunk in folder.committed_chunks:
             results = folder.read_chunk(chunk, job.names)
         else:
-            results = job.analyse(*starts.find_block(first, stop), stop - first)
+            results = job.analyse(*starts.find_configurations(first, stop), stop - first)
             if folder is not None:
                 with folder.lock_for_writing():
                     folder.commit_chunk(chunk, results)
@@ -327,7 +327,7 @@ def mean_intervals(values: FloatArray, confidence: float) -> FloatArray:
     return bounds
 
 
-def mean_over(values: FloatArray, axis: int) -> FloatArray:
+def mean_ignoring_nan(values: FloatArray, axis: int) -> FloatArray:
     """Return the mean along an axis of the values that are not NaN; NaN where there is none."""
     is_known = ~np.isnan(values)
     count = is_known.sum(axis=axis)

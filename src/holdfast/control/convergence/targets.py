@@ -19,7 +19,7 @@ from holdfast.control.convergence.analysis import (
 )
 from holdfast.control.convergence.measures import MEASURE_NAMES
 from holdfast.control.convergence.places import Places, read_places
-from holdfast.control.convergence.start_workspace import analyse_target, mean_intervals, mean_over
+from holdfast.control.convergence.start_workspace import compute_workspace, mean_ignoring_nan, mean_intervals
 from holdfast.control.laws.law import Law
 from holdfast.core.probability.intervals import check_confidence
 from holdfast.core.progress import reports_progress
@@ -61,11 +61,11 @@ class TargetMeasures(Result):
     @property
     def measures(self) -> dict[str, FloatArray]:
         """Mean of each measure for each target over the starts that have it, (T, n + 1) each, percent."""
-        return {name: mean_over(columns, 1) for name, columns in self.values.items()}
+        return {name: mean_ignoring_nan(columns, 1) for name, columns in self.values.items()}
 
     def means(self) -> dict[str, FloatArray]:
         """Return the mean of every measure over the targets that have it, (n + 1,) each, percent."""
-        return {name: mean_over(columns, 0) for name, columns in self.measures.items()}
+        return {name: mean_ignoring_nan(columns, 0) for name, columns in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
         """Return the intervals of :meth:`means` for targets that are a random sample: (n + 1, 2) each, percent, for these very
@@ -159,7 +159,7 @@ def target_measures(
     for index, pose in enumerate(target_places.poses):
         job = prepare_analysis(law, pose, configuration_count, failures, chosen, seed=seed, **options)
         if job.is_reached:
-            target_workspace = analyse_target(job, start_configurations)
+            target_workspace = compute_workspace(job, start_configurations)
             for name, columns in target_workspace.measures.items():
                 values[name][index] = columns
             tried_counts[index] = target_workspace.configurations - target_workspace.lost

@@ -24,7 +24,7 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import LARGEST_EXACT_INTEGER, check_arguments, require_real_numbers
 from holdfast.kinematics.solvers import joint_space
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.task import target_pose
 from holdfast.model.failure_modes import LockedAt, locks_with_values
 
@@ -168,7 +168,7 @@ def _make_starts(
     law: Law, moving: Sequence[int], starts: int | ArrayLike, grid: int | None, generator: np.random.Generator
 ) -> FloatArray:
     arm = law.arm
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     if grid is not None:
         if len(moving) != 2 or grid < 2:
             raise InputError(

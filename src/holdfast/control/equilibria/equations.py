@@ -25,7 +25,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
 # _MAX_NEWTON_ROUNDS and _NEAR_RESIDUAL: after as many, only what is as near as that goes on for as many again
@@ -59,7 +59,7 @@ class RestEquations:
         law = self.law
         q, u, c, s = self.columns.split_symbol(self._unknowns).values()
         mask, quadratic_form = self.system.mask, law.quadratic()
-        error, _ = self.system.compute_scaled_error(q)
+        error, _ = self.system.scaled_error_and_jacobian(q)
         length_unit = law.arm.length_unit
         rates = ca.SX.sym("rates", law.arm.n)
         if quadratic_form is None:
@@ -119,27 +119,27 @@ class RestEquations:
         parameters = [*self.system.parameters, free]
         return Loop("rest points", state, parameters, next_state=next_state, residual=residual)
 
-    def evaluate(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def evaluate_equations(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Evaluate the nontrivial equations (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""
         used_rows = np.flatnonzero(np.concatenate([mask, np.ones(2 + self.law.task.m)]))
         values, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
         return values[:, used_rows], jacobian[:, used_rows]
 
-    def sum_locked_rates(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
+    def locked_rates_residual(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
         """Return (N,) the remainder of ``A J' u`` on the locked joints, which is 0 where J loses rank."""
         return np.asarray(self._locked_rates_kernel(z, pose[:3, 3], pose[:3, :3], mask))
 
     def sample_starts(self, count: int, generator: np.random.Generator) -> FloatArray:
         """Sample random unknowns (count, size)."""
         n, m = self.law.arm.n, self.law.task.m
-        lower, upper = finite_limits(self.law.arm)
+        lower, upper = sampling_limits(self.law.arm)
         is_revolute = ~self.law.arm.prismatic
         q = generator.uniform(np.where(is_revolute, -np.pi, lower), np.where(is_revolute, np.pi, upper), (count, n))
         u = generator.normal(size=(count, m))
         angle = generator.uniform(-np.pi / 2, np.pi / 2, count)
         return np.column_stack([q, u / np.linalg.norm(u, axis=1, keepdims=True), np.cos(angle), np.sin(angle)])
 
-    def fit_unknowns(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
+    def estimate_unknowns(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
         """Return unknowns (N, size) near configurations (N, n) that are nearly at rest, with the u and s that fit best."""
         z = np.column_stack([q, np.eye(self.law.task.m)[np.zeros(len(q), dtype=int)], np.ones(len(q)), np.zeros(len(q))])
         parts, slices = self.columns.view_parts(z), self.columns.slices
@@ -167,5 +167,5 @@ class RestEquations:
             solutions[unfinished], parameters[unfinished], EQUATION_TOLERANCE, _MAX_NEWTON_ROUNDS
         ).state
         solutions = solutions[:, : self.size]
-        values, _ = self.evaluate(solutions, pose, mask)
+        values, _ = self.evaluate_equations(solutions, pose, mask)
         return solutions, np.linalg.norm(values, axis=1) <= 10 * EQUATION_TOLERANCE

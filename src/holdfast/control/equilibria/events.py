@@ -41,10 +41,10 @@ class CurveEvent(IntEnum):
     PAIR = 5
 
 
-def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_constant: bool) -> EquilibriumCurve:
+def make_curve_with_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_constant: bool) -> EquilibriumCurve:
     """Make a curve from its traced points z (K, size), with all events inserted as points."""
     n = system.law.arm.n
-    tests, tangents = _evaluate_tests(system, joint, z, np.gradient(z, axis=0))
+    tests, tangents = _evaluate_event_tests(system, joint, z, np.gradient(z, axis=0))
     skipped_events = (CurveEvent.FOLD, CurveEvent.DETERMINANT, CurveEvent.PAIR) if is_constant else ()
     signs = np.sign(tests)
     changes_sign = (signs[1:] * signs[:-1] < 0) & ~np.isin(np.arange(len(CurveEvent)), skipped_events)
@@ -59,7 +59,9 @@ def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_
     eigenvalues, (_, error, scaled_error) = system.eigenvalues(q), system.linear.rates(q, system.pose)
     point_kinds = np.full(len(q), Kind.DEGENERATE, dtype=np.uint8) if is_constant else classify_kinds(eigenvalues, scaled_error)
     point_kinds[label == CurveEvent.TARGET] = Kind.SOLUTION
-    segments = (Segment(Kind.DEGENERATE, 0, len(q) - 1),) if is_constant else _split_segments(system, z, label, point_kinds)
+    segments = (
+        (Segment(Kind.DEGENERATE, 0, len(q) - 1),) if is_constant else _split_curve_by_kind(system, z, label, point_kinds)
+    )
     return EquilibriumCurve(
         q=q,
         joint=joint,
@@ -72,7 +74,7 @@ def mark_events(system: RestSystem, joint: int, z: FloatArray, closed: bool, is_
         branch_points=np.flatnonzero(label == CurveEvent.BRANCH),
         rank_losses=np.flatnonzero(label == CurveEvent.RANK_LOSS),
         solutions=np.flatnonzero(label == CurveEvent.TARGET),
-        hopf_points=np.flatnonzero((label == CurveEvent.PAIR) & _is_oscillating(eigenvalues)),
+        hopf_points=np.flatnonzero((label == CurveEvent.PAIR) & _has_imaginary_pair(eigenvalues)),
         segments=segments,
     )
 
@@ -106,16 +108,16 @@ class CurveSteps:
         normal = displacement[:, None, active] / length[:, None]
         plane_offset = np.einsum("ij,ij->i", normal[:, 0], z[:, active])
         for _ in range(_EVENT_NEWTON_STEPS):
-            values, jacobian = self.system.evaluate(z)
+            values, jacobian = self.system.evaluate_equations(z)
             plane_error = np.einsum("ij,ij->i", normal[:, 0], z[:, active]) - plane_offset
             inverse = np.linalg.pinv(np.concatenate([jacobian, normal], axis=1), rcond=_CROSSING_FRACTION)
             z[:, active] -= np.einsum("ijk,ik->ij", inverse, np.column_stack([values, plane_error]))
         return z
 
 
-def _evaluate_tests(system: RestSystem, joint: int, z: FloatArray, forward: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _evaluate_event_tests(system: RestSystem, joint: int, z: FloatArray, forward: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return (N, 6) the functions of which a change of sign is an event, and unit tangents (N, size)."""
-    _, jacobian = system.evaluate(z)
+    _, jacobian = system.evaluate_equations(z)
     tangent = np.zeros_like(z)
     tangent[:, system.active] = np.linalg.svd(jacobian)[2][:, -1]
     tangent *= np.sign(np.einsum("ij,ij->i", tangent, forward))[:, None]
@@ -125,7 +127,7 @@ def _evaluate_tests(system: RestSystem, joint: int, z: FloatArray, forward: Floa
     pair_test = np.prod(eigenvalues[:, first] + eigenvalues[:, second], axis=1).real
     target_test = system.equations.columns.view_parts(z)["s"][:, 0]
     stability_test = np.prod(eigenvalues, axis=1).real
-    tests = [tangent[:, joint], branch_test, system.sum_locked_rates(z), target_test, stability_test, pair_test]
+    tests = [tangent[:, joint], branch_test, system.locked_rates_residual(z), target_test, stability_test, pair_test]
     return np.stack(tests, axis=1), tangent
 
 
@@ -139,12 +141,12 @@ def _bisect_events(
     for _ in range(_EVENT_BISECTIONS if len(event_index) else 0):
         middle = (lower + upper) / 2
         points = steps.interpolate(middle)
-        is_same_sign = np.sign(_evaluate_tests(system, joint, points, forward)[0][row_index, event_index]) == sign
+        is_same_sign = np.sign(_evaluate_event_tests(system, joint, points, forward)[0][row_index, event_index]) == sign
         lower, upper = np.where(is_same_sign, middle, lower), np.where(is_same_sign, upper, middle)
     return (lower + upper) / 2, points
 
 
-def _split_segments(
+def _split_curve_by_kind(
     system: RestSystem, z: FloatArray, label: NDArray[np.int64], kind: NDArray[np.uint8]
 ) -> tuple[Segment, ...]:
     """Split a curve into sections of one kind between events."""
@@ -174,7 +176,7 @@ def _split_segments(
     return tuple(segments)
 
 
-def _is_oscillating(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
+def _has_imaginary_pair(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
     """Return (N,) True where a complex pair lies on the imaginary axis."""
     scale = np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray(((np.abs(eigenvalues.real) < 1e-6 * scale) & (np.abs(eigenvalues.imag) > 1e-6 * scale)).any(axis=1))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from holdfast.control.equilibria.system import RestSystem, wrap_angles
 from holdfast.control.simulation.runs import RunOutcome
-from holdfast.control.simulation.system import tool_errors
+from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.errors import InputError
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
@@ -190,7 +190,7 @@ class _ShootingMethod:
         if multipliers.size:
             multipliers = np.delete(multipliers, np.argmin(np.abs(multipliers - 1)))
         _, error_norm, _ = system.linear.rates(path, system.pose)
-        errors = tool_errors(system.law, path, error_norm, system.pose)
+        errors = position_and_angle_errors(system.law, path, error_norm, system.pose)
         time_step = (period if window is None else window) / gain / (len(path) - 1)
         return Orbit(
             label=label,

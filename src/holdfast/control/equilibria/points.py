@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from holdfast.control.equilibria.stability import Kind, Kinds, classify_kinds, is_attracting
 from holdfast.control.equilibria.system import RestSystem, idle_joints, select_distinct, wrap_angles
 from holdfast.control.laws.law import Law
-from holdfast.control.simulation.system import tool_errors
+from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import Progress, ignore_progress
 from holdfast.core.result import Result
@@ -86,7 +86,7 @@ class StationaryPoints(Result):
 
     @cached_property
     def _tool_errors(self) -> tuple[FloatArray, FloatArray]:
-        return tool_errors(self.law, self.q, self.error, self.target)
+        return position_and_angle_errors(self.law, self.q, self.error, self.target)
 
     @property
     def attracting(self) -> BoolArray:
@@ -141,9 +141,16 @@ def find_stationary_points(
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     has_spare_joints = int(system.healthy.sum()) > system.law.task.m
     solutions, solution_starts = _gather_points(
-        system, locked_values, system.find_solutions, generator, 1 if has_spare_joints else MAX_WAVES, ignore_progress
+        system,
+        locked_values,
+        system.find_target_configurations,
+        generator,
+        1 if has_spare_joints else MAX_WAVES,
+        ignore_progress,
     )
-    stuck_points, stuck_starts = _gather_points(system, locked_values, system.find_stuck, generator, MAX_WAVES, report_progress)
+    stuck_points, stuck_starts = _gather_points(
+        system, locked_values, system.find_stuck_configurations, generator, MAX_WAVES, report_progress
+    )
     return classify_points(system, locked_values, np.concatenate([solutions, stuck_points]), solution_starts + stuck_starts)
 
 

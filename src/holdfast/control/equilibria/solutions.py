@@ -29,7 +29,7 @@ class SolutionSearch:
     @cached_kernel
     def _search_loop(self) -> Loop:
         q = self._system.q
-        error, jacobian = self._system.compute_scaled_error(q)
+        error, jacobian = self._system.scaled_error_and_jacobian(q)
         squared_error = ca.sumsqr(error)
         step = damped_least_norm(jacobian @ ca.diag(self._system.mask), error, 1e-3 * squared_error + 1e-14)
         return Loop("solutions", q, self._system.parameters, next_state=q + step, residual=ca.sqrt(squared_error))

@@ -76,8 +76,8 @@ class Linearisation:
     @cached_kernel
     def _rates_kernel(self) -> Kernel:
         system = self._system
-        error, _ = system.compute_error(system.q)
-        error_norms = ca.norm_2(error), ca.norm_2(system.compute_scaled_error(system.q)[0])
+        error, _ = system.error_and_jacobian(system.q)
+        error_norms = ca.norm_2(error), ca.norm_2(system.scaled_error_and_jacobian(system.q)[0])
         return Kernel(
             "rest rates",
             [system.q, system.target, system.rotation],
@@ -88,12 +88,12 @@ class Linearisation:
     @cached_kernel
     def _jacobian_kernel(self) -> Kernel:
         system = self._system
-        error, jacobian = system.compute_error(system.q)
+        error, jacobian = system.error_and_jacobian(system.q)
         inputs = [system.q, system.target, system.rotation]
         outputs = [
             self.law.with_slopes(system.q, error, system.q)[1],
             jacobian,
-            ca.norm_2(system.compute_scaled_error(system.q)[0]),
+            ca.norm_2(system.scaled_error_and_jacobian(system.q)[0]),
         ]
         return Kernel("linearisation", inputs, outputs)
 

@@ -57,13 +57,13 @@ class RestSystem:
         z[:, list(self.idle)] = 0.0
         return z
 
-    def find_seeds(self, count: int, generator: np.random.Generator) -> FloatArray:
+    def find_resting_unknowns(self, count: int, generator: np.random.Generator) -> FloatArray:
         """Find unknowns (N, size) of erroneous rest for any value of the locked joints."""
         z, is_solved = self.equations.search(self.sample_starts(count, generator), self.pose, self.mask, self._free)
         z = z[is_solved]
         return z[self.is_stationary(z[:, : self.law.arm.n])]
 
-    def find_stuck(self, z: FloatArray) -> FloatArray:
+    def find_stuck_configurations(self, z: FloatArray) -> FloatArray:
         """Find configurations (N, n) of erroneous rest from starts z, with the locked joints at their values."""
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
@@ -74,7 +74,7 @@ class RestSystem:
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return q[self.is_stationary(q) & (scaled_error > REACHED_ERROR)]
 
-    def find_solutions(self, z: FloatArray) -> FloatArray:
+    def find_target_configurations(self, z: FloatArray) -> FloatArray:
         """Find configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
         q, converged = _compiled_solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[converged]
@@ -96,14 +96,14 @@ class RestSystem:
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return bool(self.is_stationary(q)[scaled_error > 1e-3].mean() > 0.5)
 
-    def evaluate(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def evaluate_equations(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Evaluate the equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by the active unknowns."""
-        values, jacobian = self.equations.evaluate(z, self.pose, self.mask)
+        values, jacobian = self.equations.evaluate_equations(z, self.pose, self.mask)
         return values[:, self._equation_rows], jacobian[:, self._equation_rows][:, :, self.active]
 
-    def sum_locked_rates(self, z: FloatArray) -> FloatArray:
+    def locked_rates_residual(self, z: FloatArray) -> FloatArray:
         """Return (N,) the values of :meth:`RestEquations.sum_locked_rates`."""
-        return self.equations.sum_locked_rates(z, self.pose, self.mask)
+        return self.equations.locked_rates_residual(z, self.pose, self.mask)
 
     def eigenvalues(self, q: FloatArray) -> NDArray[np.complex128]:
         """Return (N, h) the values of :meth:`Linearisation.eigenvalues`."""
@@ -117,7 +117,7 @@ class RestSystem:
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
         unknowns, is_solved = self.equations.search(
-            self.equations.fit_unknowns(q, self.pose, self.mask), self.pose, self.mask, free_unknowns
+            self.equations.estimate_unknowns(q, self.pose, self.mask), self.pose, self.mask, free_unknowns
         )
         return np.where(is_solved[:, None], unknowns[:, :n], np.nan)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from holdfast.control.equilibria.curves import Curves, EquilibriumCurve
 from holdfast.control.equilibria.equations import EQUATION_TOLERANCE
-from holdfast.control.equilibria.events import mark_events
+from holdfast.control.equilibria.events import make_curve_with_events
 from holdfast.control.equilibria.points import classify_points
 from holdfast.control.equilibria.system import RestSystem, wrap_angles
 from holdfast.control.laws.law import Law
@@ -80,7 +80,7 @@ class RestCurveTracer:
         loose_points = np.empty((0, self._n))
         starts = idle_waves = 0
         for _ in range(MAX_WAVES):
-            z = self.system.find_seeds(WAVE_STARTS, generator)
+            z = self.system.find_resting_unknowns(WAVE_STARTS, generator)
             starts += WAVE_STARTS
             known_count = len(curves)
             is_on_curve = self._is_on_curve(z)
@@ -106,7 +106,7 @@ class RestCurveTracer:
         """
         if not len(z):
             return np.zeros(0, dtype=bool)
-        _, jacobian = self.system.evaluate(z)
+        _, jacobian = self.system.evaluate_equations(z)
         _, singular_values, right_vectors = np.linalg.svd(jacobian)
         return np.asarray(
             (singular_values[:, -1] > _SURFACE_TOLERANCE * singular_values[:, 0])
@@ -138,7 +138,7 @@ class RestCurveTracer:
         if not self.system.is_law_at_rest(z):
             return None
         is_constant = float(np.ptp(z[:, self.joint])) < _CONSTANT_TOLERANCE
-        return mark_events(self.system, self.joint, z, closed, is_constant)
+        return make_curve_with_events(self.system, self.joint, z, closed, is_constant)
 
     def _follow_curve(self, z: FloatArray, tangent: FloatArray) -> tuple[list[FloatArray], bool]:
         """Return the points of the curve in one direction from z, and whether it came back to z."""
@@ -154,7 +154,7 @@ class RestCurveTracer:
                     break
                 continue
             if len(points) > 2 and self._passes_start(start, start_tangent, z, next_point):
-                points.append(self._match_turn(start, z))
+                points.append(self._nearest_equivalent_start(start, z))
                 return points, True
             points.append(next_point)
             z, curvature, tangent, length = next_point, (direction - tangent) / distance, direction, length + distance
@@ -169,7 +169,7 @@ class RestCurveTracer:
         Without a tangent, the nearest point, with its tangent either way.
         """
         if tangent is None:
-            values, jacobian = self.system.evaluate(z[None])
+            values, jacobian = self.system.evaluate_equations(z[None])
             tangent = np.zeros_like(z)
             tangent[self.system.active] = np.linalg.svd(jacobian[0])[2][-1]
         active = self.system.active
@@ -177,7 +177,7 @@ class RestCurveTracer:
         right_sides = np.zeros((active.size, 2))
         matrix[-1], right_sides[-1, 1] = tangent[active], 1.0
         for _ in range(_CORRECTOR_STEPS):
-            values, jacobian = self.system.evaluate(z[None])
+            values, jacobian = self.system.evaluate_equations(z[None])
             matrix[:-1], right_sides[:-1, 0] = jacobian[0], values[0]
             try:
                 step = np.linalg.solve(matrix, right_sides)
@@ -194,7 +194,7 @@ class RestCurveTracer:
         return z, tangent, False
 
     def _passes_start(self, start: FloatArray, start_tangent: FloatArray, z: FloatArray, next_point: FloatArray) -> bool:
-        """Return True if the step from z to new passes the start, modulo full turns, in its direction."""
+        """Return True if the step from z to ``next_point`` passes the start, modulo full turns, in its direction."""
         n = self._n
         step, difference = (next_point - z)[:n], self._joint_difference(start[:n], z[:n])
         squared_length = max(float(step @ step), 1e-30)
@@ -202,7 +202,7 @@ class RestCurveTracer:
         lateral_distance = float(np.linalg.norm(difference - fraction * step))
         return 0 < fraction <= 1 and lateral_distance < 0.1 * np.sqrt(squared_length) and float(start_tangent[:n] @ step) > 0
 
-    def _match_turn(self, start: FloatArray, z: FloatArray) -> FloatArray:
+    def _nearest_equivalent_start(self, start: FloatArray, z: FloatArray) -> FloatArray:
         """Return the start as the next point after z: in the same turn, with u, c, and s of the same signs."""
         n = self._n
         q = z[:n] + self._joint_difference(start[:n], z[:n])
@@ -211,7 +211,7 @@ class RestCurveTracer:
             np.concatenate([q, first_sign * start[n:-2], [second_sign * start[-2], choice * start[-1]]])
             for first_sign, second_sign, choice in signs
         ]
-        choices = [choice for choice in choices if np.linalg.norm(self.system.evaluate(choice[None])[0]) < 1e-8]
+        choices = [choice for choice in choices if np.linalg.norm(self.system.evaluate_equations(choice[None])[0]) < 1e-8]
         return min(choices, key=lambda choice: float(np.linalg.norm(choice - z)))
 
     def _joint_difference(self, a: FloatArray, b: FloatArray) -> FloatArray:

@@ -36,7 +36,7 @@ class CFunction:
         return Program(name, list(self.inputs.values()), list(self.arrays.values()))
 
 
-def write_c_functions(functions: Mapping[str, CFunction]) -> str:
+def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
     """Return the C99 text of functions ``static void CALL(const double *input, ..., double *output, ...)``.
 
     Args:

@@ -23,7 +23,7 @@ import casadi as ca
 from holdfast.control.laws.c_functions import fill_template
 from holdfast.core.caching import cached_property
 from holdfast.kernels import c_backend
-from holdfast.kernels.linalg import Vector, damped_gram, dot_product, select_smallest, singular_rows, solve_spd
+from holdfast.kernels.linalg import Vector, damped_gram, dot_product, rotate_to_singular_rows, select_smallest, solve_spd
 from holdfast.kernels.program import SX
 
 SINGULAR_TOLERANCE = 1e-12  # of the largest singular value: at most this counts as 0
@@ -72,7 +72,7 @@ def search_damping(j: SX, u: SX, allowed: SX | float) -> DampingChoice:
     less than theirs is not feasible.
     """
     m, n = j.shape
-    rows, components, squares = singular_rows(
+    rows, components, squares = rotate_to_singular_rows(
         [ca.horzsplit(j[row, :]) for row in range(m)], ca.vertsplit(ca.densify(u)), _JACOBI_SWEEPS[m]
     )
     columns = [dot_product(vector, vector) for vector in (ca.vertsplit(j[:, joint]) for joint in range(n))]
@@ -90,7 +90,7 @@ def search_damping(j: SX, u: SX, allowed: SX | float) -> DampingChoice:
     )
     allowed_square = allowed * allowed - missing_error
     is_feasible = allowed_square > 0
-    largest = _largest_damping(
+    largest = _find_largest_squared_damping(
         squares, [vector * vector for vector in components], ca.if_else(is_feasible, allowed_square, 1.0)
     )
     squared_damping = ca.if_else(is_feasible, _minimise_error(peak_error, largest, m), MIN_DAMPING**2)
@@ -99,7 +99,7 @@ def search_damping(j: SX, u: SX, allowed: SX | float) -> DampingChoice:
         ca.sqrt(squared_damping),
         ca.sqrt(largest_squared),
         ca.if_else(is_feasible, 1.0, 0.0),
-        peak_error.compute_rates(squared_damping),
+        peak_error.compute_joint_rates(squared_damping),
     )
 
 
@@ -146,7 +146,7 @@ def _grid_sizes(m: int) -> tuple[int, int, int]:
     return (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
 
 
-def rate_derivatives(j: SX, v: SX, allowed: float, result: dict[str, SX], symbols: SX) -> SX:
+def differentiate_damped_rates(j: SX, v: SX, allowed: float, result: dict[str, SX], symbols: SX) -> SX:
     """Return the derivatives (n, k) of ``J' (J J' + s I)^-1 v`` without differentiating the search.
 
     Where it has ended one of three equations holds, and by the implicit function theorem tells how s changes: the healthy
@@ -175,12 +175,12 @@ def rate_derivatives(j: SX, v: SX, allowed: float, result: dict[str, SX], symbol
     damping_derivative = ca.if_else(ca.logic_and(is_following, change[k] != 0), -change[:k] / change[k], 0.0)
     derivatives = ca.jacobian(rates, symbols) + ca.jacobian(rates, s) @ damping_derivative
 
-    worst_joint, largest_error, largest_slope = _select_largest(errors, errors, error_slopes)
+    worst_joint, largest_error, largest_slope = _select_largest_joint(errors, errors, error_slopes)
     crossing = [
         ca.if_else(joint_slope * largest_slope < 0, joint_error, 0.0)
         for joint_slope, joint_error in zip(ca.vertsplit(error_slopes), ca.vertsplit(errors), strict=True)
     ]
-    second_joint, second_error, second_slope = _select_largest(ca.vertcat(*crossing), errors, error_slopes)
+    second_joint, second_error, second_slope = _select_largest_joint(ca.vertcat(*crossing), errors, error_slopes)
     is_near_kink = ca.logic_and(
         second_error > largest_error * (1 - _KINK_TOLERANCE),
         -largest_slope * second_slope * s * s > (_FLAT_SLOPE * largest_error) ** 2,
@@ -195,7 +195,7 @@ def rate_derivatives(j: SX, v: SX, allowed: float, result: dict[str, SX], symbol
     )
 
 
-def _select_largest(sizes: SX, errors: SX, slopes_by_joint: SX) -> tuple[SX, SX, SX]:
+def _select_largest_joint(sizes: SX, errors: SX, slopes_by_joint: SX) -> tuple[SX, SX, SX]:
     """Return the largest of the sizes (n,) as 0 and 1 (n,), and its error and slope."""
     largest, largest_index = sizes[0], ca.SX(0)
     for index in range(1, sizes.numel()):
@@ -215,7 +215,7 @@ class _PeakError:
     columns: Vector
     missing_error: SX
 
-    def compute_rates(self, s: SX) -> Vector:
+    def compute_joint_rates(self, s: SX) -> Vector:
         r = [1 / (square + s) for square in self.squares]
         return self._weight_products(r)
 
@@ -224,25 +224,25 @@ class _PeakError:
 
     def __call__(self, s: SX) -> tuple[SX, SX]:
         """Return the value and the slope."""
-        value, slope = self._value_function(s, *self._inputs)
+        value, slope = self._value_slope_function(s, *self._function_arguments)
         return value, slope
 
     @cached_property
-    def _inputs(self) -> list[SX]:
+    def _function_arguments(self) -> list[SX]:
         return [ca.vertcat(*vector) for vector in (self.squares, self.c, *self.products, self.columns)] + [self.missing_error]
 
     @cached_property
-    def _value_function(self) -> ca.Function:
+    def _value_slope_function(self) -> ca.Function:
         """Value and slope as a function of s and the numbers here, built once because CasADi's Python is slow for each of 50
         calls.
         """
         symbols = [ca.SX.sym("x", len(vector)) for vector in (self.squares, self.c, *self.products, self.columns)]
         squares, c, *products, columns = ([*ca.vertsplit(vector)] for vector in symbols)
         s, missing = ca.SX.sym("s"), ca.SX.sym("missing")
-        expressions = _PeakError(squares, c, products, columns, missing)._build_expressions(s)
+        expressions = _PeakError(squares, c, products, columns, missing)._build_value_slope(s)
         return ca.Function("error", [s, *symbols, missing], expressions)
 
-    def _build_expressions(self, s: SX) -> tuple[SX, SX]:
+    def _build_value_slope(self, s: SX) -> tuple[SX, SX]:
         r = [1 / (item + s) for item in self.squares]
         squared_weights = [item * item for item in r]
         doubled = s + s
@@ -264,7 +264,7 @@ class _PeakError:
         ) + value, doubled * healthy_slope + slope
 
 
-def _largest_damping(squares: Vector, squared_parts: Vector, allowed_square: SX) -> SX:
+def _find_largest_squared_damping(squares: Vector, squared_parts: Vector, allowed_square: SX) -> SX:
     """Return the s at which the squared healthy error ``sum parts s^2 / (sigma^2 + s)^2`` is ``allowed_square``.
 
     In ``t = 1/s`` one over the error is concave and nearly straight (as the trust-region equation), so Newton's method
@@ -341,10 +341,10 @@ def _minimise_error(error: _PeakError, largest: SX, m: int) -> SX:
 def _estimate_minimum(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
     """Return the value where the tangents at both ends of a cell meet, if the slope turns from down to up in it."""
     has_minimum = ca.logic_and(ga < 0, gb > 0)
-    return ca.if_else(has_minimum, fa + ga * _intersect_tangents(a, fa, ga, b, fb, gb), _NEVER_VALUE)
+    return ca.if_else(has_minimum, fa + ga * _tangent_crossing_offset(a, fa, ga, b, fb, gb), _NEVER_VALUE)
 
 
-def _intersect_tangents(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
+def _tangent_crossing_offset(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
     """Return the distance beyond a at which the tangents at a and b meet: the middle for a parabola, a kink between
     two lines.
     """
@@ -358,7 +358,7 @@ def _refine_minimum(error: _PeakError, cell: Vector, best_point: SX, least_value
     for round_number in range(rounds):
         edge_fraction = _EDGE_FRACTION if round_number < rounds - 1 else 0.0  # the last point may lie where it is best
         width, slope_change = b - a, gb - ga
-        intersection = _intersect_tangents(a, fa, ga, b, fb, gb)
+        intersection = _tangent_crossing_offset(a, fa, ga, b, fb, gb)
         parabola_minimum = (
             -ga * width / ca.if_else(slope_change > 0, slope_change, _NEVER_VALUE)
         )  # where the slope of a parabola is 0

@@ -22,7 +22,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_json
 from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -111,7 +111,7 @@ def make_c_files(law: _Law, name: str) -> dict[str, str]:
         list(outputs),
         {"cse": True},
     )
-    file_comment = _describe_file(law, name, list(outputs)[1:])
+    file_comment = _describe_c_function(law, name, list(outputs)[1:])
     return {
         f"{name}.c": f'{file_comment}\n#include "{name}.h"\n\n#include <math.h>\n\n{_source_text(law, name, function)}',
         f"{name}.h": f"{file_comment}\n{_header_text(law, name, function)}",
@@ -191,7 +191,7 @@ int {name}_check_joints(const char *const names[], int count);
 
 def _example_text(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
-    start = law.arm.states.get("home", np.mean(finite_limits(law.arm), axis=0))
+    start = law.arm.states.get("home", np.mean(sampling_limits(law.arm), axis=0))
     names = ", ".join(quote_c_string(joint_name) for joint_name in law.arm.joint_names)
     null_arguments = ", 0" * (function.n_out() - 1)
     return f"""/*
@@ -282,7 +282,7 @@ def _sample_cases(law: _Law, function: ca.Function) -> list[tuple[FloatArray, Fl
     """Sample configurations away from singular ones, and commands, and return them with the rates that holdfast computes."""
     generator, test_cases = np.random.default_rng(0), []
     jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])
-    lower, upper = finite_limits(law.arm)
+    lower, upper = sampling_limits(law.arm)
     for _ in range(MAX_TRIES):
         configuration, v = generator.uniform(lower, upper), generator.normal(size=law.task.m)
         rates = np.asarray(function(configuration, v)[0] if function.n_out() > 1 else function(configuration, v)).ravel()
@@ -317,7 +317,7 @@ def quote_c_string(text: str) -> str:
 
 
 @reports_progress("writing down the law")
-def write_law(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
+def write_law_files(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
     """Write the four files of a law.
 
     Raises:
@@ -327,7 +327,7 @@ def write_law(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
     return ExportedLaw(law=law, source=source, header=header, example=example, test=test)
 
 
-def _describe_file(law: _Law, name: str, extra_outputs: list[str]) -> str:
+def _describe_c_function(law: _Law, name: str, extra_outputs: list[str]) -> str:
     units = ", ".join(f"{joint.name} [{joint.unit}]" for joint in law.arm.joints)
     lines = [
         f"{name}: {law.phrase()}, for the arm {law.arm.title}.",

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.laws import deviation, export
-from holdfast.control.laws.c_functions import CFunction, write_c_functions
+from holdfast.control.laws.c_functions import CFunction, generate_c_functions
 from holdfast.control.laws.deviation import Deviations
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError, TaskError
@@ -127,7 +127,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         :meth:`outputs`.
         """
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        return write_c_functions(
+        return generate_c_functions(
             {"computed": CFunction({"q": q, "v": v}, {key: [expression] for key, expression in self.outputs(q, v).items()})}
         )
 
@@ -136,7 +136,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         row by row.
         """
         j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
-        return write_c_functions({"inverse": CFunction({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
+        return generate_c_functions({"inverse": CFunction({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
 
     # ---- numbers -----------------------------------------------------------------------------------------------
 
@@ -158,7 +158,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
     @cached_property
     @cached_kernel
-    def _jacobian_kernel(self) -> Kernel:
+    def _rate_derivatives_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         derivatives = self.with_slopes(q, v, ca.vertcat(q, v))[1]
         return Kernel(f"{self.name}, slopes", [q, v], [derivatives[:, : self.arm.n], derivatives[:, self.arm.n :]])
@@ -172,8 +172,8 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
             sizes=(self.arm.n, self.task.m),
             size=self.arm.n,
             value=self.velocity,
-            slopes=self._jacobian_kernel,
-            kernels=(self._velocity_kernel, self._jacobian_kernel),
+            slopes=self._rate_derivatives_kernel,
+            kernels=(self._velocity_kernel, self._rate_derivatives_kernel),
         )
 
     def _step_kernel(self) -> tuple[Kernel, int]:
@@ -300,7 +300,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
             InputError: A name that C does not take, or an arm that is close to singular everywhere.
             StoreError: The files cannot be written.
         """
-        return export.write_law(self, folder, self.slug.replace("-", "_") if name is None else name)
+        return export.write_law_files(self, folder, self.slug.replace("-", "_") if name is None else name)
 
     def phrase(self) -> str:
         """Return the law and its task, without gain and speed limit, for people."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.laws import damping_search
-from holdfast.control.laws.c_functions import CFunction, write_c_functions
+from holdfast.control.laws.c_functions import CFunction, generate_c_functions
 from holdfast.control.laws.law import Law
 from holdfast.core.errors import InputError
 from holdfast.core.registry import Parameter, constructor
@@ -75,22 +75,22 @@ class FailureTolerant(Law):
 
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
-        return self._choose_damping(j, v)["rates"]
+        return self._build_damped_outputs(j, v)["rates"]
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """Return ``rates`` (n,), ``damping``, ``largest_damping``, and ``feasible`` (1 or 0)."""
-        return self._choose_damping(self.jacobian(q), self.scale_velocity(v))
+        return self._build_damped_outputs(self.jacobian(q), self.scale_velocity(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
         """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
         j, scaled = self.jacobian(q), self.scale_velocity(v)
-        choice = self._choose_damping(j, scaled)
-        return choice["rates"], damping_search.rate_derivatives(j, scaled, self.pre_failure_error, choice, by)
+        choice = self._build_damped_outputs(j, scaled)
+        return choice["rates"], damping_search.differentiate_damped_rates(j, scaled, self.pre_failure_error, choice, by)
 
     def computed_in_c(self) -> str:
         """See :meth:`Law.computed_in_c`."""
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        scaling_text = write_c_functions(
+        scaling_text = generate_c_functions(
             {"seen": CFunction({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scale_velocity(v)]})}
         )
         output_arguments = "double *rates, double *damping, double *largest, double *feasible"
@@ -112,7 +112,7 @@ static void inverse(const double *j, const double *v, double *rates) {{
 }}
 """
 
-    def _choose_damping(self, j: SX, v: SX) -> dict[str, SX]:
+    def _build_damped_outputs(self, j: SX, v: SX) -> dict[str, SX]:
         speed = ca.sqrt(ca.sumsqr(v))
         is_moving = speed > 0
         default_direction = np.eye(int(v.numel()))[0]

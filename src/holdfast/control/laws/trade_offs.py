@@ -128,7 +128,7 @@ def trade_off(
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     peak_errors, healthy_errors = np.empty((samples, len(allowed_errors))), np.empty((samples, len(allowed_errors)))
     with report_work("computing the trade-off") as report_progress:
-        kernel = _error_kernel(arm, chosen)
+        kernel = _peak_healthy_error_kernel(arm, chosen)
         for index, allowed_error in enumerate(allowed_errors):
             outputs = kernel.rows(q, directions, np.full(samples, max(allowed_error, 1e-9)))
             peak_errors[:, index], healthy_errors[:, index] = outputs[:, 0], outputs[:, 1]
@@ -146,7 +146,7 @@ def trade_off(
 
 
 @cached_kernel
-def _error_kernel(arm: Arm, task: Task) -> Kernel:
+def _peak_healthy_error_kernel(arm: Arm, task: Task) -> Kernel:
     """Return the kernel of the peak and healthy error of a configuration, a scaled direction, and the allowed error."""
     q, u, e = kinematics.joint_symbols(arm), ca.SX.sym("u", task.m), ca.SX.sym("allowed")
     j = task.jacobian(arm, q)

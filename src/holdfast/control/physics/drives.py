@@ -35,7 +35,7 @@ class Drives:
         self._filter_fraction = min(1.0, OBSERVER_RAD_S * period)
         self.rate_error, self._sensor_error = np.zeros_like(stiffness), np.zeros_like(stiffness)
 
-    def sense(self, measured: FloatArray, true: FloatArray) -> None:
+    def update_rate_error(self, measured: FloatArray, true: FloatArray) -> None:
         """Update the rate error from measured and true positions (..., n) of this cycle, rad and m."""
         error = measured - true
         self.rate_error = self.rate_error + self._filter_fraction * (
@@ -43,7 +43,7 @@ class Drives:
         )
         self._sensor_error = error
 
-    def compute_command(
+    def compute_motor_controls(
         self, reference: FloatArray, rates: FloatArray, measured: FloatArray, *, gravity: FloatArray, velocity: FloatArray
     ) -> FloatArray:
         """Compute the controls (..., n) of the motors, N m and N, from which the drives subtract ``D`` times the velocity.
@@ -55,6 +55,6 @@ class Drives:
         damping_torque = self.damping * velocity
         return np.minimum(np.maximum(requested_torque, damping_torque - self._effort), damping_torque + self._effort)
 
-    def compute_torque(self, command: FloatArray, moved: FloatArray) -> FloatArray:
+    def compute_mean_torque(self, command: FloatArray, moved: FloatArray) -> FloatArray:
         """Compute the mean torque (..., n) of a cycle, N m and N, in which the joints moved (..., n), rad and m."""
         return np.clip(command - self.damping * (moved / self._period), -self._effort, self._effort)

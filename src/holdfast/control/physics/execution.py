@@ -120,7 +120,7 @@ class Execution(Result):
     def beyond_limits(self) -> dict[str, float]:
         """Joints that were outside the limits in force by more than 1 mrad or 1 mm, by name, with the most, rad or m."""
         excess = np.zeros(self.arm.n)
-        for arm, samples in self._limits_in_force:
+        for arm, samples in self._arms_by_sample_range:
             q = self.q[samples]
             excess = np.maximum(excess, np.maximum(arm.lower - q, q - arm.upper).max(axis=0, initial=0.0))
         return {self.arm.joint_names[joint]: float(excess[joint]) for joint in np.flatnonzero(excess > LIMIT_TOLERANCE)}
@@ -129,7 +129,7 @@ class Execution(Result):
     def too_fast(self) -> dict[str, float]:
         """Joints that were more than 1 % above the speed limit in force, by name, with their highest speed, rad/s or m/s."""
         speed_by_joint: dict[str, float] = {}
-        for arm, samples in self._limits_in_force:
+        for arm, samples in self._arms_by_sample_range:
             peak_speeds = np.abs(self.rates[samples]).max(axis=0, initial=0.0)
             for joint, speed in zip(arm.joints, peak_speeds, strict=True):
                 if speed > joint.velocity * (1 + SPEED_TOLERANCE_FRACTION):
@@ -137,7 +137,7 @@ class Execution(Result):
         return speed_by_joint
 
     @property
-    def _limits_in_force(self) -> list[tuple[Arm, slice]]:
+    def _arms_by_sample_range(self) -> list[tuple[Arm, slice]]:
         """Arms with the limits in force and their samples; the degraded limits hold from the first lock on."""
         if self.degraded is None:
             return [(self.arm, slice(None))]

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.control.physics.execution import Ended, Execution
 from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
-from holdfast.control.physics.servos import Servos, reference_leads
+from holdfast.control.physics.servos import Servos, max_reference_offsets
 from holdfast.control.physics.surroundings import ContactLog
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
@@ -104,7 +104,7 @@ def execute(
     contact_log = ContactLog(cell_clearance)
     contact_log.require_collision_free(plant.model)
     stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=waypoints[0])
-    references, reaches_end = _plan_references(waypoints, seconds, 1 / chosen_servos.rate, detection_time, stop, settle)
+    references, reaches_end = _sample_servo_references(waypoints, seconds, 1 / chosen_servos.rate, detection_time, stop, settle)
     samples, is_stable = _drive_motion(plant, references, lock_times, stiffness, damping, contact_log)
     is_at_rest = float(np.abs(samples.rates[-1]).max()) < REST_SPEED
     outcome: Ended = "unstable" if not is_stable else "moving" if not is_at_rest else "finished" if reaches_end else "stopped"
@@ -194,7 +194,7 @@ def _check_goal(goal: ArrayLike | None) -> FloatArray | None:
     return goal_array if goal_array.ndim == 1 else np.asarray(check_poses(goal_array)[0])
 
 
-def _plan_references(
+def _sample_servo_references(
     waypoints: FloatArray,
     seconds: FloatArray,
     period: float,
@@ -232,7 +232,7 @@ def _drive_motion(
     contact_log: ContactLog,
 ) -> tuple[_ExecutionSamples, bool]:
     """Return the measured motion, and whether the physics stayed within bounds."""
-    period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, reference_leads(plant.arm, stiffness)
+    period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, max_reference_offsets(plant.arm, stiffness)
     healthy = np.ones(plant.arm.n, dtype=bool)
     plant.set_gains(stiffness, damping)
     cycles: list[tuple[FloatArray, FloatArray, FloatArray, FloatArray]] = []
@@ -240,7 +240,7 @@ def _drive_motion(
         still_healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
         if not still_healthy.all() and (still_healthy != healthy).any():
             healthy = still_healthy
-            plant = plant.lock_joints(healthy)
+            plant = plant.lock_all_except(healthy)
             plant.set_gains(stiffness, damping)
         q, rates = plant.q, plant.rates
         next_reference = references[min(cycle + 1, len(references) - 1)]
@@ -248,7 +248,7 @@ def _drive_motion(
         cycles.append((q, rates, reference, plant.torque))
         if not float(rates @ rates) < MAX_PHYSICAL_SPEED**2:
             break
-        plant.step_towards(reference + rate_feed * (next_reference - references[cycle]) / period)
+        plant.simulate_control_cycle(reference + rate_feed * (next_reference - references[cycle]) / period)
         if plant.data.ncon > 0:
             contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
     samples = _ExecutionSamples(*(np.array(column) for column in zip(*cycles, strict=True)))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.control.laws.law import Law
 from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
 from holdfast.control.physics.run import Ending, PhysicalRun, Why
-from holdfast.control.physics.servos import Servos, reference_leads
+from holdfast.control.physics.servos import Servos, max_reference_offsets
 from holdfast.control.physics.surroundings import ContactLog
 from holdfast.control.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.control.simulation.closed_loop import simulate
@@ -110,7 +110,7 @@ def simulate_physics(
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
     samples, ending = _drive_loop(plant, law, runs, stiffness, damping, run_limit, contact_log)
-    outcome, reason = ending or _classify_ending(samples.q, chosen_servos.rate, law.gain, ~arm.prismatic)
+    outcome, reason = ending or _classify_unfinished_run(samples.q, chosen_servos.rate, law.gain, ~arm.prismatic)
     return PhysicalRun(
         law=law,
         servos=chosen_servos,
@@ -151,7 +151,7 @@ def _drive_loop(
     """Simulate the physical run next to a kinematic one, and return its ending if it ended before the time limit."""
     n, period = law.arm.n, 1 / plant.servos.rate
     command, inputs = _command_kernel(law).single_row(), np.concatenate([plant.start, *_target_pose(law, runs)])
-    max_leads, rate_feed = reference_leads(law.arm, stiffness), damping / stiffness
+    max_leads, rate_feed = max_reference_offsets(law.arm, stiffness), damping / stiffness
     reference, lock_time = plant.start.copy(), runs.lock_time
     healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
     plant.set_gains(stiffness, damping)
@@ -161,7 +161,7 @@ def _drive_loop(
     for cycle in track("control cycles", range(int(np.ceil(time_limit / period - 1e-9)) + 1), most=True, every=100):
         if cycle * period >= next_lock - LOCK_TIME_TOLERANCE_S:
             healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
-            plant = plant.lock_joints(healthy)
+            plant = plant.lock_all_except(healthy)
             plant.set_gains(stiffness, damping)
             next_lock = float(lock_time[healthy].min(initial=np.inf))
         inputs[:n] = q = plant.q
@@ -173,7 +173,7 @@ def _drive_loop(
         reference = np.minimum(np.maximum(reference + period * rates, q - max_leads), q + max_leads)
         healthy_rates = rates[healthy]
         speed = float(np.sqrt(healthy_rates @ healthy_rates)) / outputs[n]
-        plant.step_towards(reference + rate_feed * rates)
+        plant.simulate_control_cycle(reference + rate_feed * rates)
         cycles.append(np.concatenate((q, reference, plant.torque, (squared_error,))))
         is_in_contact = plant.data.ncon > 0
         if is_in_contact:
@@ -205,10 +205,10 @@ def _command_kernel(law: Law) -> Kernel:
     arm's own unit.
     """
     system = FailedArmSystem(law)
-    error, _ = system.compute_error(system.q)
-    velocity, speed_fraction = system.compute_command(error)
+    error, _ = system.error_and_jacobian(system.q)
+    velocity, speed_fraction = system.compute_limited_velocity(error)
     rates = law.rates(system.q, velocity) * law.gain
-    outputs = ca.vertcat(rates, speed_fraction, ca.sumsqr(error), ca.sumsqr(system.compute_scaled_error(system.q)[0]))
+    outputs = ca.vertcat(rates, speed_fraction, ca.sumsqr(error), ca.sumsqr(system.scaled_error_and_jacobian(system.q)[0]))
     return Kernel("command in physics", [system.q, system.target, system.rotation], [outputs])
 
 
@@ -219,7 +219,7 @@ def _target_pose(law: Law, runs: Runs) -> tuple[FloatArray, FloatArray]:
     return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
 
 
-def _classify_ending(q: FloatArray, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
+def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
     """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.

@@ -64,12 +64,12 @@ class ServoPlant:
         torque[self.free] = self.data.qfrc_actuator
         return torque
 
-    def step_towards(self, reference: FloatArray) -> None:
+    def simulate_control_cycle(self, reference: FloatArray) -> None:
         """Simulate one control cycle towards (n,) references with the feed of the rates in them."""
         self.data.ctrl[:] = (reference - self.start)[self.free]
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
 
-    def lock_joints(self, healthy: NDArray[np.bool_]) -> ServoPlant:
+    def lock_all_except(self, healthy: NDArray[np.bool_]) -> ServoPlant:
         """Return the arm at this moment with fewer healthy joints: the others stop at once, as in an impact without rebound.
 
         The momenta of the joints that stay healthy go on: M_hh rates_h is after it what (M rates)_h was before.

@@ -96,7 +96,7 @@ class Servos:
         return f"joint servos of {gains}, control at {self.rate:g} Hz{gravity}"
 
 
-def reference_leads(arm: Arm, stiffness: FloatArray) -> FloatArray:
+def max_reference_offsets(arm: Arm, stiffness: FloatArray) -> FloatArray:
     """Return (n,) the largest distance of a reference from its joint, which requests the full effort."""
     effort = np.array([joint.effort for joint in arm.joints])
     return np.where(np.isfinite(effort), effort / stiffness, DEFAULT_LEAD)

@@ -40,7 +40,7 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
         body.name = f"link {index}"
     for number, capsule in enumerate(clearance.capsules):
         if capsule.link != BASE_LINK:
-            capsule_size = _capsule_size(mujoco, capsule)
+            capsule_size = _capsule_geom_options(mujoco, capsule)
             geom_name = f"part {number}"
             links[capsule.link].add_geom(
                 name=geom_name, contype=_ARM_CONTACT_BIT, conaffinity=_CELL_CONTACT_BIT, **capsule_size, **contact_options
@@ -50,7 +50,7 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
         body = spec.worldbody.add_body(
             name=f"object {number}", pos=solid.pose[:3, 3], quat=to_quaternion(mujoco, solid.pose[:3, :3])
         )
-        shape = _solid_geometry(mujoco, spec, solid, number)
+        shape = _solid_geom_options(mujoco, spec, solid, number)
         body.add_geom(
             name=f"object {number}", contype=_CELL_CONTACT_BIT, conaffinity=_ARM_CONTACT_BIT, **shape, **contact_options
         )
@@ -62,13 +62,13 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
             )
 
 
-def _capsule_size(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
+def _capsule_geom_options(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
     if capsule.length == 0:
         return {"type": mujoco.mjtGeom.mjGEOM_SPHERE, "size": [capsule.radius, 0, 0], "pos": capsule.start}
     return {"type": mujoco.mjtGeom.mjGEOM_CAPSULE, "size": [capsule.radius, 0, 0], "fromto": [*capsule.start, *capsule.end]}
 
 
-def _solid_geometry(mujoco: Any, spec: Any, solid: Solid, number: int) -> dict[str, Any]:
+def _solid_geom_options(mujoco: Any, spec: Any, solid: Solid, number: int) -> dict[str, Any]:
     geom_types = mujoco.mjtGeom
     if isinstance(solid, Mesh):
         mesh = spec.add_mesh(name=f"mesh {number}")

@@ -24,18 +24,18 @@ from holdfast.control.simulation.system import (
     STATE_RUNNING,
     STATE_TIME_LIMIT,
     scale_errors,
-    split_errors,
+    split_error_norms,
 )
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import ProgressCount, ignore_count
 from holdfast.core.typing import FloatArray
-from holdfast.kernels.compiled import expect_rows
+from holdfast.kernels.compiled import expect_row_count
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Tell
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-from holdfast.kinematics.solvers.inverse_kinematics import tool_error
+from holdfast.kinematics.solvers.inverse_kinematics import pose_error_for_task
 from holdfast.model.arm import kinematics
 
 CONVERGENCE_TOLERANCE = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest counts as 0
@@ -78,7 +78,7 @@ class ClosedLoopSimulator:
         """Kernel of the angle of the shortest rotation that the task prescribes, rad."""
         system, law = self._system, self.law
         tool_chain = kinematics.kinematic_chain(law.arm, system.q)
-        error = tool_error(law.task, tool_chain.position, tool_chain.rotation, system.target, system.rotation)
+        error = pose_error_for_task(law.task, tool_chain.position, tool_chain.rotation, system.target, system.rotation)
         return Kernel("turn", [system.q, system.target, system.rotation], [ca.norm_2(error[3:])])
 
     def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs:
@@ -87,7 +87,7 @@ class ClosedLoopSimulator:
         A few thousand at a time, so that everything about them is done while they are in the cache, and by every thread.
         """
         run_count, workers = len(q0), 1 if in_pool() else thread_count()
-        with expect_rows(run_count * LOOP_CALLS_PER_RUN):
+        with expect_row_count(run_count * LOOP_CALLS_PER_RUN):
             _ = self._stepper.loop  # the first time it is made here: the threads do not know how many runs there are
         runs_per_worker = -(-run_count // max(workers, 1))
         block_size = max(-(-runs_per_worker // max(-(-runs_per_worker // MAX_BLOCK_RUNS), 1)), MIN_BLOCK_RUNS)
@@ -291,7 +291,9 @@ class ClosedLoopSimulator:
         Where k is a mask of runs, the configurations are one for each of them.
         """
         target = np.broadcast_to(self._target_poses(runs)[run], (len(q), 4, 4))
-        return split_errors(self.law, self._error_search.compute_errors(q, target), self.law.arm.forward_kinematics(q), target)
+        return split_error_norms(
+            self.law, self._error_search.compute_error_norms(q, target), self.law.arm.forward_kinematics(q), target
+        )
 
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
         """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps and its motion, (T,) -> (T, n)."""

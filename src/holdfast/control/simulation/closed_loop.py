@@ -140,7 +140,7 @@ def simulate(
     poses, target_components = target_poses(law.task, target)
     targets = poses if target_components is None else target_components
     lock_times, is_shared = (
-        _read_lock_times(law, locked, time, starts) if faults is None else _read_fault_times(law, faults, locked)
+        _read_lock_times(law, locked, time, starts) if faults is None else _read_scheduled_lock_times(law, faults, locked)
     )
     counts = {"q0": len(starts), "target": len(targets), "locked": len(lock_times)}
     run_count = max(counts.values()) if min(counts.values()) else 0
@@ -230,7 +230,7 @@ def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, s
     return times, True
 
 
-def _read_fault_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[FloatArray, bool]:
+def _read_scheduled_lock_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[FloatArray, bool]:
     """Return the lock times of sampled faults, and whether all runs share them."""
     if not hasattr(faults, "times_of"):
         raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")

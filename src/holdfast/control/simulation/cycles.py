@@ -21,7 +21,7 @@ from holdfast.control.simulation.system import (
     elementwise_max,
     elementwise_min,
     make_state_loop,
-    update_end_speeds,
+    track_final_speeds,
 )
 from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
@@ -85,8 +85,8 @@ class CycleStepper:
     def _build_substep(self, parts: dict[str, SX]) -> dict[str, SX]:
         system, q = self.system, parts["q"]
         is_first, is_last = parts["substep"] == 0, parts["substep"] == SUBSTEPS_PER_CYCLE - 1
-        error, _ = system.compute_error(q)
-        velocity, speed_fraction = system.compute_command(error)
+        error, _ = system.error_and_jacobian(q)
+        velocity, speed_fraction = system.compute_limited_velocity(error)
         started = choose_parts(is_first, self._start_cycle(parts, error, velocity), parts)
         rates = system.compute_rates(q, started["command"])
         speed = ca.sqrt(ca.sumsqr(rates)) / speed_fraction
@@ -101,7 +101,7 @@ class CycleStepper:
             "time": time,
             "clock": time,
         }
-        moved_parts |= choose_parts(is_first, update_end_speeds(started, speed, parts["time"], self._limit), started)
+        moved_parts |= choose_parts(is_first, track_final_speeds(started, speed, parts["time"], self._limit), started)
         # A singular configuration makes the rates NaN, and the comparison false: the arm stays where it was.
         next_parts = choose_parts(ca.sumsqr(q) < 1e30, moved_parts, {**started, "code": ca.SX(STATE_COLLAPSED)})
         return choose_parts(started["code"] == STATE_RUNNING, next_parts, started)

@@ -9,7 +9,7 @@ import numpy as np
 
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.runs import RunOutcome, Runs
-from holdfast.control.simulation.system import tool_errors
+from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.typing import FloatArray
 
 REPORT_DELAYS = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
@@ -54,7 +54,7 @@ def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArra
         error: (N,) norms over the task's rows, m and rad.
         target: (4, 4) wanted tool pose.
     """
-    errors_by_kind = dict(zip((_POSITION_KIND, _ANGLE_KIND), tool_errors(law, q, error, target), strict=True))
+    errors_by_kind = dict(zip((_POSITION_KIND, _ANGLE_KIND), position_and_angle_errors(law, q, error, target), strict=True))
     return [kind.factor * errors_by_kind[kind] for kind in error_kinds(law)]
 
 

@@ -105,13 +105,13 @@ def _measure_drift(
             or not speed[: index + 2].min() > min_speed
         ):
             continue
-        period, return_error = _find_return(stepper, trajectory[0], trajectory[index], parameters, is_revolute)
+        period, return_error = _find_return_time(stepper, trajectory[0], trajectory[index], parameters, is_revolute)
         if return_error < _RETURN_TOLERANCE * extent[index]:
             return float(return_error / (extent[index] * period))
     return np.inf
 
 
-def _find_return(
+def _find_return_time(
     stepper: RungeKuttaStepper, start: FloatArray, nearby: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_]
 ) -> tuple[float, float]:
     """Return the time at which a motion that is ``nearby`` its start passes it, and the distance; infinite if it does not."""

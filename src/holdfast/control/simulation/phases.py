@@ -20,7 +20,7 @@ from holdfast.control.simulation.system import (
     STATE_TIME_LIMIT,
     ColumnLayout,
     FailedArmSystem,
-    to_state_parts,
+    configuration_state_parts,
 )
 from holdfast.control.simulation.tableaus import CLASSIC_RK4, DOP853
 from holdfast.core.caching import cached_property
@@ -57,7 +57,7 @@ class PhaseSimulator:
     @cached_kernel
     def _start_kernel(self) -> Kernel:
         system = self.system
-        parts = self._start_columns.join_parts(to_state_parts(system.evaluate(system.q)))
+        parts = self._start_columns.join_parts(configuration_state_parts(system.evaluate_state_rates(system.q)))
         return Kernel("start of a motion", [system.q, *system.inputs.values()], [parts])
 
     def make_parameters(self, target: FloatArray, setting: RunSettings) -> FloatArray:
@@ -67,7 +67,7 @@ class PhaseSimulator:
         """
         return self.stepper.parameters.make_rows(
             len(target),
-            **self.system.target_values(target),
+            **self.system.target_input_values(target),
             limit=setting.time_limit * self.time_scale,
             accuracy=setting.accuracy,
         )

@@ -13,7 +13,7 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm
 from holdfast.kernels.loop import Loop
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 
 _MAX_DESCENT_STEPS = 200
 _GRADIENT_TOLERANCE = 1e-9
@@ -40,13 +40,13 @@ class ErrorMinimiser:
         system, n = self._system, self._arm.n
         state = ca.SX.sym("state", n + 1)
         q, damping = state[:n], state[n]
-        error, jacobian = system.compute_error(q)
+        error, jacobian = system.error_and_jacobian(q)
         # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
         length_unit = 1.0 if system.law.task.angular else self._arm.length_unit
         error, jacobian = error / length_unit, jacobian / length_unit
         healthy_jacobian = jacobian @ ca.diag(system.mask)
         trial = q + damped_least_norm(healthy_jacobian, error, damping)
-        is_better = ca.sumsqr(system.compute_error(trial)[0] / length_unit) < ca.sumsqr(error)
+        is_better = ca.sumsqr(system.error_and_jacobian(trial)[0] / length_unit) < ca.sumsqr(error)
         next_state = ca.if_else(
             is_better, ca.vertcat(trial, damping * _DAMPING_DECREASE + 1e-15), ca.vertcat(q, damping * _DAMPING_INCREASE)
         )
@@ -63,9 +63,11 @@ class ErrorMinimiser:
     @cached_kernel
     def _error_kernel(self) -> Kernel:
         system = self._system
-        return Kernel("least error", [system.q, system.target, system.rotation], [ca.norm_2(system.compute_error(system.q)[0])])
+        return Kernel(
+            "least error", [system.q, system.target, system.rotation], [ca.norm_2(system.error_and_jacobian(system.q)[0])]
+        )
 
-    def compute_errors(self, q: FloatArray, poses: FloatArray) -> FloatArray:
+    def compute_error_norms(self, q: FloatArray, poses: FloatArray) -> FloatArray:
         """Return (N,) norms of the task's error, m and rad."""
         return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
@@ -80,8 +82,8 @@ class ErrorMinimiser:
         """
         run_count, n = q.shape
         parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), healthy_mask], axis=1)
-        least_errors, nearest = self.compute_errors(q, poses), q.copy()
-        lower, upper = finite_limits(self._arm)
+        least_errors, nearest = self.compute_error_norms(q, poses), q.copy()
+        lower, upper = sampling_limits(self._arm)
         for restart in track("starts of each run", range(restarts + 1)):
             start = q if restart == 0 else np.where(healthy_mask > 0, generator.uniform(lower, upper, (run_count, n)), q)
             solutions = self._search_loop.run(
@@ -90,7 +92,7 @@ class ErrorMinimiser:
                 _GRADIENT_TOLERANCE,
                 _MAX_DESCENT_STEPS,
             )
-            errors = self.compute_errors(solutions.state[:, :n], poses)
+            errors = self.compute_error_norms(solutions.state[:, :n], poses)
             is_better = errors < least_errors
             least_errors[is_better], nearest[is_better] = errors[is_better], solutions.state[is_better, :n]
         return least_errors, nearest

@@ -26,12 +26,12 @@ from holdfast.control.simulation.system import (
     ParameterLayout,
     StateRates,
     choose_parts,
+    configuration_state_parts,
     elementwise_max,
     elementwise_min,
     make_state_loop,
-    to_state_parts,
-    turning_point_value,
-    update_end_speeds,
+    track_final_speeds,
+    value_at_turning_point,
 )
 from holdfast.control.simulation.tableaus import Tableau
 from holdfast.core.caching import cached_property
@@ -89,7 +89,10 @@ class RungeKuttaStepper:
             is_staged = (
                 int(
                     ca.Function(
-                        "rates", [system.q, *system.inputs.values()], [system.evaluate(system.q).rates], {"cse": True}
+                        "rates",
+                        [system.q, *system.inputs.values()],
+                        [system.evaluate_state_rates(system.q).rates],
+                        {"cse": True},
                     ).n_instructions()
                 )
                 > _STAGED_OPERATIONS
@@ -129,13 +132,13 @@ class RungeKuttaStepper:
         h = elementwise_min(parts["h"], self._until - parts["time"])
         rates, tool_speeds, speed_fractions = [parts["rates"]], [parts["hand"]], [parts["share"]]
         for weights in self.tableau.rows[:-1]:
-            stage_rates = self.system.evaluate(parts["q"] + h * _weighted_sum(weights, rates))
+            stage_rates = self.system.evaluate_state_rates(parts["q"] + h * _weighted_sum(weights, rates))
             rates.append(stage_rates.rates)
             tool_speeds.append(stage_rates.tool_speed)
             speed_fractions.append(stage_rates.speed_fraction)
         end_position = parts["q"] + h * _weighted_sum(self.tableau.rows[-1], rates)
         return self._finish_step(
-            parts, h, rates, tool_speeds, speed_fractions, end_position, self.system.evaluate(end_position)
+            parts, h, rates, tool_speeds, speed_fractions, end_position, self.system.evaluate_state_rates(end_position)
         )
 
     def _build_stage(self, parts: dict[str, SX]) -> dict[str, SX]:
@@ -152,7 +155,7 @@ class RungeKuttaStepper:
             for column in range(len(stage_weights))
         ]
         stage_position = parts["q"] + h * _weighted_sum(weights, rates)
-        stage_rates = self.system.evaluate(stage_position)
+        stage_rates = self.system.evaluate_state_rates(stage_position)
         tool_speeds, speed_fractions = (
             [parts["hand"], *ca.vertsplit(parts["hands"])],
             [parts["share"], *ca.vertsplit(parts["shares"])],
@@ -176,7 +179,7 @@ class RungeKuttaStepper:
             )
         stored_parts["stage"] = parts["stage"] + 1
         is_entering = parts["stage"] < 0
-        for name, value in to_state_parts(stage_rates).items():
+        for name, value in configuration_state_parts(stage_rates).items():
             stored_parts[name] = ca.if_else(is_entering, value, parts[name])
         finished_parts["stage"] = ca.SX(0)
         for name in ("k", "hands", "shares"):
@@ -238,7 +241,7 @@ class RungeKuttaStepper:
             "closest": closest,
             "low": lowest,
             "high": highest,
-            **update_end_speeds(parts, speed, clock, self._limit),
+            **track_final_speeds(parts, speed, clock, self._limit),
             "code": code,
         }
         # Everything else stays as it was, also where the run has ended.
@@ -255,7 +258,7 @@ class RungeKuttaStepper:
         points = [(parts["q"], parts["rates"], parts["error"], parts["slope"])]
         if self.tableau.middle:
             middle_step, middle_rates = (_weighted_sum(weights, [*rates, end_rates.rates]) for weights in self.tableau.middle)
-            error, jacobian = self.system.compute_error(parts["q"] + h * middle_step)
+            error, jacobian = self.system.error_and_jacobian(parts["q"] + h * middle_step)
             points.append(
                 (parts["q"] + h * middle_step, middle_rates, ca.sumsqr(error), -2 * ca.dot(error, jacobian @ middle_rates))
             )
@@ -263,8 +266,8 @@ class RungeKuttaStepper:
         interval = h / (len(points) - 1)
         closest, lowest, highest = parts["closest"], parts["low"], parts["high"]
         for (q0, rates0, error0, slope0), (q1, rates1, error1, slope1) in pairwise(points):
-            turning_error = turning_point_value(error0, error1, interval * slope0, interval * slope1)
-            turning_joint = turning_point_value(q0, q1, interval * rates0, interval * rates1)
+            turning_error = value_at_turning_point(error0, error1, interval * slope0, interval * slope1)
+            turning_joint = value_at_turning_point(q0, q1, interval * rates0, interval * rates1)
             closest = elementwise_min(closest, elementwise_min(turning_error, error1))
             lowest, highest = (
                 elementwise_min(lowest, elementwise_min(turning_joint, q1)),

@@ -21,7 +21,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kinematics.solvers.inverse_kinematics import scaled_error, task_error
+from holdfast.kinematics.solvers.inverse_kinematics import scaled_error_and_jacobian, task_error_and_jacobian
 from holdfast.model.arm import kinematics
 
 LARGE_NUMBER = 1e300  # stands for "never" in kernels, which turn infinity into NaN
@@ -62,22 +62,24 @@ class FailedArmSystem:
         rotation = {"rotation": self.rotation} if self._uses_orientation else {}
         self.inputs = {"target": self.target, **rotation, "mask": self.mask}
 
-    def target_values(self, target: FloatArray) -> dict[str, FloatArray]:
+    def target_input_values(self, target: FloatArray) -> dict[str, FloatArray]:
         """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs``, (N, ...), but the mask."""
         if target.ndim == 2:
             return {"target": np.asarray(target @ self.law.task.rows[:, :3])}
         rotation = {"rotation": target[:, :3, :3].reshape(-1, 9)} if self._uses_orientation else {}
         return {"target": target[:, :3, 3], **rotation}
 
-    def compute_error(self, q: SX) -> tuple[SX, SX]:
+    def error_and_jacobian(self, q: SX) -> tuple[SX, SX]:
         """Return the error (m,) of the task's components, m and rad, and its Jacobian (m, n)."""
-        return task_error(self.law.arm, self.law.task, q, self.target, self.rotation)
+        return task_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
-    def compute_scaled_error(self, q: SX) -> tuple[SX, SX]:
-        """Return the error and Jacobian of :meth:`compute_error` with lengths in units of the arm's length, for thresholds."""
-        return scaled_error(self.law.arm, self.law.task, q, self.target, self.rotation)
+    def scaled_error_and_jacobian(self, q: SX) -> tuple[SX, SX]:
+        """Return the error and Jacobian of :meth:`error_and_jacobian` with lengths in units of the arm's length, for
+        thresholds.
+        """
+        return scaled_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
-    def compute_command(self, error: SX) -> tuple[SX, SX]:
+    def compute_limited_velocity(self, error: SX) -> tuple[SX, SX]:
         """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction to which the speed limit
         reduces it.
         """
@@ -99,10 +101,12 @@ class FailedArmSystem:
 
     @cached_property
     def rates_function(self) -> ca.Function:
-        """Function of q and ``inputs`` behind :meth:`evaluate`, built once because a law takes a second to write down."""
+        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once because a law takes a second to write
+        down.
+        """
         q = self.q
-        error, jacobian = self.compute_error(q)
-        velocity, speed_fraction = self.compute_command(error)
+        error, jacobian = self.error_and_jacobian(q)
+        velocity, speed_fraction = self.compute_limited_velocity(error)
         rates = self.compute_rates(q, velocity)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
         outputs = [
@@ -114,7 +118,7 @@ class FailedArmSystem:
         ]
         return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
 
-    def evaluate(self, q: SX) -> StateRates:
+    def evaluate_state_rates(self, q: SX) -> StateRates:
         """Evaluate the rates at a configuration q (n,)."""
         return StateRates(*self.rates_function(q, *self.inputs.values()))
 
@@ -130,7 +134,7 @@ def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatAr
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", rotation, projector, rotation, offset))
 
 
-def split_errors(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
+def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Split norms of the task's error into position errors and angle errors.
 
     Args:
@@ -148,18 +152,20 @@ def split_errors(law: Law, error: FloatArray, tool: FloatArray, target: FloatArr
     return linear, np.sqrt(np.maximum(error**2 - linear**2, 0.0))
 
 
-def tool_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_errors`, at q (N, n) for a target or N."""
-    return split_errors(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
+def position_and_angle_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_error_norms`, at q (N, n) for a
+    target or N.
+    """
+    return split_error_norms(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 
 def scale_errors(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> FloatArray:
     """Return norms of errors (N,), m and rad, with lengths in units of the arm's length; tools and targets are in m."""
-    linear, angular = split_errors(law, error, tool, target)
+    linear, angular = split_error_norms(law, error, tool, target)
     return np.asarray(np.hypot(linear / law.arm.length_unit, angular))
 
 
-def to_state_parts(state_rates: StateRates) -> dict[str, SX]:
+def configuration_state_parts(state_rates: StateRates) -> dict[str, SX]:
     """Return the parts of a state that belong to its configuration."""
     return {
         "rates": state_rates.rates,
@@ -232,7 +238,7 @@ def elementwise_max(a: SX, b: SX) -> SX:
     return ca.if_else(a > b, a, b)
 
 
-def turning_point_value(start: SX, end: SX, start_rate: SX, end_rate: SX) -> SX:
+def value_at_turning_point(start: SX, end: SX, start_rate: SX, end_rate: SX) -> SX:
     """Return the value where a derivative (per step) changes sign between two ends, or ``end`` where it does not.
 
     The place is that of a parabola, the value that of the cubic; being flat there, it is as good as the cubic's own.
@@ -261,7 +267,7 @@ END_WINDOW_FRACTION = 0.8
 LATE_WINDOW_FRACTION = 0.9
 
 
-def update_end_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:
+def track_final_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:
     """Update the speeds near the end of the time limit: the least, and the greatest of the first and the second half."""
     is_in_window, is_late = clock >= END_WINDOW_FRACTION * limit, clock >= LATE_WINDOW_FRACTION * limit
     return {

@@ -14,7 +14,7 @@ _DIGEST_KEY = ',\n  "digest": "'
 def seal_document(data: dict[str, Any]) -> str:
     """Return the text of a JSON object whose last entry is the SHA-256 digest of the text before it."""
     body = json.dumps(data, indent=2, allow_nan=False).removesuffix("\n}")
-    return f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n'
+    return f'{body}{_DIGEST_KEY}{_text_digest(body)}"\n}}\n'
 
 
 def is_sealed(text: str) -> bool:
@@ -29,9 +29,9 @@ def check_seal(text: str) -> None:
         InputError: The digest is missing or does not match.
     """
     body, _, _ = text.rpartition(_DIGEST_KEY)
-    if text != f'{body}{_DIGEST_KEY}{_digest_of(body)}"\n}}\n':
+    if text != f'{body}{_DIGEST_KEY}{_text_digest(body)}"\n}}\n':
         raise InputError("its digest does not match its content; the file was changed after it was written")
 
 
-def _digest_of(text: str) -> str:
+def _text_digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()

@@ -14,17 +14,17 @@ from urllib.parse import urlsplit
 _HOST_PATTERN = re.compile(r"(?:[A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
 
 
-def find_request_fault(hosts: Sequence[str], origins: Sequence[str], known: Callable[[str], bool]) -> str | None:
+def request_rejection_reason(hosts: Sequence[str], origins: Sequence[str], is_own_host: Callable[[str], bool]) -> str | None:
     """Return the reason to reject a request, or None.
 
     Args:
         hosts: Its ``Host`` headers; one is right.
         origins: Its ``Origin`` headers; one, or none.
-        known: Whether the server answers for the name of a host, which is lower case and without port and brackets.
+        is_own_host: Whether the server answers for the name of a host, which is lower case and without port and brackets.
     """
     host = hosts[0] if len(hosts) == 1 else ""
-    name = _host_name(host)
-    if name is None or not known(name):
+    name = _parse_host_name(host)
+    if name is None or not is_own_host(name):
         return "the request names another host"
     own = (f"http://{host}".lower(), f"https://{host}".lower())
     if len(origins) > 1 or any(origin.lower() not in own for origin in origins):
@@ -32,7 +32,7 @@ def find_request_fault(hosts: Sequence[str], origins: Sequence[str], known: Call
     return None
 
 
-def is_loopback(name: str) -> bool:
+def is_loopback_host(name: str) -> bool:
     """Return whether a name or address always means this computer."""
     try:
         return ipaddress.ip_address(name).is_loopback
@@ -40,7 +40,7 @@ def is_loopback(name: str) -> bool:
         return name == "localhost"
 
 
-def _host_name(host: str) -> str | None:
+def _parse_host_name(host: str) -> str | None:
     try:
         return urlsplit(f"//{host}").hostname if _HOST_PATTERN.fullmatch(host) else None
     except ValueError:

@@ -83,7 +83,7 @@ def read_mesh(path: Path) -> tuple[Triangles, bytes]:
         content = reading.read_bytes(path)
     if not content:
         raise InputError(f"'{path.name}' is empty; give a mesh with triangles")
-    _require_complete(content, kind, path.name)
+    _reject_truncated_file(content, kind, path.name)
     if kind == "stl":
         return make_triangles(*_read_stl(content, path.name), f"'{path.name}'"), content
     if kind == "dae" and find_spec("collada") is None:
@@ -102,7 +102,7 @@ def read_mesh(path: Path) -> tuple[Triangles, bytes]:
     return make_triangles(vertices, faces, f"'{path.name}'"), content
 
 
-def _require_complete(content: bytes, kind: str, name: str) -> None:
+def _reject_truncated_file(content: bytes, kind: str, name: str) -> None:
     """Reject a truncated file that its reader would accept."""
     text = kind == "stl" and _is_text_stl(content)
     if kind == "stl" and not text:
@@ -138,32 +138,32 @@ def _read_stl(content: bytes, name: str) -> tuple[NDArray[np.floating[Any]], Ind
     return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
 
 
-def make_triangles(vertices: ArrayLike, faces: ArrayLike, what: str) -> Triangles:
+def make_triangles(vertices: ArrayLike, faces: ArrayLike, surface_name: str) -> Triangles:
     """Check a surface and return it with every vertex once.
 
     Args:
         vertices: (V, 3).
         faces: (F, 3) whole numbers.
-        what: What an error calls them.
+        surface_name: What an error calls them.
 
     Raises:
         InputError: They are no triangles, none, or not finite.
     """
     points, corners = (
-        np.array(require_real_numbers(vertices, f"{what}: vertices")),
-        require_real_numbers(faces, f"{what}: faces"),
+        np.array(require_real_numbers(vertices, f"{surface_name}: vertices")),
+        require_real_numbers(faces, f"{surface_name}: faces"),
     )
     if points.ndim != 2 or points.shape[-1] != 3 or corners.ndim != 2 or corners.shape[-1] != 3 or not corners.size:
-        raise InputError(f"{what} has no triangles; give vertices (V, 3) and faces (F, 3)")
+        raise InputError(f"{surface_name} has no triangles; give vertices (V, 3) and faces (F, 3)")
     if not np.isfinite(points).all():
-        raise InputError(f"{what} holds NaN or infinity; all its vertices must be finite")
+        raise InputError(f"{surface_name} holds NaN or infinity; all its vertices must be finite")
     if not ((corners >= 0) & (corners < len(points)) & (corners == np.floor(corners))).all():
-        raise InputError(f"{what} is damaged: a face names a vertex that is not there; write it anew")
+        raise InputError(f"{surface_name} is damaged: a face names a vertex that is not there; write it anew")
     used, numbers = _unique_rows(points[corners.astype(np.int64).ravel()] + 0.0)
     sound = numbers.reshape(-1, 3)
     sound = sound[(sound != np.roll(sound, 1, axis=1)).all(axis=1)]
     if not len(sound):
-        raise InputError(f"{what} has no triangle with an area; write it anew")
+        raise InputError(f"{surface_name} has no triangle with an area; write it anew")
     return Triangles(used, sound)
 
 

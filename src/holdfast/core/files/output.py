@@ -14,18 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import StoreError
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 
 _TEMPORARY_SUFFIX = ".holdfast-{}.tmp"  # beside a file that is being written
 
 
 @contextmanager
-def guard_writing(place: str | Path, what: str = "to", advice: str = "choose another folder") -> Iterator[None]:
+def guard_writing(target: str | Path, content_name: str = "to", advice: str = "choose another folder") -> Iterator[None]:
     """Context of a block that writes; if the disk refuses, the error states it in one sentence.
 
     Args:
-        place: The file or folder that the sentence names.
-        what: It is: ``report``, ``tables into``.
+        target: The file or folder that the sentence names.
+        content_name: It is: ``report``, ``tables into``.
         advice: How the sentence ends.
 
     Raises:
@@ -34,7 +34,7 @@ def guard_writing(place: str | Path, what: str = "to", advice: str = "choose ano
     try:
         yield
     except OSError as error:
-        target_text = f"{what} '{place}'".lstrip()
+        target_text = f"{content_name} '{target}'".lstrip()
         raise StoreError(f"cannot write {target_text}: {error.strerror or error}; {advice}") from error
 
 
@@ -51,21 +51,21 @@ def make_folder(folder: str | Path) -> Path:
 
 
 def replace_file(
-    path: Path, content: str | bytes, what: str = "", advice: str = "choose another path", errors: str = "strict"
+    path: Path, content: str | bytes, content_name: str = "", advice: str = "choose another path", errors: str = "strict"
 ) -> None:
     """Write a file completely or not at all, with the permissions of a new file.
 
     Args:
         path: The file.
         content: Its content; text is written as UTF-8.
-        what: It is, for the sentence where the disk refuses; see :func:`guard_writing`.
+        content_name: It is, for the sentence where the disk refuses; see :func:`guard_writing`.
         advice: How that sentence ends.
         errors: What becomes of characters that UTF-8 does not have, as :meth:`str.encode` takes it.
 
     Raises:
         StoreError: The disk refuses; what was there is as it was.
     """
-    with guard_writing(path, what, advice), _temporary_file(path) as temporary:
+    with guard_writing(path, content_name, advice), _temporary_file(path) as temporary:
         temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
 
 
@@ -83,14 +83,14 @@ def is_occupied(folder: Path) -> bool:
 
 
 @contextmanager
-def open_replacement(path: Path, what: str = "") -> Iterator[TextIO]:
+def open_replacement(path: Path, content_name: str = "") -> Iterator[TextIO]:
     """Open a UTF-8 text file that takes its place when the block ends without an error; line ends are written as given.
 
     Raises:
         StoreError: The disk refuses; what was there is as it was.
     """
     with (
-        guard_writing(path, what, "choose another path"),
+        guard_writing(path, content_name, "choose another path"),
         _temporary_file(path) as temporary,
         temporary.open("w", encoding="utf-8", newline="") as file,
     ):
@@ -98,17 +98,21 @@ def open_replacement(path: Path, what: str = "") -> Iterator[TextIO]:
 
 
 def write_table(
-    path: str | Path, what: str, header: Sequence[str], rows: NDArray[np.float64], form: str | Sequence[str] = "%.9g"
+    path: str | Path,
+    content_name: str,
+    header: Sequence[str],
+    rows: NDArray[np.float64],
+    number_format: str | Sequence[str] = "%.9g",
 ) -> Path:
-    """Write numbers (N, columns) as CSV, each as ``form`` says; ``what`` they are is for the error.
+    """Write numbers (N, columns) as CSV, each as ``number_format`` says; ``content_name`` they are is for the error.
 
     Raises:
         StoreError: It cannot be written.
     """
     file = Path(path)
-    with open_replacement(file, what) as stream:
-        csv.writer(stream, lineterminator="\n").writerow(map(escape_cell, header))
-        np.savetxt(stream, rows, fmt=form, delimiter=",")
+    with open_replacement(file, content_name) as stream:
+        csv.writer(stream, lineterminator="\n").writerow(map(escape_formula, header))
+        np.savetxt(stream, rows, fmt=number_format, delimiter=",")
     return file
 
 

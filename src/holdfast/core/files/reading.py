@@ -18,27 +18,29 @@ MAX_INTEGER_DIGITS = 80  # of a whole number, its base and separators included
 
 
 @contextmanager
-def guard_reading(what: str = "the file", advice: str = "", kind: type[HoldfastError] = InputError) -> Iterator[None]:
+def guard_reading(
+    file_name: str = "the file", advice: str = "", error_type: type[HoldfastError] = InputError
+) -> Iterator[None]:
     """Context of a block that reads; if reading fails, the error states it in one sentence.
 
     Args:
-        what: The file, as the sentence names it.
+        file_name: The file, as the sentence names it.
         advice: How the sentence ends.
-        kind: Of the error.
+        error_type: Of the error.
     """
     try:
         yield
     except OSError as error:
         ending = f"; {advice}" if advice else ""
-        raise kind(f"{what} cannot be read ({error.strerror or error}){ending}") from error
+        raise error_type(f"{file_name} cannot be read ({error.strerror or error}){ending}") from error
 
 
-def read_bytes(path: str | Path, largest: int = LARGEST_FILE_BYTES) -> bytes:
+def read_bytes(path: str | Path, max_bytes: int = LARGEST_FILE_BYTES) -> bytes:
     """Read the content of a file as bytes.
 
     Args:
         path: The file.
-        largest: Bytes that it may have.
+        max_bytes: Bytes that it may have.
 
     Raises:
         OSError: It cannot be read, is not a regular file, or is larger; its ``strerror`` says which.
@@ -52,26 +54,26 @@ def read_bytes(path: str | Path, largest: int = LARGEST_FILE_BYTES) -> bytes:
     if not stat.S_ISREG(state.st_mode):  # opening a pipe waits, reading a device may never end
         raise OSError(errno.EINVAL, "it is a device, pipe or socket, not a regular file", str(path))
     content = b""
-    if state.st_size <= largest:
+    if state.st_size <= max_bytes:
         with Path(path).open("rb") as file:
-            content = file.read(largest + 1)  # not its size: files of /proc have none
-    if max(state.st_size, len(content)) > largest:
-        raise OSError(errno.EFBIG, f"it is larger than {largest / (1 << 20):.4g} MiB", str(path))
+            content = file.read(max_bytes + 1)  # not its size: files of /proc have none
+    if max(state.st_size, len(content)) > max_bytes:
+        raise OSError(errno.EFBIG, f"it is larger than {max_bytes / (1 << 20):.4g} MiB", str(path))
     return content
 
 
-def read_text(path: str | Path, largest: int = LARGEST_FILE_BYTES) -> str:
+def read_text(path: str | Path, max_bytes: int = LARGEST_FILE_BYTES) -> str:
     """Read a UTF-8 file without its byte order mark; its lines end with line feeds.
 
     Args:
         path: The file.
-        largest: Bytes that it may have.
+        max_bytes: Bytes that it may have.
 
     Raises:
         OSError: As :func:`read_bytes`.
         UnicodeDecodeError: It is not UTF-8.
     """
-    return read_bytes(path, largest).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    return read_bytes(path, max_bytes).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
 
 def read_json(path: str | Path) -> Any:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
-def escape_cell(value: Any) -> Any:
+def escape_formula(value: Any) -> Any:
     """Return a value for a CSV file; text that a spreadsheet would compute gets an apostrophe, numbers stay."""
     if not isinstance(value, str) or not value.startswith(_FORMULA_STARTS):
         return value
@@ -21,9 +21,9 @@ def escape_cell(value: Any) -> Any:
     return value
 
 
-def read_cell(text: str) -> str:
-    """Return the text that :func:`escape_cell` made a cell from."""
-    return text[1:] if text.startswith("'") and escape_cell(text[1:]) == text else text
+def unescape_formula(text: str) -> str:
+    """Return the text that :func:`escape_formula` made a cell from."""
+    return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
 
 
 def write_csv_text(table: DataFrame, missing: str = "") -> str:
@@ -35,11 +35,11 @@ def write_csv_text(table: DataFrame, missing: str = "") -> str:
         table: Without its index.
         missing: For NaN and None.
     """
-    safe = table.rename(columns=escape_cell)
+    safe = table.rename(columns=escape_formula)
     other = [k for k, kind in enumerate(safe.dtypes) if kind.kind not in "fi"]
     if other:
         for k in other:
-            safe.isetitem(k, safe.iloc[:, k].map(escape_cell).to_numpy())
+            safe.isetitem(k, safe.iloc[:, k].map(escape_formula).to_numpy())
         return str(safe.to_csv(index=False, na_rep=missing, lineterminator="\n"))
     columns = [[repr(x) if x == x else missing for x in safe.iloc[:, k].tolist()] for k in range(safe.shape[1])]
     head = str(safe.head(0).to_csv(index=False, lineterminator="\n"))

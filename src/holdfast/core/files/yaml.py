@@ -20,14 +20,14 @@ _MAX_ENTRIES = 500_000
 _TOO_DEEP = f"its blocks are more than {_MAX_DEPTH} levels deep; write it flatter"
 
 
-def _not_a_flag(value: Any) -> Any:
+def _reject_boolean(value: Any) -> Any:
     if isinstance(value, bool):
         raise ValueError("it must be a number")
     return value
 
 
 # Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
-Number = Annotated[float, BeforeValidator(_not_a_flag)]
+Number = Annotated[float, BeforeValidator(_reject_boolean)]
 Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
 
@@ -146,7 +146,7 @@ def _shorten(text: str, most: int = 80) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
-def describe_error(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
+def describe_validation_error(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
     """Return pydantic's most informative error as one sentence; a misspelt key comes before the key that it leaves missing.
 
     Args:
@@ -162,11 +162,13 @@ def describe_error(error: ValidationError, model: type[BaseModel], tags: Collect
     value_text = reprlib.repr(problem["input"])
     match problem["type"]:
         case "extra_forbidden":
-            return f"{key_path}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_block_keys(model, where))}"
+            return (
+                f"{key_path}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys_of_block(model, where))}"
+            )
         case "missing":
             return f"{key_path}: it is missing; it must be given"
         case "model_type":
-            return f"{key_path}: {value_text} is wrong; give the keys {', '.join(_block_keys(model, (*where, '')))}"
+            return f"{key_path}: {value_text} is wrong; give the keys {', '.join(_keys_of_block(model, (*where, '')))}"
         case "literal_error":
             return f"{key_path}: {value_text} is not known; use {problem['ctx']['expected']}"
         case "value_error":
@@ -184,29 +186,29 @@ def _required_length(context: dict[str, Any]) -> str:
     return "at least 1" if least == 1 else str(least)
 
 
-def _block_keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
+def _keys_of_block(model: type[BaseModel], key_path: tuple[int | str, ...]) -> list[str]:
     """Return the keys of the block that contains the last entry of a trail, tags of alternatives included."""
     annotation: Any = None
-    for step in trail[:-1]:
+    for step in key_path[:-1]:
         if isinstance(step, str):
             field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
             if field is not None:  # else a tag, or a key that people choose, as the name of a link
                 annotation = field.annotation
-                model = next(_models_in(annotation), model)  # a name that people choose may be that of a field
+                model = next(_nested_models(annotation), model)  # a name that people choose may be that of a field
             else:
-                model = next(_models_in(_find_alternative(annotation, step)), model)
+                model = next(_nested_models(_find_tagged_alternative(annotation, step)), model)
     return [field.alias or name for name, field in model.model_fields.items()]
 
 
-def _find_alternative(annotation: Any, tag: str) -> Any:
+def _find_tagged_alternative(annotation: Any, tag: str) -> Any:
     """Return the alternative with a tag, or None."""
     if any(isinstance(x, Tag) and x.tag == tag for x in getattr(annotation, "__metadata__", ())):
         return annotation
-    return next((found for part in get_args(annotation) if (found := _find_alternative(part, tag)) is not None), None)
+    return next((found for part in get_args(annotation) if (found := _find_tagged_alternative(part, tag)) is not None), None)
 
 
-def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+def _nested_models(annotation: Any) -> Iterator[type[BaseModel]]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
     for part in get_args(annotation):
-        yield from _models_in(part)
+        yield from _nested_models(part)

@@ -65,11 +65,11 @@ class DistributionCollector:
                 self._weights.append(weights)
             self._kept += len(values)
             if self._kept > self._most:
-                self._start_bins()
+                self._switch_to_bins()
         else:
             self._count_in_bins(values, weights)
 
-    def _start_bins(self) -> None:
+    def _switch_to_bins(self) -> None:
         collected = np.concatenate(self._parts)
         finite = collected[np.isfinite(collected)]
         if self._bound is not None:
@@ -99,7 +99,7 @@ class DistributionCollector:
             bin_index = np.searchsorted(self._edges, values, side="right") - 1
         self._counts += np.bincount(bin_index.clip(0, last), weights, minlength=last + 1)
 
-    def finish(self) -> Distribution:
+    def make_distribution(self) -> Distribution:
         """The distribution of everything added."""
         if self._edges is None:
             values = np.concatenate(self._parts) if self._parts else np.zeros(0)

@@ -153,7 +153,7 @@ class Distribution:
     @property
     def unreached_share(self) -> float:
         """Share of the samples without a configuration, by weight."""
-        return self._lost_weight / self._total_size(False)
+        return self._unreached_weight / self._total_size(False)
 
     def effective(self, reachable_only: bool = False) -> float:
         """Return the effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
@@ -167,7 +167,7 @@ class Distribution:
         size = self._total_size(reachable_only)
         if self._found is None or self._lost is None:
             return float(size)
-        return WeightSums(size, max(self._found.largest, self._lost.largest)).effective
+        return WeightSums(size, max(self._found.largest, self._lost.largest)).effective_size
 
     def total_weight(self, reachable_only: bool = False) -> float:
         """Sum of the weights of the samples; their number if all count alike."""
@@ -191,7 +191,7 @@ class Distribution:
         return self._reached - self.infinite if self._finite is None else self._finite.weight
 
     @property
-    def _lost_weight(self) -> float:
+    def _unreached_weight(self) -> float:
         return self.unreached if self._lost is None else self._lost.weight
 
     def _total_size(self, reachable_only: bool) -> float:
@@ -205,7 +205,7 @@ class Distribution:
             )
         if self.has_weights:
             size = float(self._cumulative_weight[-1])  # not the sum of chunks: F must end at 1
-            size = size if reachable_only else size + self._lost_weight
+            size = size if reachable_only else size + self._unreached_weight
             if not size > 0:
                 raise InputError("the weights of these samples are all 0; give at least one a weight above 0")
         return size
@@ -220,7 +220,7 @@ class Distribution:
             count = np.interp(h, self.edges, self._cumulative_weight[: len(self.edges)])
             count = np.where(h > self.highest, min(self._finite_weight, self._cumulative_weight[-1]), count)
         if not reachable_only and self.better == "larger":
-            count = count + np.where(h > 0, self._lost_weight, 0)
+            count = count + np.where(h > 0, self._unreached_weight, 0)
         return np.asarray(count)
 
     def cdf(self, h: ArrayLike, reachable_only: bool = False) -> FloatArray:
@@ -286,7 +286,7 @@ class Distribution:
             raise InputError("a quantile is asked for a share outside 0 to 1")
         size = self._total_size(reachable_only)
         if self.has_weights:
-            return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._lost_weight)
+            return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._unreached_weight)
         lost = 0 if reachable_only else self.unreached
         rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # from 0
         rank -= (rank >= 1) & (rank / size >= p_)  # p * size may round up past a whole number

@@ -57,8 +57,8 @@ class Interval:
         Source: Waudby-Smith and Ramdas 2024, hedged capital with predictable plug-in bets; the mean of the capital over
         several orders is ours (a mean of capitals is one, too).
         """
-        low = _betting_limit(values, confidence)
-        high = 1 - _betting_limit(1 - values, confidence)
+        low = _lower_mean_limit(values, confidence)
+        high = 1 - _lower_mean_limit(1 - values, confidence)
         mean = float(np.mean(values))
         return cls(value=mean, low=min(low, mean), high=max(high, mean), confidence=confidence)
 
@@ -104,8 +104,8 @@ class Difference:
         excess = max(excess - size / 2, 0.0) if excess > 0 else excess
         correlation = float(excess / spread) if spread > 0 else 0.0
         value = two.value - one.value
-        low = value - _side_width(two.value - two.low, one.high - one.value, correlation)
-        high = value + _side_width(two.high - two.value, one.value - one.low, correlation)
+        low = value - _difference_half_width(two.value - two.low, one.high - one.value, correlation)
+        high = value + _difference_half_width(two.high - two.value, one.value - one.low, correlation)
         p = float(stats.binomtest(round(won), round(won + lost)).pvalue) if won + lost else 1.0
         if p > 1 - confidence:
             low, high = min(low, 0.0), max(high, 0.0)
@@ -147,7 +147,7 @@ class Difference:
         )
 
 
-def _side_width(a: float, b: float, correlation: float) -> float:
+def _difference_half_width(a: float, b: float, correlation: float) -> float:
     return float(np.sqrt(max(a * a - 2 * correlation * a * b + b * b, 0.0)))
 
 
@@ -175,7 +175,7 @@ class _BettingCapital:
         return float(np.logaddexp.reduce(np.log1p(stakes * (self._values - m)).sum(axis=1)) - np.log(BETTING_ORDERS))
 
 
-def _betting_limit(values: FloatArray, confidence: float) -> float:
+def _lower_mean_limit(values: FloatArray, confidence: float) -> float:
     """Return the smallest mean that the bets cannot reject."""
     from scipy.optimize import brentq
 
@@ -200,7 +200,7 @@ class WeightSums:
         self.largest = max(self.largest, float(weights.max(initial=0.0)))
 
     @property
-    def effective(self) -> float:
+    def effective_size(self) -> float:
         """Effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
 
         A sample kept with the probability ``w / max w`` is one of equal weight, so about as many are left. Intervals and bands

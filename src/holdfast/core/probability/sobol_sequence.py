@@ -38,7 +38,7 @@ def sobol_points(count: int, dimensions: int) -> NDArray[np.float64]:
     number = np.arange(count)
     gray = number ^ (number >> 1)
     points = np.zeros((count, dimensions), dtype=np.int64)
-    directions = np.array([_directions(*entry) for entry in _DIRECTION_TABLE[:dimensions]], dtype=np.int64).reshape(
+    directions = np.array([_direction_numbers(*entry) for entry in _DIRECTION_TABLE[:dimensions]], dtype=np.int64).reshape(
         dimensions, _SOBOL_BITS
     )
     for k in range(int(count).bit_length()):
@@ -46,7 +46,7 @@ def sobol_points(count: int, dimensions: int) -> NDArray[np.float64]:
     return points / (1 << _SOBOL_BITS)
 
 
-def _directions(polynomial: int, first: tuple[int, ...]) -> list[int]:
+def _direction_numbers(polynomial: int, first: tuple[int, ...]) -> list[int]:
     degree = polynomial.bit_length() - 1
     m = list(first)
     while len(m) < _SOBOL_BITS:

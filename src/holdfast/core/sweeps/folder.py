@@ -22,12 +22,12 @@ MAX_ROWS = 10**15
 MAX_CHUNKS = 10**7
 
 
-def exceeds_limits(rows: int, chunk: int) -> bool:
+def has_too_many_rows(rows: int, chunk: int) -> bool:
     """Return whether rows in chunks of this size are more than a program can count in a sensible time."""
     return rows > MAX_ROWS or -(-rows // chunk) > MAX_CHUNKS
 
 
-def is_plain_name(name: object) -> bool:
+def is_valid_folder_name(name: object) -> bool:
     """Return whether a name is a valid folder name, without a path, on every system."""
     return (
         isinstance(name, str)
@@ -37,19 +37,24 @@ def is_plain_name(name: object) -> bool:
     )
 
 
-def current_plan(plan: Mapping[str, Any], old: Mapping[str, Any], formerly: Mapping[str, Any] | None) -> Mapping[str, Any]:
+def upgrade_stored_plan(
+    plan: Mapping[str, Any], stored_plan: Mapping[str, Any], formerly: Mapping[str, Any] | None
+) -> Mapping[str, Any]:
     """Return the plan of a folder as this version writes it.
 
     Args:
         plan: What is asked for.
-        old: What the folder holds.
+        stored_plan: What the folder holds.
         formerly: Entries of ``plan`` as earlier versions wrote them, None for those that they did not have.
     """
     content = plan_content(plan)
-    old = {**old, **{key: plan[key] for key, value in plan_content(old).items() if value == content.get(key)}}
-    if formerly is None or any(old.get(key) != value for key, value in formerly.items()):
-        return old
-    return {**old, **{key: plan[key] for key in formerly}}
+    stored_plan = {
+        **stored_plan,
+        **{key: plan[key] for key, value in plan_content(stored_plan).items() if value == content.get(key)},
+    }
+    if formerly is None or any(stored_plan.get(key) != value for key, value in formerly.items()):
+        return stored_plan
+    return {**stored_plan, **{key: plan[key] for key in formerly}}
 
 
 def plan_content(plan: Mapping[str, Any]) -> dict[str, Any]:

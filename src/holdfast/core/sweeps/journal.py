@@ -36,7 +36,7 @@ class ChecksumLines:
         """
         if not reading.path_exists(self.path):
             return
-        with reading.guard_reading(f"'{self.path}'", kind=StoreError):
+        with reading.guard_reading(f"'{self.path}'", error_type=StoreError):
             *lines, _ = reading.read_bytes(self.path, _LARGEST_FILE_BYTES).split(b"\n")
         for line in lines:
             text, _, check = line.rpartition(b" ")
@@ -53,7 +53,7 @@ class ChecksumLines:
         with guard_writing(self.path, advice=RESUME_ADVICE):
             handle = os.open(self.path, os.O_CREAT | os.O_RDWR, 0o644)
             try:
-                end = _complete_length(handle)
+                end = _complete_lines_size(handle)
                 try:
                     os.ftruncate(handle, end)
                     os.lseek(handle, end, os.SEEK_SET)
@@ -131,7 +131,7 @@ def _entry_line(chunk: int, entry: JournalEntry) -> bytes:
     return f"{chunk} {entry.digest} {entry.size} {entry.seconds:.6g} {entry.maker}".encode()
 
 
-def _complete_length(handle: int) -> int:
+def _complete_lines_size(handle: int) -> int:
     """Return the number of bytes up to the end of the last complete line."""
     size = os.lseek(handle, 0, os.SEEK_END)
     step = 4096

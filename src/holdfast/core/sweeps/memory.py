@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from holdfast.core.errors import StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.output import guard_writing
-from holdfast.core.sweeps.folder import current_plan, describe_difference
+from holdfast.core.sweeps.folder import describe_difference, upgrade_stored_plan
 from holdfast.core.sweeps.journal import ChecksumLines
 
 MEMORY_FILE = "search.journal"
@@ -54,7 +54,7 @@ class SearchMemory:
             place.mkdir(parents=True, exist_ok=True)
         if occupied:
             raise StoreError(f"'{folder}' is not empty and holds no search; give a new or empty folder")
-        self._add({"search": self._plan})
+        self._add_journal_line({"search": self._plan})
 
     def recall_or_compute(self, name: str, make: Callable[[], Parts]) -> Parts:
         """Return arrays by name, from the journal or computed now and stored.
@@ -76,13 +76,15 @@ class SearchMemory:
         Raises:
             StoreError: The disk refuses; what was remembered before is safe.
         """
-        self._add({"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in arrays.items()}})
+        self._add_journal_line(
+            {"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in arrays.items()}}
+        )
         self._parts[name] = arrays
 
     def _read_journal(self, formerly: Mapping[str, Any] | None) -> None:
         try:
             first, *lines = [json.loads(text) for text, sound in self._lines.read_lines() if sound or self._before]
-            plan = current_plan(self._plan, dict(first["search"]), formerly)
+            plan = upgrade_stored_plan(self._plan, dict(first["search"]), formerly)
             for line in lines:
                 self._parts[line["part"]] = {
                     key: _make_array(kind, values).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()
@@ -92,7 +94,7 @@ class SearchMemory:
         if other := describe_difference(plan, self._plan):
             raise StoreError(f"'{self._lines.path.parent}' holds another search: {other}; give another folder")
 
-    def _add(self, line: dict[str, Any]) -> None:
+    def _add_journal_line(self, line: dict[str, Any]) -> None:
         self._lines.append(json.dumps(line).encode())
 
 

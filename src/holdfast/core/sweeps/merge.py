@@ -90,7 +90,7 @@ def merge_studies(path: str | Path, folders: Sequence[str | Path], progress: Pro
     with lock_folder(study.path, STUDY_LOCK_FILE):
         merging = _Merging(study, sum(s.chunks_done for o in others for s in o.status()), progress)
         for other in others:
-            merging.take_from(other)
+            merging.copy_chunks_from(other)
         study.made.add_runs(r for o in others for r in o.runs)
     return MergeReport(study=study, added=merging.added, both=merging.both, close=merging.close, apart=tuple(merging.apart))
 
@@ -103,7 +103,7 @@ class _Merging:
         self.added = self.both = self.close = self._at = 0
         self.apart: list[tuple[str, int]] = []
 
-    def take_from(self, other: Study) -> None:
+    def copy_chunks_from(self, other: Study) -> None:
         """Copy the chunks of another folder."""
         numbers = [self._study.made.machine_number(machine) for machine in other.makers]
         for number, cell in enumerate(other.cells):
@@ -118,13 +118,13 @@ class _Merging:
             if source.committed_chunks and number not in self._study.begun_cells:
                 self._study.record_begun(number)
             for part in source.committed_chunks:
-                self._take_chunk(cell["name"], part, source, mine, numbers)
+                self._copy_chunk(cell["name"], part, source, mine, numbers)
                 self._at += 1
                 if self._progress is not None:
                     self._progress(self._at, self._total, None)
 
-    def _take_chunk(self, cell: str, chunk: int, source: Store, mine: Store, numbers: list[int]) -> None:
-        entry, own_entry = source.entries[chunk], mine.entries.get(chunk)
+    def _copy_chunk(self, cell: str, chunk: int, source: Store, target: Store, machine_numbers: list[int]) -> None:
+        entry, own_entry = source.entries[chunk], target.entries.get(chunk)
         if own_entry is not None and own_entry.digest == entry.digest:
             self.both += 1
             return
@@ -136,16 +136,16 @@ class _Merging:
                 "with that folder, then compute it again"
             ) from error
         if own_entry is None:
-            maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
-            mine.commit_chunk(chunk, values, entry.seconds, maker=maker)
+            maker = machine_numbers[entry.maker] if entry.maker < len(machine_numbers) else 0
+            target.commit_chunk(chunk, values, entry.seconds, maker=maker)
             self.added += 1
-        elif _are_equal(mine.read_chunk(chunk, list(values)), values):
+        elif _are_columns_close(target.read_chunk(chunk, list(values)), values):
             self.close += 1
         else:
             self.apart.append((cell, chunk))
 
 
-def _are_equal(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
+def _are_columns_close(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
     for name, x in a.items():
         y = b[name]
         if x.dtype.kind != "f":

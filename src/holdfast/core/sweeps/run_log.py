@@ -40,7 +40,7 @@ class RunLog:
         data = self._read_file()
         if maker not in data["makers"]:
             data["makers"].append(maker)
-            self._write(data)
+            self._write_file(data)
         return int(data["makers"].index(maker))
 
     def add_runs(self, runs: Iterable[dict[str, Any]]) -> None:
@@ -51,7 +51,7 @@ class RunLog:
         """
         data = self._read_file()
         data["runs"] += [run for run in runs if run not in data["runs"]]
-        self._write(data)
+        self._write_file(data)
 
     def _read_file(self) -> dict[str, list[Any]]:
         file = self._folder / _RUN_LOG_FILE
@@ -63,5 +63,5 @@ class RunLog:
         except (OSError, ValueError, InputError, KeyError, TypeError) as error:
             raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
 
-    def _write(self, data: dict[str, list[Any]]) -> None:
+    def _write_file(self, data: dict[str, list[Any]]) -> None:
         replace_file(self._folder / _RUN_LOG_FILE, seal_document({**data, "sealed": True}), advice=RESUME_ADVICE)

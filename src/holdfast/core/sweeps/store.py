@@ -27,13 +27,13 @@ from holdfast.core.files.output import guard_writing, is_occupied, make_folder, 
 from holdfast.core.files.sealed import read_sealed
 from holdfast.core.sweeps.folder import (
     RESUME_ADVICE,
-    current_plan,
     describe_difference,
     digest_columns,
-    exceeds_limits,
-    is_plain_name,
+    has_too_many_rows,
+    is_valid_folder_name,
     lock_folder,
     shorten,
+    upgrade_stored_plan,
 )
 from holdfast.core.sweeps.journal import Journal, JournalEntry
 
@@ -120,7 +120,7 @@ class Store:
         plan = json.loads(json.dumps(plan))
         if reading.path_exists(folder / _RUN_FILE):
             store = cls.open(folder)
-            old_plan = current_plan(plan, store.plan, formerly)
+            old_plan = upgrade_stored_plan(plan, store.plan, formerly)
             if old_plan != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
                 sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, asked for are {rows} in chunks of {chunk}"
                 raise StoreError(
@@ -452,8 +452,8 @@ class Store:
                 )
                 array.attrs.update({"units": column.units, "long_name": column.about})
 
-    def _write_run_file(self, what: str = "", advice: str = RESUME_ADVICE) -> None:
-        replace_file(self.path / _RUN_FILE, seal_document(self._run), what, advice)
+    def _write_run_file(self, error_subject: str = "", retry_advice: str = RESUME_ADVICE) -> None:
+        replace_file(self.path / _RUN_FILE, seal_document(self._run), error_subject, retry_advice)
 
 
 def _find_invalid_entry(run: Mapping[str, Any]) -> str | None:
@@ -461,7 +461,7 @@ def _find_invalid_entry(run: Mapping[str, Any]) -> str | None:
     for key, kind in (("plan", dict), ("notes", dict), ("rows", int), ("chunk", int), ("done", list), ("columns", list)):
         if not isinstance(run.get(key), kind):
             return key
-    if run["rows"] < 0 or run["chunk"] < 1 or exceeds_limits(run["rows"], run["chunk"]):
+    if run["rows"] < 0 or run["chunk"] < 1 or has_too_many_rows(run["rows"], run["chunk"]):
         return "rows" if run["rows"] < 0 else "chunk"
     count = -(-run["rows"] // run["chunk"])
     if not all(isinstance(k, int) and 0 <= k < count for k in run["done"]):
@@ -478,10 +478,10 @@ def _is_column(entry: Any) -> bool:
     texts = (name, dtype, units, about, *(d for d, _ in lengths))
     if not all(isinstance(x, str) for x in texts) or not all(isinstance(n, int) and n >= 0 for _, n in lengths):
         return False
-    return _is_number(dtype) and is_plain_name(name)
+    return _is_numeric_type(dtype) and is_valid_folder_name(name)
 
 
-def _is_number(dtype: str) -> bool:
+def _is_numeric_type(dtype: str) -> bool:
     try:
         return not dtype.startswith("a") and np.dtype(dtype).kind in "fiu"  # 'a', bytes, is an alias that numpy warns of
     except (TypeError, ValueError):

@@ -16,7 +16,7 @@ from holdfast.core.files.sealed import read_sealed
 from holdfast.core.formatting import format_duration
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.sweeps.folder import exceeds_limits, is_plain_name, lock_folder
+from holdfast.core.sweeps.folder import has_too_many_rows, is_valid_folder_name, lock_folder
 from holdfast.core.sweeps.job import SweepCell
 from holdfast.core.sweeps.journal import Journal, JournalEntry
 from holdfast.core.sweeps.run_log import RunLog
@@ -75,7 +75,7 @@ class Study(Result):
                     "resume it"
                 )
             if study._data != data:
-                study._write(data)
+                study._write_study_file(data)
             return study
         if reading.path_exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
@@ -85,7 +85,7 @@ class Study(Result):
         if foreign:
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
         study = cls(folder, data)
-        study._write(data)
+        study._write_study_file(data)
         return study
 
     @classmethod
@@ -133,10 +133,10 @@ class Study(Result):
         with guard_writing(folder):
             folder.mkdir(parents=True)
         study = Study(folder, self._data)
-        study._write(self._data)
+        study._write_study_file(self._data)
         return study
 
-    def _write(self, data: dict[str, Any]) -> None:
+    def _write_study_file(self, data: dict[str, Any]) -> None:
         entries = {key: value for key, value in data.items() if key != "digest"}
         replace_file(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
         self._data = data
@@ -377,10 +377,10 @@ def _is_cell(data: Any) -> bool:
     if not isinstance(data, dict) or not all(isinstance(data.get(k), kind) for k, kind in kinds.items()):
         return False
     return (
-        is_plain_name(data.get("name"))
+        is_valid_folder_name(data.get("name"))
         and data["rows"] >= 0
         and data["chunk"] >= 1
-        and not exceeds_limits(data["rows"], data["chunk"])
+        and not has_too_many_rows(data["rows"], data["chunk"])
     )
 
 

@@ -31,7 +31,7 @@ class StudyVerification(Result):
         """Return for each study its damage, or that it is sound and which chunks are missing."""
         lines = []
         for study, damage in zip(self.studies, self.damage, strict=True):
-            lines += [f"{study.path}: {_describe_damage(d)}" for d in damage] or _describe_sound_study(study)
+            lines += [f"{study.path}: {_describe_damage(d)}" for d in damage] or _describe_undamaged_study(study)
         return lines
 
     def to_dict(self) -> dict[str, Any]:
@@ -77,7 +77,7 @@ def _describe_damage(d: DamagedChunk) -> str:
     return f"{which}: {d.what}"
 
 
-def _describe_sound_study(study: Study) -> list[str]:
+def _describe_undamaged_study(study: Study) -> list[str]:
     cells = study.status()
     done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
     missing_text = "" if done == total else f"; {total - done} of {total} are not computed"

@@ -52,7 +52,7 @@ class StudyRun:
         """See :meth:`Study.run`."""
         last_cell = -1
         for number, cell in enumerate(self._cells):
-            done = self._sound_entries(number)
+            done = self._intact_entries(number)
             own_chunks = []
             for chunk in range(cell.count):
                 last_cell += 1
@@ -66,13 +66,13 @@ class StudyRun:
         if self._progress is not None:
             self._progress(done_before, total, None)
         try:
-            for result in runner.results(self._iterate_tasks(), stop):
+            for result in runner.results(self._missing_chunk_tasks(), stop):
                 cell = self._cells[result.task.cell]
                 if result.columns is None:
                     assert result.problem is not None
                     self._problems.setdefault(cell.name, result.problem)
                     continue
-                self._commit(result.task, result.columns, result.seconds, result.made)
+                self._commit_result(result.task, result.columns, result.seconds, result.made)
                 committed += 1
                 if self._progress is not None:
                     remaining = total - done_before - committed
@@ -82,20 +82,20 @@ class StudyRun:
                 self._log_run(runner.about, started, time.monotonic() - begin, committed)
         return self._problems
 
-    def _sound_entries(self, k: int) -> dict[int, JournalEntry]:
+    def _intact_entries(self, cell_number: int) -> dict[int, JournalEntry]:
         """Return the finished chunks whose files have their recorded length, and drop the others."""
-        if not self._study.cell_folder(k).exists():
+        if not self._study.cell_folder(cell_number).exists():
             return {}
-        entries = self._study.cell_entries(k)
+        entries = self._study.cell_entries(cell_number)
         if not entries:
             return {}
-        store = self._study.cell_store(k)
+        store = self._study.cell_store(cell_number)
         lost_chunks = [n for n, e in store.entries.items() if store.chunk_size(n) != e.size]
         if lost_chunks:
             store.drop_chunks(lost_chunks)
         return dict(store.entries)
 
-    def _iterate_tasks(self) -> Iterator[ChunkTask]:
+    def _missing_chunk_tasks(self) -> Iterator[ChunkTask]:
         for number, numbers in self._missing.items():
             cell = self._cells[number]
             for chunk in numbers:
@@ -103,7 +103,9 @@ class StudyRun:
                     break
                 yield ChunkTask(number, cell.job, cell.chunk_at(chunk, self._study.seed))
 
-    def _commit(self, task: ChunkTask, columns: Mapping[str, NDArray[Any]], seconds: float, made: dict[str, Any]) -> None:
+    def _commit_result(
+        self, task: ChunkTask, columns: Mapping[str, NDArray[Any]], seconds: float, made: dict[str, Any]
+    ) -> None:
         number, cell = task.cell, self._cells[task.cell]
         if number not in self._stores:
             folder = self._study.cell_folder(number)

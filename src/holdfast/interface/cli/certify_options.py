@@ -11,7 +11,7 @@ import typer
 
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.options import JsonOption, PlotOption
-from holdfast.interface.cli.values import read_by_joint, read_numbers
+from holdfast.interface.cli.values import read_numbers, read_numbers_by_joint
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
@@ -97,8 +97,8 @@ class ConfigurationBoxOptions:
                 raise InputError("--within must not be negative: it is half widths")
             pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
             texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
-            box = read_intervals(arm, "--around", texts, degrees)
-        return box | read_intervals(arm, "--limit", self.limit, degrees)
+            box = read_joint_intervals(arm, "--around", texts, degrees)
+        return box | read_joint_intervals(arm, "--limit", self.limit, degrees)
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class CertificateOutput:
     json_: JsonOption = False
 
 
-def read_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
+def read_joint_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
     """Read ``JOINT=LOW..HIGH`` as numbers, rad."""
     ends: tuple[list[str], list[str]] = [], []
     for text in texts or []:
@@ -135,5 +135,5 @@ def read_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool
             )
         for end, value in zip(ends, (lower, upper), strict=True):
             end.append(f"{joint}={value}")
-    lower_ends, upper_ends = (read_by_joint(arm, end, option, degrees) for end in ends)
+    lower_ends, upper_ends = (read_numbers_by_joint(arm, end, option, degrees) for end in ends)
     return {name: (lower_ends[name], upper_ends[name]) for name in lower_ends}

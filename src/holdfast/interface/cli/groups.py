@@ -15,7 +15,7 @@ from holdfast.core.errors import InputError
 from holdfast.interface.cli.options import JsonOption, OutOption, PlotOption
 from holdfast.interface.cli.values import read_numbers
 from holdfast.interface.presentation.results import print_result, write_outputs
-from holdfast.model.arms.spec import match_arm_options, read_hold
+from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
@@ -42,7 +42,7 @@ class ArmSourceOptions:
         """Return the arm that ``spec`` and these options describe."""
         from holdfast.model import arms
 
-        return arms.resolve(spec, self.base, self.tip, hold=read_hold(",".join(self.hold)) if self.hold else None)
+        return arms.resolve(spec, self.base, self.tip, hold=parse_held_joints(",".join(self.hold)) if self.hold else None)
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,10 @@ class ArmSourcesOptions:
     name: Annotated[list[str] | None, "What an arm is called, once for each in order ('-' for its own)."] = None
 
     def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
-        """Return the arms that ``specs`` and these options describe; see :func:`holdfast.model.arms.spec.match_arm_options` for
-        the errors.
+        """Return the arms that ``specs`` and these options describe; see
+        :func:`holdfast.model.arms.spec.arm_specs_from_options` for the errors.
         """
-        return match_arm_options(specs, self.base, self.tip, self.hold, self.name)
+        return arm_specs_from_options(specs, self.base, self.tip, self.hold, self.name)
 
 
 @dataclass(frozen=True)
@@ -172,11 +172,11 @@ class ClearanceOptions:
         from holdfast.model.collision.capsules import Capsules
         from holdfast.model.collision.clearance import Clearance
         from holdfast.model.collision.clearance_argument import chosen_clearance
-        from holdfast.model.shapes.reading import with_meshes
+        from holdfast.model.shapes.reading import with_mesh_folder
 
         if self.margin is not None and not chooses_configurations:
             raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
-        arm = arm if self.meshes is None else with_meshes(arm, self.meshes)
+        arm = arm if self.meshes is None else with_mesh_folder(arm, self.meshes)
         if self.capsules is not None or self.radius is not None:
             shape = Capsules.along_links(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
             return chosen_clearance(arm, Clearance(arm, shape, itself=self.clearance is not False), self.cell)

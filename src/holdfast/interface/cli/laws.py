@@ -47,7 +47,7 @@ def read_law_for_arm(label: str, arm: str, task: str | None, chain: ArmSourceOpt
     return read_law(label, model, read_task(task, arm, model), **settings)
 
 
-def read_positions(text: str) -> str | int:
+def read_position_sampling(text: str) -> str | int:
     """Read the text of a lattice, or a number of random positions."""
     text = text.removeprefix("random:")
     return int(text) if is_count(text) else text
@@ -56,4 +56,4 @@ def read_positions(text: str) -> str | int:
 def read_targets(law: Law, text: str) -> Any:
     """Read ``--target`` as an argument of the library where it may be one target or many."""
     is_set = text.startswith(("grid", "random:"))
-    return read_positions(text) if is_set else read_target(law.arm, law.task, text)
+    return read_position_sampling(text) if is_set else read_target(law.arm, law.task, text)

@@ -161,7 +161,7 @@ def main() -> None:
         message = getattr(error, "format_message", error.__str__)().rstrip(".")
         if not message:  # no arguments: the help was shown
             sys.exit(2)
-        _exit_with_error(message + (_name_successor(message) or hint))
+        _exit_with_error(message + (_format_renaming_hint(message) or hint))
     except (KeyboardInterrupt, typer.Abort):
         _exit_stopped()
     except ValueError as error:
@@ -183,8 +183,10 @@ def main() -> None:
     sys.exit(exit_code if isinstance(exit_code, int) else 0)
 
 
-def _name_successor(message: str) -> str:
-    """Return the new name of a command or option that the error message calls unknown; empty if it was never known."""
+def _format_renaming_hint(message: str) -> str:
+    """Return the clause that gives the new name of a command or option that the error message calls unknown; empty if it was
+    never known.
+    """
     unknown = re.search(r"No such (?:command|option):? '?([\w-]+)", message)
     name = unknown.group(1) if unknown else ""
     successor = COMMAND_SUCCESSORS.get(name) or OPTION_SUCCESSORS.get(name)

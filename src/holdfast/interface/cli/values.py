@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from holdfast.model.failure_modes import Degraded, FailureSpec
 
 
-def read_by_joint(
+def read_numbers_by_joint(
     arm: Arm, texts: list[str] | None, option: str, degrees: bool = False, optional_value: bool = False
 ) -> dict[str | int, Any]:
     """Read the ``joint=number`` pairs of a repeatable option, by joint name; joints are given by name or number from 1.
@@ -53,7 +53,7 @@ def read_by_joint(
 def read_locks(
     arm: Arm, texts: list[str] | None, degrees: bool, optional_value: bool = False, failure: Path | None = None
 ) -> dict[str | int, Any] | Degraded:
-    """Read ``--lock`` of a command that has --degrees, see :func:`read_by_joint`, or the file of --failure."""
+    """Read ``--lock`` of a command that has --degrees, see :func:`read_numbers_by_joint`, or the file of --failure."""
     if failure is not None:
         from holdfast.model.failure_modes import Degraded
 
@@ -62,7 +62,7 @@ def read_locks(
         return Degraded.load(failure, arm)
     if not texts:
         raise InputError(f"give --lock, the joint that is locked, for example --lock {arm.joint_names[0]}, or --failure")
-    locked_values = read_by_joint(arm, texts, "--lock", degrees, optional_value)
+    locked_values = read_numbers_by_joint(arm, texts, "--lock", degrees, optional_value)
     known_values = {name: value for name, value in locked_values.items() if value is not None}
     check_joint_units(
         [arm.joints[arm.joint_index(name)] for name in known_values], list(known_values.values()), "--lock", degrees
@@ -170,7 +170,7 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures:
                 "'0.5*torque:effort + 0.1*acceleration'"
             )
         factor = float(match["factor"] or 1) * (-1 if match["sign"] == "-" else 1)
-        summands.append((factor, _make_summand(arm, option, match["name"], match["weights"], task, failures)))
+        summands.append((factor, _make_objective_term(arm, option, match["name"], match["weights"], task, failures)))
         position = match.end()
     is_single = len(summands) == 1 and summands[0][0] == 1
     objective = summands[0][1] if is_single else WeightedSum(summands)
@@ -184,7 +184,9 @@ _SUMMAND_PATTERN = re.compile(
 )
 
 
-def _make_summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task, failures: FailureSpec) -> Objective:
+def _make_objective_term(
+    arm: Arm, option: str, name: str, weights: str | None, task: str | Task, failures: FailureSpec
+) -> Objective:
     from holdfast.core.registry import INDEX_REGISTRY, SUSCEPTIBILITY_REGISTRY, unknown_name_message
 
     objective: Objective

@@ -15,7 +15,7 @@ from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.page import Block, Code, Text
 from holdfast.kinematics.regions.region import Region
-from holdfast.kinematics.regions.weights import Density, swap_angles
+from holdfast.kinematics.regions.weights import Density, swap_roll_and_yaw
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import zyx_angles
@@ -130,7 +130,7 @@ def _has_default_shape(assessment: Assessment) -> bool:
     return clearance.capsules.is_assumed(assessment.arm) and not has_default_cover
 
 
-def list_capsule_files(assessment: Assessment) -> list[Block]:
+def build_shape_file_blocks(assessment: Assessment) -> list[Block]:
     """Return the capsule file and the cell file that the command needs, if any, as blocks to copy."""
     clearance = assessment.plan.clearance
     if clearance is None:
@@ -186,7 +186,7 @@ def format_region_file(region: Region) -> str:
             box |= {"rpy_center": center[:2:-1], "rpy_size": size[:2:-1]}
         data["box"] = box
         if isinstance(region.weight, Density):
-            box["density"] = swap_angles(region.weight.to_dict())
+            box["density"] = swap_roll_and_yaw(region.weight.to_dict())
     else:
         lower = [middle - extent / 2 for middle, extent in zip(center, size, strict=True)]
         data["joints"] = {"lower": lower, "upper": [middle + extent / 2 for middle, extent in zip(center, size, strict=True)]}
@@ -194,7 +194,7 @@ def format_region_file(region: Region) -> str:
     return text.rstrip()
 
 
-def list_region_files(region: Region) -> list[Block]:
+def build_region_file_blocks(region: Region) -> list[Block]:
     """Return the files that the command needs, as blocks to copy."""
     blocks: list[Block] = [Code(format_region_file(region), Markup("with <code>region.yaml</code>:"))]
     if region.listed is not None and len(region.listed) <= _MAX_LISTED_POSES:

@@ -12,7 +12,7 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from holdfast.core.formatting import join_units
+from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.result import Presentable
 from holdfast.interface.presentation import call_presenter
 from holdfast.interface.presentation.printing import TextTable
@@ -39,7 +39,7 @@ def build_card(result: Presentable) -> str:
     if next_calls := call_presenter(result, "next_steps", name):
         code = escape("\n".join(map(_format_step, next_calls)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
-    return f'<div class="holdfast" style="max-width:60em">{join_units("".join(parts), html=True)}</div>'
+    return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
 
 
 def _variable_name(result: Presentable) -> str:

@@ -1,4 +1,4 @@
-from holdfast.core.formatting import join_units as join_units
+from holdfast.core.formatting import insert_nonbreaking_spaces as insert_nonbreaking_spaces
 from holdfast.interface.report.curves import KIND_STYLES as KIND_STYLES
 from holdfast.interface.report.figures import WIDTH_IN as WIDTH_IN
 from holdfast.interface.report.figures import Bin as Bin

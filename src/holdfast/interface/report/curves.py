@@ -89,7 +89,7 @@ def stationary_curves_figure(
             for curve in curves:
                 color, width, dashes, _ = KIND_STYLES[curve.kind]
                 axes.plot(
-                    *_break_at_jumps(curve.locked_values, curve.panel_values[panel]),
+                    *_break_at_angle_wraps(curve.locked_values, curve.panel_values[panel]),
                     color=color,
                     linewidth=width,
                     linestyle=dashes,
@@ -154,7 +154,7 @@ def basin_map_figure(
         image = np.array([to_rgb(cell_color) for cell_color in colors])[cells.T]
         axes.imshow(image, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
         for boundary in lines:
-            axes.plot(*_break_at_jumps(*boundary, extent[1] - extent[0]), color=INK, linewidth=0.9)
+            axes.plot(*_break_at_angle_wraps(*boundary, extent[1] - extent[0]), color=INK, linewidth=0.9)
         for kind, x, y, name in points:
             color, _, _, marker = KIND_STYLES[kind]
             axes.plot([x], [y], marker, color=color, markersize=8, markeredgecolor="white", markeredgewidth=1.0)
@@ -225,7 +225,7 @@ def _choose_basin_colors(names: Sequence[str]) -> list[str]:
     return colors
 
 
-def _break_at_jumps(x: FloatArray, y: FloatArray, period: float = 360.0) -> tuple[FloatArray, FloatArray]:
+def _break_at_angle_wraps(x: FloatArray, y: FloatArray, period: float = 360.0) -> tuple[FloatArray, FloatArray]:
     """Insert NaN where a value wraps around, so that no line runs across the figure."""
     jumps = np.flatnonzero((np.abs(np.diff(x)) > 0.5 * period) | (np.abs(np.diff(y)) > 0.5 * period)) + 1
     return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)

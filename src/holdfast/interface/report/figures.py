@@ -27,8 +27,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from holdfast.core.files.output import replace_file
-from holdfast.core.formatting import format_percent, on_one_line
-from holdfast.core.progress import count_one
+from holdfast.core.formatting import format_percent, shorten_to_one_line
+from holdfast.core.progress import count_finished_part
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.palette import AMBER as AMBER
 from holdfast.interface.report.palette import BLUE as BLUE
@@ -94,7 +94,7 @@ def style() -> Iterator[None]:
 
 def format_label(text: str, max_letters: int = 60) -> str:
     """Return text that matplotlib draws literally: on one line, shortened to ``max_letters`` characters."""
-    return on_one_line(text, max_letters).replace("$", r"\$")
+    return shorten_to_one_line(text, max_letters).replace("$", r"\$")
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
@@ -123,7 +123,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
     text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new_ids.get(m[2], m[2]), text)
-    count_one("figure")
+    count_finished_part("figure")
     return Markup(text.replace("<svg ", f'<svg role="img" aria-label="{escape(about)}" ', 1).strip())
 
 
@@ -160,7 +160,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
         FigureCanvasAgg(figure).print_png(data)
         figure.dpi = previous_dpi  # of what is rasterised if it is drawn as SVG next
     replace_file(file, data.getvalue(), "picture")
-    count_one("figure")
+    count_finished_part("figure")
     return file
 
 

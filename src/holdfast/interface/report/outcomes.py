@@ -136,7 +136,7 @@ def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
         figure = Figure(figsize=(WIDTH_IN, 1.25 + 0.3 * len(names)))
         all_axes = figure.subplots(1, len(spreads), squeeze=False, sharey=True)[0]
         for axes, spread in zip(all_axes, spreads, strict=True):
-            _draw_spread(axes, spread)
+            _draw_quantile_bars(axes, spread)
             axes.set_yticks(range(len(names)), [format_label(name, 34) for name in names])
             axes.set_ylim(len(names) - 0.5, -0.5)
             axes.grid(axis="y", visible=False)
@@ -150,7 +150,7 @@ def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
         return settle_layout(figure)
 
 
-def _draw_spread(axes: Axes, spread: Spread) -> None:
+def _draw_quantile_bars(axes: Axes, spread: Spread) -> None:
     for row, (q05, q25, q50, q75, q95) in enumerate(spread.quantiles):
         axes.hlines(row, q25, q75, color=SKY, linewidth=9)
         axes.hlines(row, q05, q95, color=BLUE, linewidth=1.2)

@@ -18,7 +18,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.core.files.output import replace_file
-from holdfast.core.formatting import join_units
+from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.interface.report.viewer import embed_viewer_library, read_template, to_script_json
 
 Cell = str | Markup
@@ -201,10 +201,10 @@ class Page:
 
 def _join_numbers_to_units(text: Cell) -> Cell:
     """Replace the spaces between numbers and their units by non-breaking ones."""
-    return Markup(join_units(text, html=True)) if isinstance(text, Markup) else join_units(text)
+    return Markup(insert_nonbreaking_spaces(text, html=True)) if isinstance(text, Markup) else insert_nonbreaking_spaces(text)
 
 
-def _allow_breaks(cell: Cell) -> Cell:
+def _break_after_underscores(cell: Cell) -> Cell:
     """Allow line breaks behind the underscores of long names, so that names from files do not push a table off the page."""
     joined = _join_numbers_to_units(cell)
     return (
@@ -222,7 +222,7 @@ def create_template_environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters["breakable"] = _allow_breaks
+    templates.filters["breakable"] = _break_after_underscores
     templates.filters["together"] = _join_numbers_to_units
     templates.filters["scripted"] = lambda data: Markup(to_script_json(data))
     templates.globals["source"] = lambda file: Markup(read_template(file))

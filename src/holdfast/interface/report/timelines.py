@@ -9,8 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from markupsafe import Markup
 
-from holdfast.core.formatting import on_one_line
-from holdfast.core.progress import count_one
+from holdfast.core.formatting import shorten_to_one_line
+from holdfast.core.progress import count_finished_part
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.page import create_template_environment
 from holdfast.interface.report.palette import BLUE, INK, ORANGE, SOFT
@@ -159,7 +159,7 @@ def draw_small_multiples(time: FloatArray, panels: Sequence[Timeline], about: st
 
 
 def _render_panels(panels: list[dict[str, Any]], height: float, legend: list[dict[str, Any]], about: str) -> Markup:
-    count_one("figure")
+    count_finished_part("figure")
     template = create_template_environment().get_template("timelines.html")
     return Markup(
         template.render(
@@ -206,7 +206,7 @@ class _PanelLayout:
             "y": y,
             "wide": round(axes_width, 2),
             "tall": self._height,
-            "title": on_one_line(self._panel.title, 90),
+            "title": shorten_to_one_line(self._panel.title, 90),
             "across": [(round(x + axes_width * fraction, 2), text) for fraction, text in self._time_scale.ticks],
             "upward": [(round(y + self._height * (1 - fraction), 2), text) for fraction, text in self._value_scale.ticks],
             "curves": [{**line_style, "way": path} for line_style, path in styled_paths],
@@ -218,7 +218,7 @@ def _style_line(line_index: int, line: TimelineLine) -> dict[str, Any]:
     own_style = (LINE_COLORS[line_index % len(LINE_COLORS)], 1.9, _LINE_DASHES[(line_index // 3) % len(_LINE_DASHES)])
     color, width, dashes = own_style if line.look is None else _LOOK_STYLES[line.look]
     scaled = " ".join(f"{width * dash:.3g}" for dash in dashes)
-    return {"color": color, "width": width, "dashes": scaled, "label": on_one_line(line.label)}
+    return {"color": color, "width": width, "dashes": scaled, "label": shorten_to_one_line(line.label)}
 
 
 def _to_svg_path(x: FloatArray, y: FloatArray) -> str:

@@ -184,11 +184,11 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
         isolation_time=np.inf if verdict.joint is None else isolation_time,
         findings=tuple(findings),
         inconclusive=tuple(inconclusive),
-        record_html=_encode_record(diagnosis.log, hf.diagnosis.javascript_of(run.arm, diagnosis.bounds), onset),
+        record_html=_encode_log_html(diagnosis.log, hf.diagnosis.javascript_of(run.arm, diagnosis.bounds), onset),
     )
 
 
-def _encode_record(log: Log, monitor: str, onset: float) -> str:
+def _encode_log_html(log: Log, monitor: str, onset: float) -> str:
     """Encode for the page the rows of joints, references and torques, the measured poses, (4, 4) by rows, and the monitor."""
     assert log.tau is not None
     assert log.x is not None

@@ -64,7 +64,7 @@ def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
     time_column = next((name for name in TIME_COLUMNS if name in table.header), None)
     if time_column is None:
         raise InputError(f"{table.title}: a column '{TIME_COLUMNS[0]}' is missing; it says when the arm is there")
-    samples = table.read_columns([time_column, *joint_columns(arm)])
+    samples = table.select_columns([time_column, *joint_columns(arm)])
     if (np.diff(samples[:, 0]) < 0).any():
         raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time_column}'")
     return PlayedMotion(file.name, samples[:, 0], time_column.rpartition("_")[2], samples[:, 1:])

@@ -50,7 +50,7 @@ class Player:
         end = max(float(motion.time[-1]) for motion in motions)
         begin = min(time, end) if time > 0 else 0.0
         self._panel.set_time_range(end, begin, f"time, {motions[0].unit}" if motions[0].unit != "rad" else "travel, rad")
-        self.seek(begin)
+        self.show_motions_at(begin)
         if colors and end > 0 and not begin:
             self.toggle_play()
 
@@ -66,7 +66,7 @@ class Player:
         self._motions = []
         self._panel.set_time_range(0.0, 0.0, "")
 
-    def seek(self, time: float) -> None:
+    def show_motions_at(self, time: float) -> None:
         """Show the motions at a time."""
         if not self._motions:
             return
@@ -102,7 +102,7 @@ class Player:
 
         def advance() -> None:
             next_time = self._current_time + TICK_S * pace
-            self.seek(min(next_time, end))
+            self.show_motions_at(min(next_time, end))
             if next_time >= end:
                 self.pause()
 

@@ -48,7 +48,7 @@ class SelfMotionSlider:
         """Move at a rate from -1 to 1; 0 stops the motion."""
         self._rate = rate_fraction
         if rate_fraction:
-            self._clock.start(self._advance)
+            self._clock.start(self._step_self_motion)
 
     def reset_direction(self, direction_number: int | None = None) -> None:
         """Choose the direction again after a failure, or by its number if one is given."""
@@ -57,7 +57,7 @@ class SelfMotionSlider:
             np.zeros(self._machine.arm.n),
         )
 
-    def _advance(self) -> None:
+    def _step_self_motion(self) -> None:
         if self._rate == 0.0:
             self._clock.stop()
             return

@@ -85,11 +85,13 @@ class Studio:
 
     def _load_arm(self, client: Any, name: str, content: bytes) -> None:
         """Open the arm of an uploaded file in a client's window; errors of the file are raised before the window changes."""
-        from holdfast.interface.studio.page.upload import read_machine
+        from holdfast.interface.studio.page.upload import read_uploaded_arm
 
-        machine, state, parts, note = read_machine(name, content)
+        machine, state, parts, note = read_uploaded_arm(name, content)
         q = np.array(state.q)
-        machine.evaluate(q, (), state.index, state.susceptibility)  # nothing is given up for an arm that cannot be shown
+        machine.evaluate_live_reading(
+            q, (), state.index, state.susceptibility
+        )  # nothing is given up for an arm that cannot be shown
         self._close_window(client.client_id)
         client.gui.reset()
         client.scene.reset()
@@ -239,4 +241,4 @@ def _choose_camera(machine: CompiledArm, q: Any, portrait: bool = False) -> tupl
 def _compile_first_view(machine: CompiledArm, state: State) -> None:
     """Compile the functions of the first picture while the browser loads the page."""
     with suppress(HoldfastError):  # the window says it
-        machine.evaluate(np.array(state.q), state.failed_joints, state.index, state.susceptibility)
+        machine.evaluate_live_reading(np.array(state.q), state.failed_joints, state.index, state.susceptibility)

@@ -53,7 +53,7 @@ class StudioView:
             self.stage.move_arm(machine.arm.frames(self.q), moves_gizmo=True)
             self.panel = ControlPanel(client.gui, machine, state, request_action)
             self.objects = None if machine.cell is None else CellObjects(client.scene, machine, state.moved, request_action)
-        self.player = Player(self.stage, self.panel, self._clock, self._follow_motion)
+        self.player = Player(self.stage, self.panel, self._clock, self._show_motion_time)
         self._guide = TourGuide(request_action, self.panel.show_tour)
 
     @property
@@ -72,18 +72,18 @@ class StudioView:
         with self.client.atomic():
             self.stage.move_arm(frames, moves_gizmo=self.dragged != "hand")
             self.panel.move_sliders(q, self.dragged if isinstance(self.dragged, int) else None)
-        reading = self._reading = self.machine.evaluate(q, state.failed_joints, state.index, state.susceptibility)
+        reading = self._reading = self.machine.evaluate_live_reading(q, state.failed_joints, state.index, state.susceptibility)
         with self.client.atomic():
             self.stage.show_reading(reading, frames[-1])
             self.panel.show_reading(reading, state)
-            self.panel.enable_controls(self._possible_actions(reading))
+            self.panel.enable_controls(self._find_enabled_actions(reading))
             self.panel.show_monitor(self.monitor_demo if state.show == "watch" else None, state)
             if self.objects is not None:
-                self.panel.show_nearest(*self.objects.show_nearest(q))
+                self.panel.show_nearest(*self.objects.draw_shortest_distance(q))
             self._guide.show_step(reading, state.names, self._is_busy)
         self.updates += 1
 
-    def _possible_actions(self, reading: LiveReading) -> dict[str, bool]:
+    def _find_enabled_actions(self, reading: LiveReading) -> dict[str, bool]:
         """Return for each button whether it has an effect now."""
         state, machine = self.state, self.machine
         ghosts = len(self.player.ghosts) if state.show in ("best-worst", "laws") else 0
@@ -136,7 +136,7 @@ class StudioView:
             self.state = self.state.with_object(*value)
             self._refresh()
 
-    def _follow_motion(self, time: float, q: FloatArray | None) -> None:
+    def _show_motion_time(self, time: float, q: FloatArray | None) -> None:
         self.state = replace(self.state, time=time)
         if q is None:
             self._refresh()
@@ -145,7 +145,7 @@ class StudioView:
 
     def _on_time(self, value: float) -> None:
         self.player.pause()  # who takes the slider stops what plays
-        self.player.seek(value)
+        self.player.show_motions_at(value)
 
     def _on_play(self, _: Any) -> None:
         self.player.toggle_play()

@@ -143,7 +143,7 @@ class Window(StudioView):
             self._show_target()
         self._refresh()
         with suppress(HoldfastError):  # said when somebody drags
-            self.machine.solve_near(self.q, self.machine.tool_pose(self.q), ())  # compiled while the browser draws
+            self.machine.solve_pose_near(self.q, self.machine.tool_pose(self.q), ())  # compiled while the browser draws
         first_action: str | None = self.state.show if self.state.show in (*STATE_DEPENDENT_SHOWS, "file") else None
         if self.state.show == "region":
             first_action = "results" if self.state.region else "region"
@@ -166,7 +166,9 @@ class Window(StudioView):
     def _on_hand(self, value: tuple[str, FloatArray, FloatArray]) -> None:
         phase, position, quaternion = value
         self.dragged = None if phase == "end" else "hand"
-        q, is_reached = self.machine.solve_near(self.q, pose_from_quaternion(position, quaternion), self.state.failed_joints)
+        q, is_reached = self.machine.solve_pose_near(
+            self.q, pose_from_quaternion(position, quaternion), self.state.failed_joints
+        )
         locked = f" with {self._format_failed_joints()} locked" if self.state.failed_joints else ""
         self._discard_results(q)
         self._set_configuration(q)

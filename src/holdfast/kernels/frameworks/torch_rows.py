@@ -33,10 +33,10 @@ def _compute_outputs(function: RowFunction, row_call: Callable[..., Any], tensor
         return [torch.from_numpy(out) for out in function.call_on_rows(row_call, [x.numpy(force=True) for x in tensors])]
     if first.device.type == "cuda" and function.kernels is not None:
         return _compute_on_gpu(function, row_call, tensors)
-    return _compute_on_processor(function, row_call, tensors)
+    return _compute_on_cpu(function, row_call, tensors)
 
 
-def _compute_on_processor(function: RowFunction, row_call: Callable[..., Any], tensors: Sequence[Tensor]) -> list[Tensor]:
+def _compute_on_cpu(function: RowFunction, row_call: Callable[..., Any], tensors: Sequence[Tensor]) -> list[Tensor]:
     first = tensors[0]
     arrays = [x.to(torch.float64).numpy(force=True) for x in tensors]
     return [torch.from_numpy(out).to(device=first.device, dtype=first.dtype) for out in function.call_on_rows(row_call, arrays)]
@@ -51,7 +51,7 @@ def _compute_on_gpu(function: RowFunction, row_call: Callable[..., Any], tensors
     if function.marked:
         again = outputs[0].reshape(len(rows[0]), -1).isnan().any(dim=1)
         if again.any():
-            for out, closely in zip(outputs, _compute_on_processor(function, row_call, [x[again] for x in rows]), strict=False):
+            for out, closely in zip(outputs, _compute_on_cpu(function, row_call, [x[again] for x in rows]), strict=False):
                 out[again] = closely
     return [out.reshape(*first.shape[:-1], *out.shape[1:]).to(first.dtype) for out in outputs]
 
@@ -59,7 +59,9 @@ def _compute_on_gpu(function: RowFunction, row_call: Callable[..., Any], tensors
 def _exchange_with_kernel(kernel: Any, rows: list[Tensor]) -> list[Tensor]:
     """Exchange the rows with a kernel on PyTorch's stream, in shared memory."""
     device = rows[0].device
-    outputs = kernel.on(f"cuda:{device.index}").exchange(*rows, stream=torch.cuda.current_stream(device).cuda_stream)
+    outputs = kernel.on(f"cuda:{device.index}").evaluate_device_arrays(
+        *rows, stream=torch.cuda.current_stream(device).cuda_stream
+    )
     return [torch.from_dlpack(out) for out in (outputs if isinstance(outputs, tuple) else (outputs,))]
 
 
@@ -133,7 +135,7 @@ class _Slopes(torch.autograd.Function):  # type: ignore[misc]
         return _vectorise_function(_Slopes, info.batch_size, axes[1:], function, inputs)
 
 
-def _make_plain_function(kind: Any) -> Any:
+def _without_vmap_support(kind: Any) -> Any:
     def forward(ctx: Any, *inputs: Any) -> Any:
         out = kind.forward(*inputs)
         kind.setup_context(ctx, inputs, out)
@@ -143,4 +145,4 @@ def _make_plain_function(kind: Any) -> Any:
     return type(f"Plain{kind.__name__}", (torch.autograd.Function,), {k: staticmethod(v) for k, v in members.items()})
 
 
-_Value.plain, _Slopes.plain = _make_plain_function(_Value), _make_plain_function(_Slopes)
+_Value.plain, _Slopes.plain = _without_vmap_support(_Value), _without_vmap_support(_Slopes)

@@ -55,7 +55,7 @@ class DeviceArray:
         device_array._memory.copy_to_device(np.ascontiguousarray(array), stream)
         return device_array
 
-    def update(self, rows: NDArray[np.int64], array: FloatArray) -> None:
+    def upload_rows(self, rows: NDArray[np.int64], array: FloatArray) -> None:
         """Copy rows again from the host array; consecutive rows are copied together."""
         for run in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
             self._memory.copy_to_device(array[run[0] : run[-1] + 1], self.stream, int(run[0]) * self.strides[0])

@@ -38,7 +38,7 @@ def _driver_functions() -> Any:
     return driver
 
 
-def _check_answer(action: str, answer: tuple[Any, ...]) -> Any:
+def _check_driver_result(action: str, answer: tuple[Any, ...]) -> Any:
     status, *values = answer
     if int(status):
         name = _driver_functions().cuGetErrorName(status)[1]
@@ -62,16 +62,16 @@ class Device:
 
     def __init__(self, ordinal: int) -> None:
         driver = _driver_functions()
-        count = _check_answer("be counted", driver.cuDeviceGetCount())
+        count = _check_driver_result("be counted", driver.cuDeviceGetCount())
         if not 0 <= ordinal < count:
             raise KernelError(f"there is no GPU {ordinal}: the driver has {count}, counted from 0")
         self.ordinal = ordinal
-        handle = _check_answer("be found", driver.cuDeviceGet(ordinal))
+        handle = _check_driver_result("be found", driver.cuDeviceGet(ordinal))
         kinds = (f"CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_{part}" for part in ("MAJOR", "MINOR"))
         answers = [driver.cuDeviceGetAttribute(getattr(driver.CUdevice_attribute, kind), handle) for kind in kinds]
-        major, minor = (int(_check_answer("tell its capability", answer)) for answer in answers)
+        major, minor = (int(_check_driver_result("tell its capability", answer)) for answer in answers)
         self.capability = 10 * major + minor
-        self._context = _check_answer("be used", driver.cuDevicePrimaryCtxRetain(handle))
+        self._context = _check_driver_result("be used", driver.cuDevicePrimaryCtxRetain(handle))
 
     def call_driver(self, action: str, name: str, *arguments: Any) -> Any:
         """Call a function of the driver for this device; the error names the failed action.
@@ -80,9 +80,9 @@ class Device:
             KernelError: It failed, or a kernel before it did.
         """
         driver = _driver_functions()
-        _check_answer("be used", driver.cuCtxPushCurrent(self._context))
+        _check_driver_result("be used", driver.cuCtxPushCurrent(self._context))
         try:
-            return _check_answer(action, getattr(driver, name)(*arguments))
+            return _check_driver_result(action, getattr(driver, name)(*arguments))
         finally:
             driver.cuCtxPopCurrent()
 

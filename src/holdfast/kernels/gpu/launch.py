@@ -52,21 +52,21 @@ class DeviceProgram:
 
     # ---- arrays of the host ------------------------------------------------------------------------------------
 
-    def evaluate_rows(self, arrays: list[FloatArray], count: int, first: int) -> FloatArray:
+    def evaluate_rows(self, arrays: list[FloatArray], count: int, output_count: int) -> FloatArray:
         """Return results (count, first) of inputs (count, size) or (1, size) each."""
-        outputs, size = np.empty((count, first)), self.program.n_out
-        for part in self._split_rows(count, self.program.n_in + size):
-            outputs[part] = self._evaluate_copied(self._function, [a if len(a) == 1 else a[part] for a in arrays], size)[
-                :first
+        outputs, size = np.empty((count, output_count)), self.program.n_out
+        for part in self._split_into_batches(count, self.program.n_in + size):
+            outputs[part] = self._evaluate_host_arrays(self._function, [a if len(a) == 1 else a[part] for a in arrays], size)[
+                :output_count
             ].T
         return outputs
 
     def evaluate_columns(self, inputs: FloatArray, outputs: FloatArray) -> None:
         """Evaluate columns (n_in, W) into columns (n_out, W), as :meth:`holdfast.kernels.Kernel.bind_arrays` does."""
         ends = np.cumsum([rows * columns for rows, columns in self.program.input_shapes])
-        outputs[:] = self._evaluate_copied(self._function, np.split(inputs.T, ends[:-1], axis=1), len(outputs))
+        outputs[:] = self._evaluate_host_arrays(self._function, np.split(inputs.T, ends[:-1], axis=1), len(outputs))
 
-    def _evaluate_copied(self, function: Any, arrays: list[FloatArray], size: int, *more_arguments: Any) -> FloatArray:
+    def _evaluate_host_arrays(self, function: Any, arrays: list[FloatArray], size: int, *more_arguments: Any) -> FloatArray:
         """Return results (size, N) of inputs (N, ...), or (1, ...) for all rows, copied to the device and back."""
         device_arrays, rows = [DeviceArray.upload(a, self.device) for a in arrays], max(map(len, arrays))
         addresses = [(x.pointer, a.shape[1] if len(a) > 1 else 0, 1) for x, a in zip(device_arrays, arrays, strict=True)]
@@ -76,13 +76,15 @@ class DeviceProgram:
         ).copy_to_host(results, LEGACY_STREAM)
         return results
 
-    def _split_rows(self, count: int, numbers: int) -> list[slice]:
+    def _split_into_batches(self, count: int, numbers: int) -> list[slice]:
         width = max(1, min(count, _MAX_BATCH_BYTES // (8 * numbers)))
         return [slice(start, min(start + width, count)) for start in range(0, count, width)]
 
     # ---- arrays of the device ----------------------------------------------------------------------------------
 
-    def exchange(self, inputs: tuple[Any, ...], dims: tuple[list[tuple[int, ...]], list[tuple[int, ...]]], stream: int) -> Any:
+    def evaluate_device_arrays(
+        self, inputs: tuple[Any, ...], dims: tuple[list[tuple[int, ...]], list[tuple[int, ...]]], stream: int
+    ) -> Any:
         """Return one :class:`DeviceArray` per result of inputs with ``__dlpack__``, computed on a stream without waiting."""
         borrowed = [BorrowedArray(a, self.device, stream, dims=d) for a, d in zip(inputs, dims[0], strict=True)]
         counts = {x.rows for x in borrowed if x.rows is not None}
@@ -123,12 +125,12 @@ class DeviceProgram:
         count, size = state.shape
         results = np.full((size + 3, count), np.nan)
         results[:size], results[size + 1 :] = state.T, 0.0
-        for part in self._split_rows(count, self.program.n_in + size + 3):
+        for part in self._split_into_batches(count, self.program.n_in + size + 3):
             unfinished, steps_taken = np.arange(count)[part], 0
             while unfinished.size:
                 stretch = min(_STEPS_PER_LAUNCH, max_steps - steps_taken)
                 more_arguments = c_double(tolerance), c_int64(ahead), c_int64(stretch)
-                outputs = self._evaluate_copied(
+                outputs = self._evaluate_host_arrays(
                     self._loop_function, [results[:size, unfinished].T, parameters[unfinished]], len(results), *more_arguments
                 )
                 outputs[-1] += steps_taken

@@ -86,12 +86,12 @@ class DeviceRows(Emitter):
     def module_text(self) -> str:
         """Return the whole module."""
         self._emit_row_addresses()
-        self.emit_body(self.emit_guard())
-        return self._frame_body("\n".join(self.lines))
+        self.emit_body(self.emit_nan_guard())
+        return self._wrap_kernel_body("\n".join(self.lines))
 
     # ---- frame -------------------------------------------------------------------------------------------------
 
-    def _frame_body(self, body: str, more: str = "") -> str:
+    def _wrap_kernel_body(self, body: str, more: str = "") -> str:
         parameters = [f"{self.pointer} noalias %in{j}, i64 %row{j}, i64 %column{j}" for j in range(len(self.sizes))]
         parameters += [f"{self.pointer} noalias %out, i64 %row, i64 %column{more}", "i64 %n"]
         kind, thread = "ptx_kernel ", []
@@ -162,11 +162,11 @@ class DeviceLoop(DeviceRows):
         """The whole module."""
         size, load, store = self._state, super()._load, super()._store
         self._emit_row_addresses()
-        tolerance = self._spread("%tolerance")
+        tolerance = self._insert_into_vector("%tolerance")
         begin = [load(k) for k in range(size)]
         self.lines += ["br label %step", "step:", "%k = phi i64 [%ahead, %start], [%k1, %again]"]
         top, self._now = len(self.lines), [f"%s{k}" for k in range(size)]
-        self.emit_body(self.emit_guard())
+        self.emit_body(self.emit_nan_guard())
         *after, measured = (self._results[k] for k in range(size + 1))
         small = self.compare("ole", measured, tolerance)
         turns = zip(self._now, begin, after, strict=True)
@@ -181,9 +181,9 @@ class DeviceLoop(DeviceRows):
             self._add_instruction(f"select i1 %is_ahead, {self.type} {a}, {self.type} {s}")
             for a, s in zip(after, self._now, strict=True)
         ]
-        for k, value in enumerate([*ends, measured, self.mask_to_number(small), self._spread("%steps")]):
+        for k, value in enumerate([*ends, measured, self.mask_to_number(small), self._insert_into_vector("%steps")]):
             store(k, value)
-        return self._frame_body("\n".join(self.lines), ", double %tolerance, i64 %ahead, i64 %most")
+        return self._wrap_kernel_body("\n".join(self.lines), ", double %tolerance, i64 %ahead, i64 %most")
 
     def _load(self, k: int) -> str:
         return self._now[k] if k < self._state else super()._load(k)
@@ -191,5 +191,5 @@ class DeviceLoop(DeviceRows):
     def _store(self, k: int, value: str) -> None:
         self._results[k] = value
 
-    def _spread(self, number: str) -> str:
+    def _insert_into_vector(self, number: str) -> str:
         return self._add_instruction(f"insertelement {self.type} poison, double {number}, i32 0")

@@ -105,9 +105,9 @@ class Arithmetic:
         """The mask of a < b."""
         return self.compare("olt", a, b)
 
-    def compare(self, how: str, a: str, b: str) -> str:
+    def compare(self, predicate: str, a: str, b: str) -> str:
         """A mask."""
-        return self._add_instruction(f"fcmp {how} {self.type} {a}, {b}")
+        return self._add_instruction(f"fcmp {predicate} {self.type} {a}, {b}")
 
     def select(self, mask: str, a: str, b: str) -> str:
         """``mask ? a : b``."""
@@ -137,7 +137,7 @@ class Arithmetic:
         """``add``, ``and``, ``or``, ``shl`` or ``lshr`` of 64 bits and a constant."""
         return self._add_instruction(f"{operation} {self.whole_type} {a}, splat (i64 {constant})")
 
-    def negative_sign(self, a: str) -> str:
+    def sign_bit_mask(self, a: str) -> str:
         """The mask of what has a minus sign, -0 too."""
         return self._add_instruction(f"icmp slt {self.whole_type} {self.to_bits(a)}, zeroinitializer")
 

@@ -99,7 +99,7 @@ def _scale_by_power(e: Arithmetic, x: str, k: str) -> str:
     return e.mul(e.mul(x, _power_of_2(e, half)), _power_of_2(e, e.sub(k, half)))
 
 
-def _reduce_exponent(e: Arithmetic, x: str, correction: str | None = None, low: float = -746.0) -> tuple[str, str, str]:
+def _reduce_exp_argument(e: Arithmetic, x: str, correction: str | None = None, low: float = -746.0) -> tuple[str, str, str]:
     """Return the k, a and b of ``exp(x + rest) = 2^k (1 + a + b)``, |b| small against a; x is taken from ``low`` to 720."""
     upper, lower = e.constant(720.0), e.constant(low)
     x = e.select(e.compare("ogt", x, upper), upper, e.select(e.compare_less(x, lower), lower, x))
@@ -116,14 +116,14 @@ def _reduce_exponent(e: Arithmetic, x: str, correction: str | None = None, low: 
 
 
 def _emit_exp(e: Arithmetic, x: str, correction: str | None = None) -> str:
-    k, a, b = _reduce_exponent(e, x, correction)
+    k, a, b = _reduce_exp_argument(e, x, correction)
     return _scale_by_power(e, e.add(e.constant(1.0), e.add(a, b)), k)
 
 
 def _emit_expm1(e: Arithmetic, x: str, doublings: float = 0.0) -> str:
     """(exp(x) - 1) 2^doublings."""
-    k, a, b = _reduce_exponent(e, x, low=-60.0)
-    total, rounding_error = _exact_sum(
+    k, a, b = _reduce_exp_argument(e, x, low=-60.0)
+    total, rounding_error = _sum_and_error(
         e,
         e.sub(e.constant(1.0), _power_of_2(e, e.negate(e.select(e.compare_less(k, e.constant(60.0)), k, e.constant(60.0))))),
         a,
@@ -141,7 +141,7 @@ def _emit_sinh(e: Arithmetic, x: str) -> str:
 
 
 def _emit_cosh(e: Arithmetic, x: str) -> str:
-    k, a, b = _reduce_exponent(e, e.intrinsic("fabs", x))
+    k, a, b = _reduce_exp_argument(e, e.intrinsic("fabs", x))
     w = _scale_by_power(e, e.add(e.constant(1.0), e.add(a, b)), e.add(k, e.constant(-1.0)))
     return e.add(w, e.binary("fdiv", e.constant(0.25), w))
 
@@ -188,7 +188,7 @@ def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
 
 
 def _emit_log1p(e: Arithmetic, x: str) -> str:
-    u, rounding_error = _exact_sum(e, e.constant(1.0), x)
+    u, rounding_error = _sum_and_error(e, e.constant(1.0), x)
     finite = e.compare_less(x, e.constant(2.0**60))  # infinity loses itself
     y = _emit_log(e, u, e.select(finite, e.binary("fdiv", rounding_error, u), e.constant(0.0)))
     y = e.select(e.compare("oeq", u, e.constant(0.0)), e.constant(-_INFINITY), y)
@@ -198,20 +198,20 @@ def _emit_log1p(e: Arithmetic, x: str) -> str:
 # ---- powers --------------------------------------------------------------------------------------------------------
 
 
-def _quick_sum(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
+def _fast_sum_and_error(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
     """Return the sum and its rounding error where a is 0 or not the smaller one."""
     total = e.add(a, b)
     return total, e.sub(b, e.sub(total, a))
 
 
-def _exact_sum(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
+def _sum_and_error(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
     """Return the sum and its rounding error."""
     total = e.add(a, b)
     recovered = e.sub(total, a)
     return total, e.add(e.sub(a, e.sub(total, recovered)), e.sub(b, recovered))
 
 
-def _exact_product(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
+def _product_and_error(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
     """Return the product and its rounding error; |a|, |b| below 1e290."""
     p = e.mul(a, b)
     if e.machine.fused:
@@ -234,23 +234,23 @@ def _log_in_two_parts(e: Arithmetic, x: str) -> tuple[str, str]:
         e.select(upper, e.constant(a), e.select(lower, e.constant(b), e.constant(c))) for a, b, c in _RANGE_CENTERS
     )
     f = e.sub(m, centre)
-    divisor, rounding_error = _exact_sum(e, m, centre)
+    divisor, rounding_error = _sum_and_error(e, m, centre)
     s = e.binary("fdiv", f, divisor)
-    p, q = _exact_product(e, s, divisor)
+    p, q = _product_and_error(e, s, divisor)
     s_low = e.binary("fdiv", e.sub(e.sub(e.sub(f, p), q), e.mul(s, rounding_error)), divisor)
-    z, z_low = _exact_product(e, s, s)
+    z, z_low = _product_and_error(e, s, s)
     z_low = e.fma(e.add(s, s), s_low, z_low)
     r = e.mul(e.mul(z, z), emit_polynomial(e, _LOG_OF_POW, z))
-    t, t_low = _quick_sum(e, e.constant(3.0), z)
-    t, t_low = _quick_sum(e, t, e.add(t_low, e.add(z_low, r)))
-    p, q = _exact_product(e, s, t)
+    t, t_low = _fast_sum_and_error(e, e.constant(3.0), z)
+    t, t_low = _fast_sum_and_error(e, t, e.add(t_low, e.add(z_low, r)))
+    p, q = _product_and_error(e, s, t)
     q = e.add(q, e.fma(s, t_low, e.mul(s_low, t)))
-    y, y_low = _exact_product(e, p, e.constant(2 / 3))
+    y, y_low = _product_and_error(e, p, e.constant(2 / 3))
     y_low = e.add(y_low, e.fma(q, e.constant(2 / 3), e.mul(p, e.constant(2 / 3 * 2.0**-54))))
-    high, first = _exact_sum(e, e.mul(k, e.constant(_LN2_HIGH)), center_and_log[0])
-    high, second = _exact_sum(e, high, y)
+    high, first = _sum_and_error(e, e.mul(k, e.constant(_LN2_HIGH)), center_and_log[0])
+    high, second = _sum_and_error(e, high, y)
     rest = e.fma(k, e.constant(_LN2_LOW), e.add(center_and_log[1], y_low))
-    return _quick_sum(e, high, e.add(e.add(first, second), rest))
+    return _fast_sum_and_error(e, high, e.add(e.add(first, second), rest))
 
 
 def _emit_pow(e: Arithmetic, x: str, y: str) -> str:
@@ -259,20 +259,20 @@ def _emit_pow(e: Arithmetic, x: str, y: str) -> str:
     huge = e.constant(1e21)  # whatever is not 1 overflows or vanishes
     high, low = _log_in_two_parts(e, size)
     exponent = e.intrinsic("copysign", e.select(e.compare("ogt", power, huge), huge, power), y)
-    p, q = _exact_product(e, exponent, high)
+    p, q = _product_and_error(e, exponent, high)
     q = e.fma(exponent, low, q)
     result = _emit_exp(e, p, e.select(e.compare_less(e.intrinsic("fabs", p), e.constant(800.0)), q, zero))
     grows = e.compare("ogt", y, zero)
     result = e.select(e.compare("oeq", size, zero), e.select(grows, zero, infinite), result)
     result = e.select(e.compare("oeq", size, infinite), e.select(grows, infinite, zero), result)
-    odd = e.mask_and(_is_whole(e, power), e.mask_not(_is_whole(e, e.mul(power, e.constant(0.5)))))
+    odd = e.mask_and(_integer_mask(e, power), e.mask_not(_integer_mask(e, e.mul(power, e.constant(0.5)))))
     result = e.select(odd, e.intrinsic("copysign", result, x), result)
-    fails = e.mask_and(e.compare_less(x, zero), e.mask_and(e.compare_less(size, infinite), e.mask_not(_is_whole(e, power))))
+    fails = e.mask_and(e.compare_less(x, zero), e.mask_and(e.compare_less(size, infinite), e.mask_not(_integer_mask(e, power))))
     result = e.select(e.mask_or(fails, e.compare("uno", x, y)), e.constant(_NOT_A_NUMBER), result)
     return e.select(e.mask_or(e.compare("oeq", y, zero), e.compare("oeq", x, one)), one, result)
 
 
-def _is_whole(e: Arithmetic, size: str) -> str:
+def _integer_mask(e: Arithmetic, size: str) -> str:
     """Return the mask of a number that is not negative and is an integer."""
     limit = e.constant(2.0**52)
     return e.mask_or(e.compare("oge", size, limit), e.compare("oeq", e.sub(e.add(size, limit), limit), size))
@@ -306,10 +306,10 @@ def _emit_atan2(e: Arithmetic, y: str, x: str) -> str:
     tail = e.fma(e.negate(q), e.mul(z, emit_polynomial(e, _ATAN_COEFFICIENTS, z)), tail)
     eighth, half = (c / 2 for c in _QUARTER_TURN), _ATAN_OF_HALF
     known = [e.select(far, e.constant(a), e.select(middle, e.constant(b), zero)) for a, b in zip(eighth, half, strict=True)]
-    back = e.negative_sign(x)
+    back = e.sign_bit_mask(x)
     turned = [e.select(steep, e.constant(c), e.select(back, e.constant(2 * c), zero)) for c in _QUARTER_TURN]
     sign = e.select(steep, e.select(back, one, e.constant(-1.0)), e.select(back, e.constant(-1.0), one))
-    first, lost = _exact_sum(e, turned[0], e.mul(sign, known[0]))
+    first, lost = _sum_and_error(e, turned[0], e.mul(sign, known[0]))
     rest = e.add(e.add(lost, turned[1]), e.mul(sign, e.add(tail, known[1])))
     angle = e.add(first, e.fma(sign, q, rest))
     return e.select(e.compare("uno", x, y), e.constant(_NOT_A_NUMBER), e.intrinsic("copysign", angle, y))
@@ -319,11 +319,11 @@ def _division_remainder(e: Arithmetic, n: str, q: str, d: str) -> str:
     """Return the remainder ``n - q d``."""
     if e.machine.fused:
         return e.fma(e.negate(q), d, n)
-    p, rounding_error = _exact_product(e, q, d)
+    p, rounding_error = _product_and_error(e, q, d)
     return e.sub(e.sub(n, p), rounding_error)
 
 
-def _arc_parts(e: Arithmetic, x: str) -> tuple[str, str, str, str]:
+def _arcsine_parts(e: Arithmetic, x: str) -> tuple[str, str, str, str]:
     """Return for |x| the mask of values below 1/2, and v, r and c: the arc is ``v + v r + c``, of the sine |x| or of 1/2 of (1
     - |x|).
     """
@@ -339,21 +339,21 @@ def _arc_parts(e: Arithmetic, x: str) -> tuple[str, str, str, str]:
 
 
 def _emit_asin(e: Arithmetic, x: str) -> str:
-    small, v, r, c = _arc_parts(e, x)
+    small, v, r, c = _arcsine_parts(e, x)
     from_above = [e.select(small, e.constant(0.0), e.constant(q)) for q in _QUARTER_TURN]
     sign = e.select(small, e.constant(1.0), e.constant(-1.0))
-    first, rounding_error = _exact_sum(e, from_above[0], e.mul(sign, v))
+    first, rounding_error = _sum_and_error(e, from_above[0], e.mul(sign, v))
     angle = e.add(first, e.add(e.add(rounding_error, from_above[1]), e.mul(sign, e.fma(v, r, c))))
     return e.intrinsic("copysign", angle, x)
 
 
 def _emit_acos(e: Arithmetic, x: str) -> str:
-    small, v, r, c = _arc_parts(e, x)
-    is_negative = e.negative_sign(x)
+    small, v, r, c = _arcsine_parts(e, x)
+    is_negative = e.sign_bit_mask(x)
     turned = [e.select(small, e.constant(q), e.select(is_negative, e.constant(2 * q), e.constant(0.0))) for q in _QUARTER_TURN]
     one, minus = e.constant(1.0), e.constant(-1.0)
     sign = e.select(small, e.select(is_negative, one, minus), e.select(is_negative, minus, one))
-    first, rounding_error = _exact_sum(e, turned[0], e.mul(sign, v))
+    first, rounding_error = _sum_and_error(e, turned[0], e.mul(sign, v))
     return e.add(first, e.add(e.add(rounding_error, turned[1]), e.mul(sign, e.fma(v, r, c))))
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from holdfast.core.errors import KernelError
 from holdfast.kernels.llvm.arithmetic import TargetMachine
-from holdfast.kernels.llvm.translation import FUNCTION_NAME, emit
+from holdfast.kernels.llvm.translation import FUNCTION_NAME, emit_llvm_function
 from holdfast.kernels.program import Program
 
 COMPILE_LEVELS = (0, 1)
@@ -40,7 +40,7 @@ class HostProcessor:
 
 
 @lru_cache(maxsize=1)
-def detect_host() -> HostProcessor:
+def detect_processor() -> HostProcessor:
     """Detect this machine; two registers of rows at once hide the latency of divisions and roots (measured: 18 % on AVX2)."""
     llvm = _llvm()
     features = llvm.get_host_cpu_features()
@@ -72,7 +72,7 @@ def llvm_version() -> str:
 
 
 def _target_machine(level: int) -> Any:
-    llvm, processor = _llvm(), detect_host()
+    llvm, processor = _llvm(), detect_processor()
     target = llvm.Target.from_default_triple()
     return target.create_target_machine(
         cpu=processor.cpu, features=processor.features, opt=level, jit=True, codemodel="jitdefault"
@@ -80,15 +80,15 @@ def _target_machine(level: int) -> Any:
 
 
 def compile_program(program: Program, level: int, machine: TargetMachine | None = None) -> bytes:
-    """Object code of the function that :func:`holdfast.kernels.llvm.translation.emit` writes.
+    """Object code of the function that :func:`holdfast.kernels.llvm.translation.emit_llvm_function` writes.
 
     Raises:
         KernelError: An operation without translation.
     """
-    return object_code(emit(program, machine or detect_host().machine), level)
+    return compile_llvm_text(emit_llvm_function(program, machine or detect_processor().machine), level)
 
 
-def object_code(text: str, level: int) -> bytes:
+def compile_llvm_text(text: str, level: int) -> bytes:
     """Object code of a module in LLVM's language."""
     return bytes(_target_machine(level).emit_object(_llvm().parse_assembly(text)))
 

@@ -24,7 +24,7 @@ FUNCTION_NAME = "rows"  # of the function
 _COMPARISON_NAMES = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
-def emit(program: Program, machine: TargetMachine) -> str:
+def emit_llvm_function(program: Program, machine: TargetMachine) -> str:
     """The function ``void rows(in, out, stride, n)`` as text.
 
     Input k of row i is ``in[k * stride + i]``, output k ``out[k * stride + i]``; n is a multiple of the lanes.
@@ -51,7 +51,7 @@ class Emitter(Arithmetic):
 
     def module_text(self) -> str:
         """The whole function."""
-        guard = self.emit_guard()
+        guard = self.emit_nan_guard()
         self.emit_body(guard)
         lanes = self.machine.lanes
         head, body = "\n".join(sorted(self.declared)), "\n".join(self.lines)
@@ -71,18 +71,18 @@ ret void
 }}
 """
 
-    def _place(self, base: str, k: int) -> str:
+    def _element_address(self, base: str, k: int) -> str:
         row = self._add_instruction(f"mul i64 %stride, {k}")
         at = self._add_instruction(f"add i64 {row}, %i")
         return self._add_instruction(f"getelementptr double, ptr {base}, i64 {at}")
 
     def _load(self, k: int) -> str:
-        return self._add_instruction(f"load {self.type}, ptr {self._place('%in', k)}, align 8")
+        return self._add_instruction(f"load {self.type}, ptr {self._element_address('%in', k)}, align 8")
 
     def _store(self, k: int, value: str) -> None:
-        self.lines.append(f"store {self.type} {value}, ptr {self._place('%out', k)}, align 8")
+        self.lines.append(f"store {self.type} {value}, ptr {self._element_address('%out', k)}, align 8")
 
-    def emit_guard(self) -> str:
+    def emit_nan_guard(self) -> str:
         """Emit zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
         total = zero = self.constant(0.0)
         for k in range(self.program.n_in):

@@ -50,7 +50,7 @@ class NullSpaceMinors:
         gradient = 2 * spread.reshape(batch, self.n, self.n) @ null
         return gradient - null @ (np.swapaxes(null, -1, -2) @ gradient)
 
-    def squares_and_gradients(self, null: FloatArray, complement: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def squared_minors_and_gradients(self, null: FloatArray, complement: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the squares (F,) of one N, and their derivatives (F, m p) along ``N + Q X`` by the entries of X (m, p)."""
         grams = self.row_grams(null)
         squares = np.linalg.det(grams)
@@ -85,7 +85,7 @@ def polish_null_space(minors: NullSpaceMinors, null: FloatArray, deadline: float
     cost[-1] = -1.0
     while radius > 1e-14 and monotonic() < deadline:
         complement = np.linalg.qr(null, mode="complete")[0][:, p:]
-        squares, gradients = minors.squares_and_gradients(null, complement)
+        squares, gradients = minors.squared_minors_and_gradients(null, complement)
         # What is best + gain >= squares + slopes . X with |X| <= radius can never be worst is left out.
         near_minimum = squares - radius * abs(gradients).sum(axis=1) <= best_square + radius * abs(gradients).sum(axis=1).max()
         # In units of the radius and of the best value, so that the solver's tolerances are relative ones.
@@ -122,9 +122,9 @@ def best_null_space(
     *,
     seed: int,
     seconds: float,
-    enough: float = np.inf,
+    sufficient_value: float = np.inf,
     starts: int = 48,
-    polish: int = 10,
+    refined_count: int = 10,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[FloatArray, float]:
     """Return the best N found in the time, and its worst case; batches of starts are tried until the time is over.
@@ -135,16 +135,18 @@ def best_null_space(
         k: Failures at once.
         seed: Of the starts.
         seconds: Time; one start is always polished.
-        enough: Worst case that ends the search.
+        sufficient_value: Worst case that ends the search.
         starts: Of a batch.
-        polish: How many of them are polished, the best ones.
+        refined_count: How many of them are polished, the best ones.
         progress: Called with the best value after each polish.
 
     Returns:
         N (n, p) and ``min rho_S``.
     """
     if k == p and n - p < p:  # the minors of the complement are the same, and smaller
-        complement_found, value = best_null_space(n, n - p, n - p, seed=seed, seconds=seconds, enough=enough, progress=progress)
+        complement_found, value = best_null_space(
+            n, n - p, n - p, seed=seed, seconds=seconds, sufficient_value=sufficient_value, progress=progress
+        )
         return orthogonal_complement(complement_found), value
     rng, minors = np.random.default_rng(seed), NullSpaceMinors(n, k)
     end = monotonic() + seconds
@@ -152,13 +154,13 @@ def best_null_space(
     while best_found is None or monotonic() < end:
         batch = ascend_batch(minors, rng.standard_normal((starts, n, p)), end)
         worst = np.linalg.det(minors.row_grams(batch)).min(axis=1)
-        for i in np.argsort(-worst)[:polish]:
+        for i in np.argsort(-worst)[:refined_count]:
             null, square = polish_null_space(minors, batch[i], np.inf if best_found is None else end)
             if best_found is None or square > best_found[1]:
                 best_found = null, square
             if progress is not None:
                 progress(float(np.sqrt(best_found[1])))
-            if best_found[1] >= enough**2:
+            if best_found[1] >= sufficient_value**2:
                 end = -np.inf
             if monotonic() > end:
                 break

@@ -85,7 +85,7 @@ def search_null_space(
         raise InputError(f"the search may take {seconds:g} s; give a positive number")
     start = monotonic()
     stop = known.bound * (1 - _BOUND_TOLERANCE) if enough is None else enough
-    best_found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, enough=stop, progress=progress)
+    best_found, _ = best_null_space(n, n - m, k, seed=seed, seconds=seconds, sufficient_value=stop, progress=progress)
     null = np.linalg.qr(best_found)[0]
     return UpperBoundSearch(
         ceiling=known, null_space=null, value=worst_relative_manipulability(null, k), seed=seed, seconds=monotonic() - start

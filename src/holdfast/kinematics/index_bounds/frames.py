@@ -17,13 +17,13 @@ def equal_row_frame(n: int, p: int) -> FloatArray:
     return np.array(columns).T.reshape(n, p)
 
 
-def star_frame(n: int) -> FloatArray:
+def equally_spaced_line_frame(n: int) -> FloatArray:
     """Return orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
     angle = np.pi * np.arange(n) / n
     return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
-def bundle_frame(n: int) -> FloatArray:
+def two_row_task_frame(n: int) -> FloatArray:
     """Return orthonormal columns (n, n - 2) for even n of 6 or more, the best known for two failures under tasks of two rows.
 
     The columns of the Jacobian are two bundles of h - 1 lines, n = 2 h, at right angles to one another, and between them two
@@ -48,9 +48,9 @@ def known_null_space(n: int, m: int, k: int) -> FloatArray | None:
     if k == 1 or m == 1:
         return equal_row_frame(n, p)
     if p == k == 2:
-        return star_frame(n)
+        return equally_spaced_line_frame(n)
     if m == 2 and k == p:
-        return orthogonal_complement(star_frame(n))
+        return orthogonal_complement(equally_spaced_line_frame(n))
     if m == k == 2 and n >= 6 and n % 2 == 0:
-        return bundle_frame(n)
+        return two_row_task_frame(n)
     return None

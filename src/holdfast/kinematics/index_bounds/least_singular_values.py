@@ -19,7 +19,7 @@ from holdfast.kinematics.index_bounds.manipulability_bounds import (
     TaskSize,
     count_rows,
     failure_phrase,
-    simultaneous_failures,
+    max_simultaneous_failures,
     upper_bound,
 )
 
@@ -172,7 +172,7 @@ def bound_singular_value_of_index(index: SingularValueProblem) -> SingularValueB
 
     Source: derived here.
     """
-    k, arm, rows = simultaneous_failures(index), index.arm, index.task.rows
+    k, arm, rows = max_simultaneous_failures(index), index.arm, index.task.rows
     lever, square = float(np.linalg.norm(arm.tool[:3, 3])), 0.0
     for joint in reversed(arm.joints):
         travel = max(abs(joint.lower), abs(joint.upper)) if joint.prismatic else 0.0

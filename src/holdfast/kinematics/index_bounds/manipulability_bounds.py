@@ -223,11 +223,11 @@ def bound_of_index(index: FailureProblem) -> UpperBound | None:
     Returns:
         Ceiling, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
     """
-    k = simultaneous_failures(index)
+    k = max_simultaneous_failures(index)
     return None if k is None else upper_bound(n=index.arm.n, m=index.task.m, k=k)
 
 
-def simultaneous_failures(index: FailureProblem) -> int | None:
+def max_simultaneous_failures(index: FailureProblem) -> int | None:
     """Return the largest number of joints for which every set is among the failures; None if the largest sets are
     incomplete.
     """
@@ -280,14 +280,14 @@ def _read_null_spaces() -> dict[tuple[int, int, int], list[list[float]]]:
 
 def _best_null_space(n: int, m: int, k: int) -> FloatArray | None:
     """Find the best null space known, by theorem T3 also the complement of the one for n - m rows and m failures."""
-    candidates = [_own_null_space(n, m, k)]
+    candidates = [_look_up_null_space(n, m, k)]
     if k == n - m:
-        complement_space = _own_null_space(n, k, m)
+        complement_space = _look_up_null_space(n, k, m)
         candidates.append(None if complement_space is None else orthogonal_complement(complement_space))
     return max((x for x in candidates if x is not None), key=lambda x: worst_relative_manipulability(x, k), default=None)
 
 
-def _own_null_space(n: int, m: int, k: int) -> FloatArray | None:
+def _look_up_null_space(n: int, m: int, k: int) -> FloatArray | None:
     known_space = known_null_space(n, m, k)
     if known_space is not None:
         return known_space

@@ -138,7 +138,7 @@ def find_certificate(n: int, signs: Signs, enough: float = 0.0) -> MinorCertific
         v = np.exp(x - value)
         soft = np.exp(2 * t - (2 * t).max())
         soft /= soft.sum()
-        found = _dual_point(n, signs, lam[:count], v, soft, first, second)
+        found = _certificate_from_dual(n, signs, lam[:count], v, soft, first, second)
         bound = found.approximate_bound()
         if bound < smallest_bound:
             best_point, smallest_bound = found, bound
@@ -170,7 +170,7 @@ def _max_step(values: FloatArray, change: FloatArray) -> float:
     return float((values[falling] / -change[falling]).min()) if falling.any() else 2.0
 
 
-def _dual_point(
+def _certificate_from_dual(
     n: int, signs: Signs, lam: FloatArray, v: FloatArray, soft: FloatArray, first: FloatArray, second: FloatArray
 ) -> MinorCertificate:
     lam = np.where((lam > _NEGLIGIBLE_WEIGHT) & (v > 1e-15) & (v < 1 - 1e-15), lam, 0.0)

@@ -3,7 +3,7 @@ R3).
 
 Let y be the squared length of a joint's column among the orthonormal rows of the Jacobian, so ``sum y = m`` and
 ``1 - y = rho^2``, and s the squared cosine between the columns of two joints. What both locks leave is
-``(1-y)(1-z) - y z s``. The sum of a kernel ``f(y, z, s)`` of :func:`expand_kernel` over all pairs and of its
+``(1-y)(1-z) - y z s``. The sum of a kernel ``f(y, z, s)`` of :func:`kernel_polynomial` over all pairs and of its
 :func:`diagonal_term` over all joints is not negative for any Jacobian. If f is negative for every pair that leaves ``t`` or
 more, and the diagonal too, no
 Jacobian leaves t after every pair of locks. Numbers of a certificate are decimals, taken as fractions: nothing is rounded but
@@ -54,7 +54,7 @@ class PairCertificate:
     linear: tuple[Exact, Exact, Exact]
 
     @property
-    def length_range(self) -> tuple[Fraction, Fraction]:
+    def squared_column_norm_range(self) -> tuple[Fraction, Fraction]:
         """Least and largest y of a joint if every pair of locks keeps the bound; its n - 1 pairs sum to ``(p-1)(1-y)``."""
         largest = 1 - self.bound**2 * (self.n - 1) / (self.n - self.m - 1)
         return max(Fraction(0), self.m - (self.n - 1) * largest), largest
@@ -65,7 +65,7 @@ class PairCertificate:
         Raises:
             ValueError: The kernel proves nothing.
         """
-        least, largest = self.length_range
+        least, largest = self.squared_column_norm_range
         if not 0 <= least < largest < 1:
             raise ValueError("the bound leaves no room for lengths of columns")
         corners = [[least, largest]] * 2 + [[Fraction(0), Fraction(1)]]
@@ -73,7 +73,7 @@ class PairCertificate:
             [[(1 - y) * (1 - z) - y * z * s - self.bound**2 for s in corners[2]] for z in corners[1]] for y in corners[0]
         ]
         _prove_negative(_bernstein_coefficients(diagonal_term(self))[:, None, None])
-        _prove_negative(_bernstein_coefficients(expand_kernel(self)), np.array(remaining))
+        _prove_negative(_bernstein_coefficients(kernel_polynomial(self)), np.array(remaining))
         rounded = float(self.bound)
         return rounded if Fraction(rounded) >= self.bound else float(np.nextafter(rounded, 1))
 
@@ -96,7 +96,7 @@ def stored_certificates() -> dict[tuple[int, int], PairCertificate]:
     return {(entry.n, entry.m): entry for entry in stored}
 
 
-def expand_kernel(c: PairCertificate) -> Exact:
+def kernel_polynomial(c: PairCertificate) -> Exact:
     """Return ``f`` as a polynomial in u, v and s, coefficients (U, U, S); u and v run from 0 to 1 as y and z run from least to
     largest.
 
@@ -139,7 +139,7 @@ def diagonal_term(c: PairCertificate) -> Exact:
 
 def _length_polynomials(c: PairCertificate) -> tuple[Exact, Exact, list[Exact]]:
     """Return y, 1 - y, and the powers 0, 1, ... of ``4 (y - m/n)`` as polynomials in u."""
-    least, largest = c.length_range
+    least, largest = c.squared_column_norm_range
     y = np.array([least, largest - least])
     centred = 4 * (y - np.array([Fraction(c.m, c.n), Fraction(0)]))
     powers = [_multiply_polynomials(*[centred] * a) for a in range(max(len(c.row[0]), *map(len, c.linear)))]
@@ -148,7 +148,7 @@ def _length_polynomials(c: PairCertificate) -> tuple[Exact, Exact, list[Exact]]:
 
 def _free_functions(c: PairCertificate) -> list[Exact]:
     """Return the free functions of one joint as polynomials in u."""
-    least, largest = c.length_range
+    least, largest = c.squared_column_norm_range
     centred = 4 * np.array([least - Fraction(c.m, c.n), largest - least])
     functions = []
     for h in c.linear:
@@ -192,13 +192,13 @@ def _round_up(coefficients: Exact) -> Integers:
     return np.array([-((-x * scale).__floor__()) for x in coefficients.ravel()], dtype=np.int64).reshape(coefficients.shape)
 
 
-def _prove_negative(coefficients: Exact, inside: Exact | None = None) -> int:
+def _prove_negative(coefficients: Exact, region_polynomial: Exact | None = None) -> int:
     """Prove a polynomial negative on the unit box wherever another one is not negative and ``u <= v``, by bisection with upward
     rounding.
 
     Args:
-        coefficients: (U, V, S) of the Bernstein basis; symmetric in u and v where ``inside`` is given.
-        inside: (2, 2, 2) of a polynomial that is linear in each direction.
+        coefficients: (U, V, S) of the Bernstein basis; symmetric in u and v where ``region_polynomial`` is given.
+        region_polynomial: (2, 2, 2) of a polynomial that is linear in each direction.
 
     Returns:
         Boxes that were looked at.
@@ -207,7 +207,7 @@ def _prove_negative(coefficients: Exact, inside: Exact | None = None) -> int:
         ValueError: It is not proven.
     """
     start = _round_up(coefficients)[None]
-    region = np.ones((1, 2, 2, 2), dtype=np.int64) if inside is None else _round_up(inside)[None]
+    region = np.ones((1, 2, 2, 2), dtype=np.int64) if region_polynomial is None else _round_up(region_polynomial)[None]
     corners, edges = np.zeros((1, 3), dtype=np.int64), np.full((1, 3), _FULL_EDGE)
     waiting: list[Boxes] = [(start, region, corners, edges)]
     looked_at = 0
@@ -217,7 +217,7 @@ def _prove_negative(coefficients: Exact, inside: Exact | None = None) -> int:
         undecided = (values.max(axis=(1, 2, 3)) >= 0) & (
             region[:, 0, 0, 0] >= 0
         )  # the region's polynomial falls in each direction
-        if inside is not None:
+        if region_polynomial is not None:
             undecided &= corners[:, 0] < corners[:, 1] + edges[:, 1]
         values, region, corners, edges = values[undecided], region[undecided], corners[undecided], edges[undecided]
         if not len(values):

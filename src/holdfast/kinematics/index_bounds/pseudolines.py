@@ -51,7 +51,7 @@ def _permutation_sign(a: int, pair: tuple[int, int]) -> int:
     return -1 if pair[0] < a < pair[1] else 1
 
 
-def satisfies_relations(n: int, signs: Signs) -> NDArray[np.bool_]:
+def is_oriented_matroid(n: int, signs: Signs) -> NDArray[np.bool_]:
     """Return whether each row of signs (B, C(n, 3)) belongs to an oriented matroid: no relation has three products
     of one sign.
     """
@@ -70,7 +70,7 @@ def arrangement_classes(n: int) -> Signs:
         return np.ones((1, 1), dtype=np.int8)
     class_codes: set[int] = set()
     for parent in arrangement_classes(n - 1):
-        class_codes.update(np.unique(_canonical_codes(n, _extend_signs(n, parent))).tolist())
+        class_codes.update(np.unique(_class_codes(n, _extend_signs(n, parent))).tolist())
     codes = np.array(sorted(class_codes), dtype=np.uint64)
     signs = np.ones((len(codes), len(index_triples(n))), dtype=np.int8)
     without = np.flatnonzero((index_triples(n) > 0).all(axis=1))
@@ -99,7 +99,7 @@ def _extend_signs(n: int, parent: Signs) -> Signs:
     return signs
 
 
-def _canonical_codes(n: int, signs: Signs) -> NDArray[np.uint64]:
+def _class_codes(n: int, signs: Signs) -> NDArray[np.uint64]:
     """Return a number for the class of each row: the least over all choices of first and second element and both directions."""
     cube, every = np.zeros((len(signs), n, n, n), dtype=np.int8), index_triples(n)
     for order, sign in (((0, 1, 2), 1), ((1, 2, 0), 1), ((2, 0, 1), 1), ((1, 0, 2), -1), ((0, 2, 1), -1), ((2, 1, 0), -1)):

@@ -66,10 +66,13 @@ def best_proved_bound(n: int, m: int, k: int) -> ProvedBound:
     Source: derived here; Cauchy and Binet for ``CB``.
     """
     p = n - m
-    bounds = [*_bounds_of_theorems(n, p, k), *_bounds_by_steps(n, p, k)]
+    bounds = [*_bounds_of_theorems(n, p, k), *_bounds_by_successive_failures(n, p, k)]
     if k == p:
         # T3: the minors of all p rows of N are those of the other m rows of the orthonormal rows of J.
-        bounds += [b._replace(by=_name_rules("T3", b.by)) for b in [*_bounds_of_theorems(n, m, m), *_bounds_by_steps(n, m, m)]]
+        bounds += [
+            b._replace(by=_name_rules("T3", b.by))
+            for b in [*_bounds_of_theorems(n, m, m), *_bounds_by_successive_failures(n, m, m)]
+        ]
     smallest = min(bound.value for bound in bounds)
     return next(bound for bound in bounds if bound.value <= smallest * (1 + 1e-12))  # of equal ones the first, the simplest
 
@@ -95,7 +98,7 @@ def _bounds_of_theorems(n: int, p: int, k: int) -> list[ProvedBound]:
     return bounds
 
 
-def _bounds_by_steps(n: int, p: int, k: int) -> list[ProvedBound]:
+def _bounds_by_successive_failures(n: int, p: int, k: int) -> list[ProvedBound]:
     """Return the bounds of R1: ``c(n, p, k) <= c(n, p, j) c(n - j, p - j, k - j)``."""
     m, bounds = n - p, []
     for j in range(1, k):

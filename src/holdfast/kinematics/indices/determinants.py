@@ -26,8 +26,8 @@ from holdfast.kernels.linalg import (
     directional_derivatives,
     dot_product,
     factor_householder,
+    gram_determinant,
     select_smallest,
-    squared_volume,
 )
 from holdfast.kernels.program import SX
 from holdfast.kinematics.index_bounds.manipulability_bounds import bound_of_index
@@ -77,14 +77,14 @@ class RelativeManipulability(Index):
         j = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
         return q, j, factor_householder(j)
 
-    def _index_scale(self, qr: HouseholderQR) -> SX:
-        """Factor that turns rho into this index."""
+    def _scale_of_ratio(self, qr: HouseholderQR) -> SX:
+        """Return the factor that converts relative manipulability rho to this index."""
         return ca.SX(1)
 
     def _squared_ratios(self, qr: HouseholderQR) -> list[SX]:
         """rho^2 of every failure."""
-        rows = qr.null_rows()
-        return [squared_volume([rows[joint] for joint in locked]) for locked in self.failures]
+        rows = qr.null_space_basis()
+        return [gram_determinant([rows[joint] for joint in locked]) for locked in self.failures]
 
     def _is_regular(self, qr: HouseholderQR) -> SX:
         """Return True only where J is certainly not singular, and False also where the factorisation divided by zero.
@@ -97,7 +97,7 @@ class RelativeManipulability(Index):
             np.linalg.norm(self.arm.tool[:3, 3])
         )
         threshold = min(1e-11 * (1 + reach) ** 2 * length, 1e-6)
-        return qr.squared_volume() > threshold**2 * qr.squared_norm() ** self.task.m
+        return qr.gram_determinant() > threshold**2 * qr.squared_norm() ** self.task.m
 
     def _mark_singular(self, qr: HouseholderQR, outputs: list[SX], marked: bool) -> SX:
         """Return NaN in every output of a row that may be singular; such a row is evaluated again with singular values."""
@@ -109,7 +109,7 @@ class RelativeManipulability(Index):
         squares = self._squared_ratios(qr)
         if worst_only:
             squares = [select_smallest(squares)]
-        scale = self._index_scale(qr)
+        scale = self._scale_of_ratio(qr)
         values = [scale * ca.sqrt(s) for s in squares]
         return Kernel(self.name, [q], [self._mark_singular(qr, values, marked)])
 
@@ -122,7 +122,7 @@ class RelativeManipulability(Index):
             pull_back = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
             g = pull_back(q, cotangent)
         else:
-            smallest_square, scale = select_smallest(self._squared_ratios(qr)), self._index_scale(qr)
+            smallest_square, scale = select_smallest(self._squared_ratios(qr)), self._scale_of_ratio(qr)
             rho = ca.sqrt(smallest_square)
             derivative = ca.if_else(rho > _ZERO_RHO, 0.5 / rho, 0.0)
             # Held apart so that no root is differentiated at 0.
@@ -137,7 +137,7 @@ class RelativeManipulability(Index):
         With ``P = N N'``, ``dP = -J^+ dJ P - (J^+ dJ P)'``, so ``d rho_k / dJ = -a_k (P e_k)' / rho_k`` with
         ``a_k = (J J')^-1 j_k = R^-1 (Q' e_k)_{1..m}``. The worst k enters as a unit vector.
         """
-        rows = qr.null_rows()
+        rows = qr.null_space_basis()
         squares = [dot_product(r, r) for r in rows]
         smallest_square, unit = ca.SX(np.inf), [ca.SX(0)] * self.arm.n
         for locked in self.failures:
@@ -145,8 +145,8 @@ class RelativeManipulability(Index):
             is_smaller = squares[k] < smallest_square
             smallest_square = ca.if_else(is_smaller, squares[k], smallest_square)
             unit = [ca.if_else(is_smaller, float(i == k), u) for i, u in enumerate(unit)]
-        rotated = qr.q_transposed(unit)
-        a = qr.pinv_transposed(rotated)
+        rotated = qr.apply_q_transposed(unit)
+        a = qr.apply_pinv_transposed(rotated)
         p = [dot_product(r, rotated[self.task.m :]) for r in rows]
         rho = ca.sqrt(smallest_square)
         return self._combine_derivative(qr, rho, a, p)
@@ -173,9 +173,9 @@ class RelativeManipulability(Index):
     ) -> tuple[list[SX], list[list[SX]], list[SX]]:
         """``rho_k^2`` and ``d rho_k^2 = -2 a_k' dJ P e_k`` along each direction, and ``tr(J^+ dJ)`` for each direction."""
         n, m = self.arm.n, self.task.m
-        rows = qr.null_rows()
+        rows = qr.null_space_basis()
         projector = [[dot_product(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
-        a = [qr.pinv_transposed(qr.q_transposed([ca.SX(float(i == k)) for i in range(n)])) for k in range(n)]
+        a = [qr.apply_pinv_transposed(qr.apply_q_transposed([ca.SX(float(i == k)) for i in range(n)])) for k in range(n)]
         failed = [locked[0] for locked in self.failures]
         derivatives: list[list[SX]] = [[] for _ in failed]
         traces = []
@@ -200,7 +200,7 @@ class RelativeManipulability(Index):
     def _worst_failure_kernel(self) -> Kernel:
         """Kernel of the worst value and its failure, the first one with exactly this value."""
         q, _, qr = self._symbols
-        scale = self._index_scale(qr)
+        scale = self._scale_of_ratio(qr)
         smallest_square, worst = ca.SX(np.inf), ca.SX(0)
         for k, square in enumerate(self._squared_ratios(qr)):
             value = scale * ca.sqrt(square)
@@ -215,7 +215,7 @@ class RelativeManipulability(Index):
 
     @cached_property
     @cached_kernel
-    def _plain_values_kernel(self) -> Kernel:
+    def _unmarked_values_kernel(self) -> Kernel:
         return self._build_values(marked=False, worst_only=False)
 
     @cached_property
@@ -225,7 +225,7 @@ class RelativeManipulability(Index):
 
     @cached_property
     @cached_kernel
-    def _plain_gradient_kernel(self) -> Kernel:
+    def _unmarked_gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=False)
 
     def row_function(self) -> RowFunction:
@@ -234,7 +234,7 @@ class RelativeManipulability(Index):
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
-        rows, single = self._check_rows(q)
+        rows, single = self._read_configurations(q)
         values, marked = self._worst_kernel.marked_rows(rows)
         value = values[:, 0]
         if marked:
@@ -244,7 +244,7 @@ class RelativeManipulability(Index):
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
         """See :meth:`Index.worst_case`: of these the kernel finds the worst failure itself."""
-        rows, single = self._check_rows(q)
+        rows, single = self._read_configurations(q)
         outputs, marked = self._worst_failure_kernel.marked_rows(rows)
         value, status = np.ascontiguousarray(outputs[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
         if marked:
@@ -258,7 +258,7 @@ class RelativeManipulability(Index):
         values, marked = self._values_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, values, marked)
         if marked_rows.size:
-            values[marked_rows] = self._plain_values_kernel.rows(q[marked_rows])
+            values[marked_rows] = self._unmarked_values_kernel.rows(q[marked_rows])
             values[singular] = 0.0
         return values, singular
 
@@ -266,7 +266,7 @@ class RelativeManipulability(Index):
         gradient, marked = self._gradient_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, gradient, marked)
         if marked_rows.size:
-            gradient[marked_rows] = self._plain_gradient_kernel.rows(q[marked_rows])
+            gradient[marked_rows] = self._unmarked_gradient_kernel.rows(q[marked_rows])
             gradient[singular] = 0.0
         return gradient
 
@@ -307,17 +307,17 @@ class Manipulability(RelativeManipulability):
         # For an arm of revolute joints: each linear row brings one length.
         self.unit = "1" if linear == 0 or self.task.length != 1.0 else ("m" if linear == 1 else f"m^{linear}")
 
-    def _index_scale(self, qr: HouseholderQR) -> SX:
-        return qr.volume() * self._rows_scale
+    def _scale_of_ratio(self, qr: HouseholderQR) -> SX:
+        return qr.singular_value_product() * self._rows_scale
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """``kr^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
         if any(len(locked) != 1 for locked in self.failures):
-            volume = self._index_scale(qr) ** 2
+            volume = self._scale_of_ratio(qr) ** 2
             values = [volume * x for x in self._squared_ratios(qr)]
             return values, directional_derivatives(values, q, directions)
         squares, derivatives, traces = self._squares_and_derivatives(q, j, qr, directions)
-        volume = qr.squared_volume() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
+        volume = qr.gram_determinant() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
         values = [volume * x for x in squares]
         return values, [
             [volume * (locked + 2 * x * t) for locked, t in zip(row, traces, strict=True)]
@@ -327,9 +327,9 @@ class Manipulability(RelativeManipulability):
     def _combine_derivative(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
         # kr = rho D with dD/dJ = D (J^+)'
         units = [[ca.SX(float(i == k)) for i in range(self.arm.n)] for k in range(self.arm.n)]
-        columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
+        columns = [qr.apply_pinv_transposed(qr.apply_q_transposed(e)) for e in units]
         pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
-        return self._index_scale(qr) * (super()._combine_derivative(qr, rho, a, p) + rho * pinv_transposed)
+        return self._scale_of_ratio(qr) * (super()._combine_derivative(qr, rho, a, p) + rho * pinv_transposed)
 
 
 @constructor(

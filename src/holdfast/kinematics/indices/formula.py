@@ -44,7 +44,7 @@ class FormulaIndex(Index):
         del q, joints
         return self.formula(j)
 
-    def _formula_symbols(self) -> tuple[SX, list[SX]]:
+    def _joint_symbols_and_values(self) -> tuple[SX, list[SX]]:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
         values = []
@@ -59,13 +59,13 @@ class FormulaIndex(Index):
     @cached_property
     @cached_kernel
     def _values_kernel(self) -> Kernel:
-        q, values = self._formula_symbols()
+        q, values = self._joint_symbols_and_values()
         return Kernel(self.name, [q], [ca.vertcat(*values)])
 
     @cached_property
     @cached_kernel
     def _gradient_kernel(self) -> Kernel:
-        q, values = self._formula_symbols()
+        q, values = self._joint_symbols_and_values()
         worst = values[0]
         for value in values[1:]:
             worst = ca.if_else(value < worst if self.better == "larger" else value > worst, value, worst)
@@ -73,7 +73,7 @@ class FormulaIndex(Index):
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """The formula for every failure, negated if smaller is better, and its derivatives; see :meth:`Index.scores`."""
-        symbols, formulas = self._formula_symbols()
+        symbols, formulas = self._joint_symbols_and_values()
         sign = 1.0 if self.better == "larger" else -1.0
         values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * value for value in formulas]), symbols, q))
         return values, directional_derivatives(values, q, directions)

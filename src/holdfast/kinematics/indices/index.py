@@ -142,7 +142,7 @@ class Index(Labelled, Objective):
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = self._check_rows(q)
+        rows, single = self._read_configurations(q)
         by_failure, singular = self._evaluate_by_failure(rows)
         worst_failures = (
             by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
@@ -199,13 +199,13 @@ class Index(Labelled, Objective):
         Where two failures tie it is that of the first. It is 0 at a singular configuration and where the worst case is 0
         whatever the joints do (both are kinks or constants), and NaN where q is.
         """
-        rows, single = self._check_rows(q)
+        rows, single = self._read_configurations(q)
         gradient = self._evaluate_gradient(rows)
         return gradient[0] if single else gradient
 
     def singular(self, q: ArrayLike) -> NDArray[np.bool_]:
         """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
-        rows, single = self._check_rows(q)
+        rows, single = self._read_configurations(q)
         finite: NDArray[np.bool_] = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
@@ -284,7 +284,7 @@ class Index(Labelled, Objective):
         singular_values = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
         return np.asarray(singular_values[:, -1] <= SINGULAR_RATIO * singular_values[:, 0])
 
-    def _check_rows(self, q: ArrayLike) -> tuple[FloatArray, bool]:
+    def _read_configurations(self, q: ArrayLike) -> tuple[FloatArray, bool]:
         return as_configurations(self.arm, q)
 
     @property

@@ -49,7 +49,7 @@ def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellip
         j: (3, n) linear rows of the Jacobian, world frame.
         failed: Joints, from 0, that stay still.
     """
-    directions, sigma, _ = np.linalg.svd(without_columns(j, failed), full_matrices=True)
+    directions, sigma, _ = np.linalg.svd(zero_failed_columns(j, failed), full_matrices=True)
     radii = np.zeros(3)
     radii[: sigma.size] = sigma
     if np.linalg.det(directions) < 0:
@@ -57,7 +57,7 @@ def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellip
     return Ellipsoid(directions, radii)
 
 
-def find_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLoss]:
+def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLoss]:
     """Return the directions in which locking joints reduces the speed most, worst first; as many as joints fail, at most m.
 
     With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
@@ -93,7 +93,7 @@ def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:
     return float(np.prod([loss.kept for loss in losses_found]))
 
 
-def null_directions(j: FloatArray, failed: Sequence[int]) -> FloatArray:
+def null_space_joint_rates(j: FloatArray, failed: Sequence[int]) -> FloatArray:
     """Return joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0 with failed joints locked;
     orthonormal.
 
@@ -112,7 +112,7 @@ def null_directions(j: FloatArray, failed: Sequence[int]) -> FloatArray:
     return basis
 
 
-def without_columns(j: FloatArray, failed: Sequence[int]) -> FloatArray:
+def zero_failed_columns(j: FloatArray, failed: Sequence[int]) -> FloatArray:
     """Return the reduced Jacobian with the columns of failed joints set to 0, so that its shape stays."""
     reduced = np.array(j)
     reduced[:, list(failed)] = 0.0

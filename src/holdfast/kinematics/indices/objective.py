@@ -60,7 +60,7 @@ class Objective(Presentable, Differentiable, ABC):
 
     @cached_property
     def _compiled_ascents(self) -> dict[object, Any]:
-        """Compiled ascents of this objective, for :func:`holdfast.kinematics.solvers.optimum.objective_ascent`."""
+        """Compiled ascents of this objective, for :func:`holdfast.kinematics.solvers.optimum.get_cached_ascent`."""
         return {}
 
     @abstractmethod

@@ -76,7 +76,7 @@ def plan_entries(index: Index) -> dict[str, str]:
     return {"index": index.label} | ({"index_digest": index.digest} if isinstance(index, FileIndex) else {})
 
 
-def check_digest(index: Index, plan: Mapping[str, Any]) -> None:
+def check_function_digest(index: Index, plan: Mapping[str, Any]) -> None:
     """Compare the function of an index with that of a stored plan.
 
     Raises:
@@ -109,7 +109,7 @@ def source_digest(text: str, name: str) -> str:
     body = ast.parse(text).body
     needed, used_names = {name}, set[int]()
     while True:
-        added = {k for k, node in enumerate(body) if k not in used_names and _uses_names(node, needed)}
+        added = {k for k, node in enumerate(body) if k not in used_names and _concerns_names(node, needed)}
         if not added:
             break
         used_names |= added
@@ -119,7 +119,7 @@ def source_digest(text: str, name: str) -> str:
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def _uses_names(node: ast.stmt, needed: set[str]) -> bool:
+def _concerns_names(node: ast.stmt, needed: set[str]) -> bool:
     """Return whether a statement concerns one of the names: a definition its name, an import its bindings, any other statement
     all its names.
     """

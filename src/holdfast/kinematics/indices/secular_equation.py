@@ -28,14 +28,14 @@ _QUADRATURE_RANGE = 1e-4  # of the Frobenius norm: smaller singular values count
 
 def smallest_singular_value(d: Vector, w: Vector) -> tuple[SX, Matrix]:
     """Return the smallest singular value and its derivative."""
-    x, square = _smallest_eigenpair(d, _away_from_zero(d, w))
+    x, square = _smallest_eigenpair(d, _replace_tiny_entries(d, w))
     sigma = ca.sqrt(square)
     return sigma, _scaled_outer(x, 0.5 / sigma)
 
 
 def inverse_condition(d: Vector, w: Vector) -> tuple[SX, Matrix]:
     """Return the ratio of the smallest to the largest singular value and its derivative."""
-    w = _away_from_zero(d, w)
+    w = _replace_tiny_entries(d, w)
     x, low_square = _smallest_eigenpair(d, w)
     y, high_square = _largest_eigenpair(d, w)
     low, high = ca.sqrt(low_square), ca.sqrt(high_square)
@@ -136,7 +136,7 @@ def _inverse_root_quadrature() -> list[tuple[float, float]]:
     return list(zip(squares.tolist(), weights.tolist(), strict=True))
 
 
-def _away_from_zero(d: Vector, w: Vector) -> Vector:
+def _replace_tiny_entries(d: Vector, w: Vector) -> Vector:
     smallest = _ZERO_ENTRY * ca.sqrt(_sum_terms(d))
     return [ca.if_else(ca.fabs(x) < smallest, smallest, x) for x in w]
 

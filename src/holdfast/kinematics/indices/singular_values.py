@@ -106,7 +106,7 @@ class SpectralIndex(Index):
 
     @cached_property
     @cached_kernel
-    def _pull_back(self) -> Kernel:
+    def _jacobian_pullback_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
         seed = ca.SX.sym("seed", self.task.m, self.arm.n)
@@ -213,10 +213,10 @@ class SpectralIndex(Index):
         outputs = np.empty((len(q), len(self.failures) * (1 + self.arm.n)))
         for start in range(0, len(q), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
-            outputs[block] = self._measure_block(q[block])
+            outputs[block] = self._scores_and_gradients(q[block])
         return outputs
 
-    def _measure_block(self, q: FloatArray) -> FloatArray:
+    def _scores_and_gradients(self, q: FloatArray) -> FloatArray:
         count, n = len(self.failures), self.arm.n
         reduced = (self.task_jacobian(q)[:, None] * self._kept[:, None, :]).reshape(-1, self.task.m, n)
         u, sigma, v = np.linalg.svd(reduced, full_matrices=False)
@@ -225,7 +225,7 @@ class SpectralIndex(Index):
             with np.errstate(divide="ignore", invalid="ignore"):
                 score, derivative = 1 / score, -derivative / score[:, None] ** 2
         seed = np.einsum("rmi,ri,ric->rmc", u, np.nan_to_num(derivative), v).reshape(len(q), count, self.task.m, n)
-        gradients = self._pull_back.rows(
+        gradients = self._jacobian_pullback_kernel.rows(
             np.repeat(q, count, axis=0), (seed * self._kept[:, None, :]).reshape(-1, self.task.m, n)
         )
         return np.concatenate([score.reshape(len(q), count), gradients.reshape(len(q), count * n)], axis=1)
@@ -258,10 +258,10 @@ class SpectralIndex(Index):
         gradient = np.empty_like(q)
         for start in range(0, len(q), _BLOCK_ROWS):
             block = slice(start, start + _BLOCK_ROWS)
-            gradient[block] = self._gradient_block(q[block])
+            gradient[block] = self._worst_case_gradients(q[block])
         return gradient
 
-    def _gradient_block(self, q: FloatArray) -> FloatArray:
+    def _worst_case_gradients(self, q: FloatArray) -> FloatArray:
         values, singular = self._evaluate_by_failure(q)
         worst = values.argmin(axis=1) if self.better == "larger" else values.argmax(axis=1)
         free_columns = self._kept[worst][:, None, :]
@@ -276,7 +276,7 @@ class SpectralIndex(Index):
             )  # d sigma_i = u_i' dJ v_i
         has_no_gradient = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
         seed[has_no_gradient & np.isfinite(q).all(axis=1)] = 0.0
-        return self._pull_back.rows(q, seed)
+        return self._jacobian_pullback_kernel.rows(q, seed)
 
 
 @constructor(

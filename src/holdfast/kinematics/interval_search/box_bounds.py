@@ -99,8 +99,8 @@ class BoundedTask:
 
 
 @cached_kernel
-def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
-    """Build the kernel of an arm and a task's components, of a pose or ``along`` a straight leg of a path.
+def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = False) -> Kernel:
+    """Build the kernel of an arm and a task's components, of a pose or ``is_along_leg`` a straight leg of a path.
 
     Inputs: centre (n,) and half widths (n,), rad and m; position (3,) and orientation (3, 3) wanted; by how much each row may
     be missed (m,). Outputs: ``margin``, above 0 for a box that is empty; centre (n,) and half widths (n,) of what it can still
@@ -110,7 +110,7 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
     Along a leg the way of the end effector (3,), m, is one more input, and where on it the pose is, 0 to 1, one more joint: the
     last of all that is (n,).
     """
-    n, size = arm.n, arm.n + along
+    n, size = arm.n, arm.n + is_along_leg
     centers, half_widths = ca.SX.sym("c", size), ca.SX.sym("h", size)
     target_position, target_rotation, tolerance = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("t", parts.m)
     leg_vector = ca.SX.sym("w", 3)
@@ -123,12 +123,14 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
     rho = _axis_distance_bounds(
         arm, jacobian, (centers[:n], half_widths[:n]), is_revolute, arm.tool[:3, 3] if axis_point is None else axis_point
     )
-    rotates_tool = orienting_joints(arm, parts)
+    rotates_tool = is_orienting_joint(arm, parts)
     error, jacobian_rows, remainder = [], [], []
     if parts.linear:
         matrix = kinematics.constant_matrix(np.array(parts.linear))
-        error.append(matrix @ (point - target_position - target_rotation @ offset - (centers[n] * leg_vector if along else 0)))
-        jacobian_rows.append(matrix @ ca.horzcat(jacobian[:3, :], *([-leg_vector] * along)))
+        error.append(
+            matrix @ (point - target_position - target_rotation @ offset - (centers[n] * leg_vector if is_along_leg else 0))
+        )
+        jacobian_rows.append(matrix @ ca.horzcat(jacobian[:3, :], *([-leg_vector] * is_along_leg)))
         second_order = _second_order_terms(
             lambda k, i: matrix @ ca.cross(jacobian[3:, k], jacobian[:3, i]), half_widths, is_revolute, [True] * n
         )
@@ -139,7 +141,7 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
             parts, chain.rotation, jacobian[3:, :], target_rotation
         )
         error.append(value)
-        jacobian_rows.append(ca.horzcat(angular_jacobian, ca.SX(ORIENTATION_ROWS[parts.orientation], int(along))))
+        jacobian_rows.append(ca.horzcat(angular_jacobian, ca.SX(ORIENTATION_ROWS[parts.orientation], int(is_along_leg))))
         remainder.append(
             _smaller_remainder(
                 _second_order_terms(second_derivative, half_widths, rotates_tool, rotates_tool),
@@ -148,8 +150,8 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
             )
         )
     errors, task_jacobian = ca.densify(ca.vertcat(*error)), ca.vertcat(*jacobian_rows)
-    rho += [ca.sqrt(ca.sumsqr(leg_vector))] * along
-    rotates_tool += [False] * along
+    rho += [ca.sqrt(ca.sumsqr(leg_vector))] * is_along_leg
+    rotates_tool += [False] * is_along_leg
     allowed_angle = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.orientation != "none" else ca.SX(0)
     allowed_angle = ca.if_else(
         allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi
@@ -163,7 +165,7 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
     factor = Cholesky([[gram[i, k] for k in range(parts.m)] for i in range(parts.m)])
     direction = ca.vertcat(*factor.solve(ca.vertsplit(errors)))
     tests = [
-        _separation(
+        _error_beyond_bound(
             direction / ca.sqrt(ca.sumsqr(direction) + _GRAM_REGULARIZATION), errors, task_jacobian, half_widths, error_bounds
         )
     ]
@@ -171,7 +173,7 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
         k = len(parts.linear)
         length = ca.sqrt(ca.sumsqr(errors[:k]) + _GRAM_REGULARIZATION)
         position_direction = ca.vertcat(errors[:k] / length, ca.SX(parts.m - k, 1))
-        tests.append(_separation(position_direction, errors, task_jacobian, half_widths, error_bounds))
+        tests.append(_error_beyond_bound(position_direction, errors, task_jacobian, half_widths, error_bounds))
         travel_bound = sum((rho[i] * half_widths[i] for i in range(size)), ca.SX(0))
         tests.append(length - travel_bound - ca.sqrt(ca.sumsqr(position_tolerance)))
     if cosine is not None:
@@ -189,7 +191,7 @@ def box_kernel(arm: Arm, parts: BoundedTask, along: bool = False) -> Kernel:
         ca.fabs(middle) + radius,
         [(rho[k] + _ORIENTATION_WEIGHT_M * rotates_tool[k]) * new_half_widths[k] for k in range(size)],
     )
-    inputs = [centers, half_widths, target_position, target_rotation, tolerance, *([leg_vector] * along)]
+    inputs = [centers, half_widths, target_position, target_rotation, tolerance, *([leg_vector] * is_along_leg)]
     return Kernel("box of joints", inputs, [margin, centers + (lower + upper) / 2, new_half_widths, *measures, middle, errors])
 
 
@@ -204,7 +206,7 @@ def _box_measures(half_widths: SX, new_half_widths: SX, reach: SX, widths: list[
     return inside, volume, widest_joint
 
 
-def orienting_joints(arm: Arm, parts: BoundedTask) -> list[bool]:
+def is_orienting_joint(arm: Arm, parts: BoundedTask) -> list[bool]:
     """Return (n,) True for joints that change the orientation components; a joint along the tool's axis does not turn that
     axis.
     """
@@ -221,7 +223,7 @@ def is_last_joint_idle(arm: Arm, parts: BoundedTask) -> bool:
     """Return True if the last joint changes no component: the tool point lies on its axis and its rotation does not count."""
     last = arm.joints[-1]
     is_on_axis = np.linalg.norm(np.cross(last.axis, arm.tool[:3, 3])) < 1e-12 * arm.length_unit
-    return bool(not last.prismatic and is_on_axis and not orienting_joints(arm, parts)[-1])
+    return bool(not last.prismatic and is_on_axis and not is_orienting_joint(arm, parts)[-1])
 
 
 def _nearest_axis_point(arm: Arm) -> FloatArray | None:
@@ -342,6 +344,6 @@ def _maximum(values: list[SX]) -> SX:
     return largest
 
 
-def _separation(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:
-    """Return the error in a direction minus its bound over the box; a positive value excludes the box."""
+def _error_beyond_bound(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:
+    """Return the error along a direction minus the bound of its change over the box; a positive value excludes the box."""
     return ca.fabs(ca.dot(v, e)) - ca.dot(ca.fabs(j.T @ v), h) - ca.dot(ca.fabs(v), b)

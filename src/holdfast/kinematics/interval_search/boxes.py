@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from holdfast.core.errors import TaskError
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.kernel import Kernel
-from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_kernel, is_last_joint_idle
+from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_contraction_kernel, is_last_joint_idle
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -101,7 +101,7 @@ class BoxContractor:
             tilted_normal = pose[:3, :3] @ arm.forward_kinematics((lower + upper) / 2)[:3, :3].T @ parts.normal
             if np.abs(tilted_normal - parts.normal).max() > _MAX_TILT:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
-        self.kernel: Kernel = box_kernel(arm, parts, way is not None)
+        self.kernel: Kernel = box_contraction_kernel(arm, parts, way is not None)
         counts = len(parts.linear), parts.m - len(parts.linear)
         row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # rows of other frames miss by no more
         self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))

@@ -17,7 +17,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.interval_search.box_bounds import ROUNDING_M_RAD
 from holdfast.kinematics.interval_search.boxes import Blocked, BoxContractor, ContractedBoxes
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, target_pose
 
@@ -166,7 +166,7 @@ def all_configurations(
         finding=finding,
         q=search.solutions,
         boxes=contractor.checked,
-        open=search.open_count,
+        open=search.undecided_count,
         widest=search.widest_half_width,
         seconds=time.perf_counter() - start_time,
         blocked=contractor.blocked_count,
@@ -174,7 +174,7 @@ def all_configurations(
 
 
 def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[FloatArray, FloatArray]:
-    arm_limits = finite_limits(arm)
+    arm_limits = sampling_limits(arm)
     if limits is None:
         return arm_limits
     bounds = [np.asarray(bound, dtype=np.float64) for bound in limits]
@@ -208,7 +208,7 @@ class _BoxSearch:
         return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
 
     @property
-    def open_count(self) -> int:
+    def undecided_count(self) -> int:
         """Number of boxes that are not decided."""
         return len(self._open_boxes)
 

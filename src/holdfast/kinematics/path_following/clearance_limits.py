@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.objects.one_row import SingleConfigurationClearance
 
@@ -53,10 +53,10 @@ class ClearanceRateLimit:
     def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
         self.clearance, self.margin, self.rate = clearance, margin, rate
         self._nearest = SingleConfigurationClearance(clearance)
-        self._gradient_bounds = clearance.lipschitz_bounds(*finite_limits(clearance.arm)).max(axis=0, initial=0.0)
+        self._gradient_bounds = clearance.lipschitz_bounds(*sampling_limits(clearance.arm)).max(axis=0, initial=0.0)
         self._samples: list[tuple[FloatArray, float, FloatArray]] = []
 
-    def _evaluate(self, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
+    def _clearance_and_gradient(self, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
         """Return the configuration (n,), its clearance and the gradient (n,), and remember them, the latest first."""
         if self._samples and np.array_equal(self._samples[0][0], q):
             return self._samples[0]
@@ -85,7 +85,7 @@ class ClearanceRateLimit:
         The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
         of something, and slopes of 0 limit nothing.
         """
-        latest = self._evaluate(q)
+        latest = self._clearance_and_gradient(q)
         around = sorted(
             ((clearance + float(gradient @ (q - sample_q)), gradient) for sample_q, clearance, gradient in self._samples[1:]),
             key=_extrapolated_clearance,
@@ -97,9 +97,9 @@ class ClearanceRateLimit:
         """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
         way.
         """
-        step_start = self._evaluate(q)
+        step_start = self._clearance_and_gradient(q)
         for fraction in _STEP_FRACTIONS:
-            if self._evaluate(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):
+            if self._clearance_and_gradient(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):
                 return fraction
         self._samples = [step_start, *self._samples[: _MEMORY_SIZE - 1]]
         return 0.0

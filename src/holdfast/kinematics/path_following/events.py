@@ -26,7 +26,7 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.path_following.clearance_limits import ClearanceHistory
-from holdfast.kinematics.path_following.resolution import null_space_gradient
+from holdfast.kinematics.path_following.resolution import null_basis_and_gradient
 from holdfast.kinematics.path_following.trajectory import Event
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.task import Task
@@ -66,7 +66,7 @@ class Curvature:
     @cached_kernel
     def _kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.objective.arm)
-        null_space, gradient = null_space_gradient(self.objective, self.task, q)
+        null_space, gradient = null_basis_and_gradient(self.objective, self.task, q)
         return Kernel("slope along the self-motion", [q], [gradient, ca.densify(null_space)])
 
     def _gradient_and_basis(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -123,8 +123,8 @@ class MotionHistory:
 def find_events(
     objective: Objective,
     motion: MotionHistory,
-    tracks: bool,
-    requested: float | None,
+    follows_extremum: bool,
+    requested_value: float | None,
     cap_phrase: str,
     clearance_history: ClearanceHistory | None = None,
 ) -> tuple[Event, ...]:
@@ -133,8 +133,8 @@ def find_events(
     Args:
         objective: What the self-motion served.
         motion: The motion.
-        tracks: The self-motion was meant to stay at a local best.
-        requested: The value that it was meant to keep, if so.
+        follows_extremum: The self-motion was meant to stay at a local best.
+        requested_value: The value that it was meant to keep, if so.
         cap_phrase: What limited the self-motion, for people.
         clearance_history: What it kept clear of, if anything.
     """
@@ -171,13 +171,15 @@ def find_events(
             "is balanced about its axis or upright, and the worst of several failures may"
         ),
     )
-    events += _find_fast_motions(objective, motion, tracks, is_zero)
-    if requested is not None:
-        off_value = np.abs(motion.value - requested) > _VALUE_TOLERANCE * max(abs(requested), float(np.ptp(motion.value)))
+    events += _find_fast_motions(objective, motion, follows_extremum, is_zero)
+    if requested_value is not None:
+        off_value = np.abs(motion.value - requested_value) > _VALUE_TOLERANCE * max(
+            abs(requested_value), float(np.ptp(motion.value))
+        )
         add_events(
             "value not kept",
             off_value,
-            lambda when: f"{when}: {objective.name} is more than {_VALUE_TOLERANCE:.0%} off the wanted {requested:.4g}",
+            lambda when: f"{when}: {objective.name} is more than {_VALUE_TOLERANCE:.0%} off the wanted {requested_value:.4g}",
         )
     add_events(
         "rate cap",
@@ -190,7 +192,7 @@ def find_events(
         lambda when: f"{when}: joint limits leave no motion that keeps up: the end effector falls behind its path",
     )
     if clearance_history is not None:
-        events += _find_approaches(clearance_history, motion, at_margin)
+        events += _find_clearance_events(clearance_history, motion, at_margin)
     add_events(
         "near a singularity",
         motion.damping > 0,
@@ -201,7 +203,7 @@ def find_events(
     return tuple(sorted(events, key=lambda event: (event.start, event.kind)))
 
 
-def _find_approaches(clearance_history: ClearanceHistory, motion: MotionHistory, at_margin: BoolArray) -> list[Event]:
+def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHistory, at_margin: BoolArray) -> list[Event]:
     """Find where a pair has no margin left: as a limit that changed the motion, or closer."""
     events = []
     bridge = max(1, round(_BRIDGED_FRACTION * len(at_margin)))
@@ -292,12 +294,12 @@ def _format_time_span(start: float, end: float) -> str:
     return f"at {start_text} s" if start_text == end_text else f"from {start_text} s to {end_text} s"
 
 
-def _find_runs(flags: BoolArray, bridge: int) -> list[tuple[int, int]]:
-    """Return the first and last position of every run of True; runs less than ``bridge`` apart are joined."""
+def _find_runs(flags: BoolArray, max_gap: int) -> list[tuple[int, int]]:
+    """Return the first and last position of every run of True; runs less than ``max_gap`` apart are joined."""
     edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(np.int8)))
     runs: list[tuple[int, int]] = []
     for first, last in zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True):
-        if runs and first - runs[-1][1] <= bridge:
+        if runs and first - runs[-1][1] <= max_gap:
             runs[-1] = (runs[-1][0], last)
         else:
             runs.append((first, last))

@@ -16,7 +16,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kinematics.path_following.clearance_limits import ENFORCED_LIMITS, ClearanceRateLimit
 from holdfast.kinematics.path_following.resolution import Resolution
 from holdfast.kinematics.paths.timed_path import TimedPath
-from holdfast.kinematics.solvers.inverse_kinematics import clip_to_limits, tool_error
+from holdfast.kinematics.solvers.inverse_kinematics import clip_to_limits, pose_error_for_task
 from holdfast.model.arm import kinematics
 
 _SETTLING_STEPS = 400  # steps before the first
@@ -133,7 +133,7 @@ def _step_kernel(law: Resolution, step: float, limits: bool, max_error: float, h
     q, target_position, target_rotation = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     twist, twist_given = ca.SX.sym("twist", 6), ca.SX.sym("given")
     chain = kinematics.kinematic_chain(arm, q)
-    error = tool_error(law.task, chain.position, chain.rotation, target_position, target_rotation)
+    error = pose_error_for_task(law.task, chain.position, chain.rotation, target_position, target_rotation)
     error_norm = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
     clearance_limits = [ca.SX.sym("around", ENFORCED_LIMITS * (arm.n + 1))] if has_clearance else []
     rows = [(row[:-1], row[-1]) for limits_symbol in clearance_limits for row in ca.vertsplit(limits_symbol, arm.n + 1)]

@@ -15,9 +15,9 @@ from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.path_following.resolution import (
     SINGULAR_REGULARIZATION,
     Resolution,
-    null_space_gradient,
-    oriented_gradient,
-    oriented_value,
+    gradient_to_maximise,
+    null_basis_and_gradient,
+    value_to_maximise,
 )
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
@@ -62,7 +62,7 @@ class GradientProjection(Resolution):
         self.gain = gain
 
     def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
-        return self.gain * oriented_gradient(self.objective, q, jacobian)
+        return self.gain * gradient_to_maximise(self.objective, q, jacobian)
 
 
 @check_constructor
@@ -104,7 +104,7 @@ class ExtendedJacobian(Resolution):
         self.gain = gain
 
     def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
-        null_space, gradient = null_space_gradient(self.objective, self.task, q)
+        null_space, gradient = null_basis_and_gradient(self.objective, self.task, q)
         gradient_jacobian = ca.jacobian(gradient, q)
         return null_space @ damped_least_norm(
             gradient_jacobian @ null_space, -self.gain * gradient - gradient_jacobian @ particular, SINGULAR_REGULARIZATION
@@ -152,8 +152,10 @@ class AugmentedJacobian(Resolution):
 
     def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
         sign = 1.0 if self.objective.better == "larger" else -1.0
-        gradient = oriented_gradient(self.objective, q, jacobian)
-        missing = self.gain * (sign * self.wanted - oriented_value(self.objective, q, jacobian)) - ca.dot(gradient, particular)
+        gradient = gradient_to_maximise(self.objective, q, jacobian)
+        missing = self.gain * (sign * self.wanted - value_to_maximise(self.objective, q, jacobian)) - ca.dot(
+            gradient, particular
+        )
         # Least norm within the null space; where the objective does not change there, it cannot be helped.
         projected_gradient = gradient - jacobian.T @ ca.vertcat(
             *Cholesky(damped_gram(jacobian, SINGULAR_REGULARIZATION)).solve(ca.vertsplit(ca.densify(jacobian @ gradient)))

@@ -134,11 +134,11 @@ class Resolution(Steppable):
         jacobian = ca.horzcat(*[self.task.error(full_jacobian[:, k] * scale, chain.rotation) for k in range(n)])
         velocity = self.task.error(twist * scale, chain.rotation)
         low, high = self._rate_bounds(q)
-        task_rates, _, task_only_fraction, task_damping = self._limited_rates(
-            q, jacobian, velocity, low, high, rows, serve=False
+        task_rates, _, task_only_fraction, task_damping = self._rates_within_bounds(
+            q, jacobian, velocity, low, high, rows, with_self_motion=False
         )
-        rates, motion_fraction, served_fraction, served_damping = self._limited_rates(
-            q, jacobian, velocity, low, high, rows, serve=True
+        rates, motion_fraction, served_fraction, served_damping = self._rates_within_bounds(
+            q, jacobian, velocity, low, high, rows, with_self_motion=True
         )
         bounded = self._bounded_joints(low, high)
         if not bounded and not rows:
@@ -168,7 +168,7 @@ class Resolution(Steppable):
     def _bounded_joints(low: list[SX | None], high: list[SX | None]) -> list[int]:
         return [k for k in range(len(low)) if low[k] is not None or high[k] is not None]
 
-    def _limited_rates(
+    def _rates_within_bounds(
         self,
         q: SX,
         jacobian: SX,
@@ -176,7 +176,7 @@ class Resolution(Steppable):
         lower: list[SX | None],
         upper: list[SX | None],
         rows: Sequence[Row],
-        serve: bool,
+        with_self_motion: bool,
     ) -> tuple[SX, SX, SX, SX]:
         """Return rates (n,) for the task, with or without the desired self-motion; joints at their bounds are held there.
 
@@ -190,7 +190,7 @@ class Resolution(Steppable):
         for pass_index in range(passes):
             masked = ca.horzcat(*[jacobian[:, k] * free[k] for k in range(n)]) if pass_index else jacobian
             undamped = Cholesky(damped_gram(masked, SINGULAR_REGULARIZATION))
-            volume = undamped.determinant() / self._typical_volume
+            volume = undamped.determinant() / self._damping_threshold
             damping = ca.if_else(volume < 1, self.damping**2 * (1 - volume) + SINGULAR_REGULARIZATION, SINGULAR_REGULARIZATION)
             factor = Cholesky(damped_gram(masked, damping))
 
@@ -199,7 +199,7 @@ class Resolution(Steppable):
 
             particular = fixed_rates + apply_pseudoinverse(velocity - jacobian @ fixed_rates)
             rates, fraction = particular, ca.SX(1)
-            if serve:
+            if with_self_motion:
                 if pass_index == 0:
                     desired = self._desired_self_motion(q, jacobian, particular)
                 desired_free = desired * free
@@ -275,8 +275,8 @@ class Resolution(Steppable):
         return ca.if_else(task_square + motion_square <= self.rate_cap**2, 1.0, ca.if_else(fraction < 1, fraction, 1.0))
 
     @cached_property
-    def _typical_volume(self) -> float:
-        """Square of the manipulability below which rates are damped."""
+    def _damping_threshold(self) -> float:
+        """Squared manipulability below which the joint rates are damped."""
         lower = np.where(np.isfinite(self.arm.lower), self.arm.lower, -np.pi)
         upper = np.where(np.isfinite(self.arm.upper), self.arm.upper, np.pi)
         q = kinematics.joint_symbols(self.arm)
@@ -362,7 +362,7 @@ def choose_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
 # ---- the objective as symbols ------------------------------------------------------------------------------------------
 
 
-def oriented_value(objective: Objective, q: SX, jacobian: SX) -> SX:
+def value_to_maximise(objective: Objective, q: SX, jacobian: SX) -> SX:
     """Return the objective, negated where smaller is better."""
     return sum(
         part.weight * select_at_smallest(part.values, part.values)[0]
@@ -370,8 +370,8 @@ def oriented_value(objective: Objective, q: SX, jacobian: SX) -> SX:
     )
 
 
-def oriented_gradient(objective: Objective, q: SX, jacobian: SX) -> SX:
-    """Return the gradient (n,) of :func:`oriented_value`; of the worst of several failures that of the first."""
+def gradient_to_maximise(objective: Objective, q: SX, jacobian: SX) -> SX:
+    """Return the gradient (n,) of :func:`value_to_maximise`; of the worst of several failures that of the first."""
     total = ca.SX(int(q.numel()), 1)
     for part in objective.exact_parts(q, jacobian, factor_householder(jacobian), _unit_vectors(q)):
         rows = [ca.vertcat(*row) for row in part.slopes]
@@ -379,14 +379,14 @@ def oriented_gradient(objective: Objective, q: SX, jacobian: SX) -> SX:
     return total
 
 
-def null_space_gradient(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
-    """Return the null-space basis N (n, r), and the gradient ``N' grad`` (r,) of :func:`oriented_value` along it.
+def null_basis_and_gradient(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
+    """Return the null-space basis N (n, r), and the gradient ``N' grad`` (r,) of :func:`value_to_maximise` along it.
 
     The objective is best, or worst, along the self-motion where the slope is 0.
     """
     jacobian = task.jacobian(objective.arm, q)
-    null_space = ca.vertcat(*[ca.horzcat(*row) for row in factor_householder(jacobian).null_rows()])
-    return null_space, ca.densify(null_space.T @ oriented_gradient(objective, q, jacobian))
+    null_space = ca.vertcat(*[ca.horzcat(*row) for row in factor_householder(jacobian).null_space_basis()])
+    return null_space, ca.densify(null_space.T @ gradient_to_maximise(objective, q, jacobian))
 
 
 def _unit_vectors(q: SX) -> list[SX]:

@@ -74,7 +74,7 @@ def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, *, qdd: ArrayLike, bound:
                 "give a bound above 0"
             )
     joint_bound = np.where(loaded, limit, 1.0)  # of the others every bound is kept
-    scales = _largest_root(viscous / joint_bound, inertial / joint_bound)
+    scales = _required_time_stretch(viscous / joint_bound, inertial / joint_bound)
     sample, joint_index = np.unravel_index(int(scales.argmax()), scales.shape)
     scale = float(scales.max())
     return SlowMotion(time_scale=scale, worst_joint=int(joint_index), worst_time_index=int(sample), satisfied=scale <= 1)
@@ -92,8 +92,8 @@ def _read_bounds(arm: Arm, bound: ArrayLike) -> FloatArray:
     return np.broadcast_to(bounds, (arm.n,))
 
 
-def _largest_root(b: FloatArray, a: FloatArray) -> FloatArray:
-    """Return the largest k at which ``|b / k + a / k^2| = 1``, 0 if b and a are 0.
+def _required_time_stretch(b: FloatArray, a: FloatArray) -> FloatArray:
+    """Return the largest time scale k at which ``|b / k + a / k^2| = 1``; 0 if b and a are 0.
 
     With signs turned so that b is positive: ``k^2 - b k - a = 0`` for +1 and ``k^2 + b k + a = 0`` for -1.
     """

@@ -160,7 +160,7 @@ def follow(
     events = find_events(objective, history, method in OPTIMUM_METHODS, target_value, cap_phrase, clearance_history)
     peak_index = int(history.rate_norm.argmax())
     sampled = slice(None, None, substeps)
-    position_error, rotation_error = solver(arm, resolved_task).task_errors(joints[sampled], poses)
+    position_error, rotation_error = solver(arm, resolved_task).position_and_rotation_errors(joints[sampled], poses)
     best_value, best_q = (
         _find_best_motion(arm, objective, resolved_task, poses, time, rate_cap, spacing, seed, resolved_clearance, margin)
         if best
@@ -272,7 +272,9 @@ def _find_start(
     if start.ndim != 1 or not np.isfinite(start).all():
         raise InputError(f"the start q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
     engine = solver(arm, task)
-    position_error, rotation_error = (float(error[0]) for error in engine.task_errors(start[None], first_pose[None]))
+    position_error, rotation_error = (
+        float(error[0]) for error in engine.position_and_rotation_errors(start[None], first_pose[None])
+    )
     if not engine.check_solutions(start[None], first_pose[None], 1e-3)[0]:
         raise InputError(
             f"the start q is {position_error:.3g} m and {rotation_error:.3g} rad from the first pose of the path, or "

@@ -12,13 +12,13 @@ import numpy as np
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files.output import guard_writing, open_replacement
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 from holdfast.kinematics.path_following.slow_motion import SlowMotion, slow_enough
-from holdfast.kinematics.paths.joint_table import motion_columns
+from holdfast.kinematics.paths.joint_table import motion_column_names
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.collision.clearance import Clearance
@@ -188,7 +188,7 @@ class Trajectory(Result):
     def columns(self) -> dict[str, FloatArray]:
         """Return the columns (T,) of the exported table by name: time, joints, rates, accelerations, errors, objective."""
         table = {"time_s": self.time}
-        for names, values in zip(motion_columns(self.arm), (self.q, self.qd, self.qdd), strict=True):
+        for names, values in zip(motion_column_names(self.arm), (self.q, self.qd, self.qdd), strict=True):
             table |= dict(zip(names, values.T, strict=True))
         table |= {
             "position_error_m": self.position_error,
@@ -215,7 +215,7 @@ class Trajectory(Result):
         table = self.columns()
         with open_replacement(Path(path), "motion") as file:
             writer = csv.writer(file)
-            writer.writerow(map(escape_cell, table))
+            writer.writerow(map(escape_formula, table))
             writer.writerows(zip(*[[repr(float(number)) for number in column] for column in table.values()], strict=True))
         return Path(path)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
-from holdfast.core.files.spreadsheet import read_cell
+from holdfast.core.files.spreadsheet import unescape_formula
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 
@@ -21,7 +21,7 @@ def joint_columns(arm: Arm) -> list[str]:
     return [f"{joint.name}_{joint.unit}" for joint in arm.joints]
 
 
-def motion_columns(arm: Arm) -> tuple[list[str], list[str], list[str]]:
+def motion_column_names(arm: Arm) -> tuple[list[str], list[str], list[str]]:
     """Return the names of the columns of joints, their rates, and their accelerations."""
     rates = [f"{joint.name}_rate_{joint.unit}_per_s" for joint in arm.joints]
     return joint_columns(arm), rates, [f"{joint.name}_acceleration_{joint.unit}_per_s2" for joint in arm.joints]
@@ -41,7 +41,7 @@ class JointTable:
     header: tuple[str, ...]
     numbered_lines: tuple[tuple[int, list[str]], ...]
 
-    def read_columns(self, names: Sequence[str]) -> FloatArray:
+    def select_columns(self, names: Sequence[str]) -> FloatArray:
         """Return the columns with the given names, (K, len(names)).
 
         Raises:
@@ -78,7 +78,7 @@ def read_joint_table(arm: Arm, file: Path, content_name: str, leading_column: st
         lines = [(reader.line_num, cells) for cells in reader if cells]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{title}: this is not a CSV table: {error}") from error
-    header = tuple(read_cell(text.strip()) for text in lines[0][1]) if lines else ()
+    header = tuple(unescape_formula(text.strip()) for text in lines[0][1]) if lines else ()
     required = joint_columns(arm)
     for name in required:
         if header.count(name) != 1:

@@ -50,7 +50,7 @@ class Path(Presentable):
     name: str = "path"
 
     @cached_property
-    def _leg_sizes(self) -> tuple[FloatArray, FloatArray]:
+    def _leg_travels_and_rotations(self) -> tuple[FloatArray, FloatArray]:
         """Travel of the end effector, m, and rotation, rad, of each leg, (L,) each."""
         arc_lengths = np.linalg.norm(np.cross(self.sweep, self.starts[:, :3, 3] - self.center), axis=1)
         return np.hypot(np.linalg.norm(self.shift, axis=1), arc_lengths), np.linalg.norm(self.turn, axis=1)
@@ -58,13 +58,13 @@ class Path(Presentable):
     @property
     def length(self) -> float:
         """Length of the end effector's path, m, or rad for a path on which the end effector only rotates."""
-        travel = float(self._leg_sizes[0].sum())
-        return travel if travel > _EQUAL_POSE_TOLERANCE else float(self._leg_sizes[1].sum())
+        travel = float(self._leg_travels_and_rotations[0].sum())
+        return travel if travel > _EQUAL_POSE_TOLERANCE else float(self._leg_travels_and_rotations[1].sum())
 
     @cached_property
     def bounds(self) -> FloatArray:
         """Values (L + 1,) of s at which the legs begin and end; a leg that only rotates counts 1 rad as 1 m."""
-        travel, angles = self._leg_sizes
+        travel, angles = self._leg_travels_and_rotations
         cumulative = np.cumsum(np.where(travel > _EQUAL_POSE_TOLERANCE, travel, angles))
         return np.concatenate([[0.0], cumulative[:-1] / cumulative[-1], [1.0]])
 
@@ -135,7 +135,7 @@ class Path(Presentable):
 
     def describe(self) -> str:
         """Describe the path in one sentence, in m and degrees."""
-        travel, angle = (float(leg_values.sum()) for leg_values in self._leg_sizes)
+        travel, angle = (float(leg_values.sum()) for leg_values in self._leg_travels_and_rotations)
         parts = []
         if travel > _EQUAL_POSE_TOLERANCE:
             is_arc = np.linalg.norm(self.sweep, axis=1) > 0
@@ -203,7 +203,7 @@ def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> 
     Raises:
         InputError: Not poses or positions, too few, or two that follow each other are the same.
     """
-    matrices, oriented = _as_poses(poses)
+    matrices, oriented = _read_poses(poses)
     if len(matrices) < 2:
         raise InputError(f"a path needs 2 poses or more, got {len(matrices)}")
     rotations = _rotations_between(matrices)
@@ -262,7 +262,7 @@ def arc(
 
 
 def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) -> Path:
-    matrices, oriented = _as_poses([start, via, end])
+    matrices, oriented = _read_poses([start, via, end])
     first, middle, last = matrices[:, :3, 3]
     first_chord, second_chord = middle - first, last - first
     normal = np.cross(first_chord, second_chord)
@@ -288,7 +288,7 @@ def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) ->
 
 
 def _arc_about(start: ArrayLike, center: FloatArray, axis: FloatArray, angle: float, turning: bool, name: str) -> Path:
-    matrices, oriented = _as_poses([start])
+    matrices, oriented = _read_poses([start])
     length = float(np.linalg.norm(axis))
     if length <= _EQUAL_POSE_TOLERANCE or not np.isfinite(angle) or abs(angle) <= _EQUAL_POSE_TOLERANCE:
         raise InputError(f"the arc has axis {axis.tolist()} and angle {angle:g} rad; neither may be 0, and both must be finite")
@@ -317,7 +317,7 @@ def _rotate_points(vectors: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray((rotations_of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
-def _as_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[FloatArray, bool]:
+def _read_poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[FloatArray, bool]:
     """Return poses (N, 4, 4), and whether any orientation was given."""
     try:
         arrays = [np.asarray(value, dtype=np.float64) for value in values]  # type: ignore[union-attr]

@@ -34,7 +34,7 @@ from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
-from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
+from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotations_of_quaternions
 from holdfast.model.arm.urdf import rpy_rotation
@@ -55,10 +55,10 @@ def parse_path_file(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str
         model = _PathFile.model_validate(read_mapping(path, "holdfast.kinematics.paths.path_file", "line, arc or poses"))
         timing = model.timing
         if timing is None:
-            return *_path_arguments(model, path), None, False
-        return *_path_arguments(model, path), timing.model_dump(exclude={"stop"}), timing.stop
+            return *_shape_and_arguments(model, path), None, False
+        return *_shape_and_arguments(model, path), timing.model_dump(exclude={"stop"}), timing.stop
     except ValidationError as error:
-        raise InputError(f"path file '{path}': {describe_error(error, _PathFile, POSE_LIST_TAGS)}") from error
+        raise InputError(f"path file '{path}': {describe_validation_error(error, _PathFile, POSE_LIST_TAGS)}") from error
     except InputError as error:
         raise InputError(f"path file '{path}': {error}") from error
 
@@ -109,7 +109,7 @@ class _PathFile(Strict):
     timing: _TimingEntry | None = None
 
 
-def _path_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[str, Any]]:
+def _shape_and_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[str, Any]]:
     radians_per_unit = np.pi / 180 if model.angles == "deg" else 1.0
     name = model.name or file.stem
     if sum(entry is not None for entry in (model.line, model.arc, model.poses)) != 1:

@@ -48,21 +48,21 @@ class _StoppingTiming:
     def duration(self) -> float:
         return self.timing.duration
 
-    def _locate_part(self, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _locate_between_stops(self, t: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the last stop (a value of s), the fraction of the current part, and the time in the timing's own scale."""
         index = np.clip(np.searchsorted(self.stops, t / self.duration, side="right") - 1, 0, self.stops.size - 2)
         part_start, fraction = self.stops[index], np.diff(self.stops)[index]
         return part_start, fraction, (t - part_start * self.duration) / fraction
 
     def s(self, t: FloatArray) -> FloatArray:
-        part_start, fraction, local_time = self._locate_part(t)
+        part_start, fraction, local_time = self._locate_between_stops(t)
         return part_start + fraction * self.timing.s(local_time)
 
     def rate(self, t: FloatArray) -> FloatArray:
-        return self.timing.rate(self._locate_part(t)[2])
+        return self.timing.rate(self._locate_between_stops(t)[2])
 
     def acceleration(self, t: FloatArray) -> FloatArray:
-        _, fraction, local_time = self._locate_part(t)
+        _, fraction, local_time = self._locate_between_stops(t)
         return self.timing.acceleration(local_time) / fraction
 
 
@@ -83,7 +83,7 @@ class TimedPath(Presentable):
     stop: bool = False
 
     @cached_property
-    def _effective_timing(self) -> Timing:
+    def _timing_with_stops(self) -> Timing:
         if not self.stop or not self.path.corners.size:
             return self.timing
         return _StoppingTiming(self.timing, np.concatenate([[0.0], self.path.corners, [1.0]]))
@@ -104,15 +104,15 @@ class TimedPath(Presentable):
         end.
         """
         times = _check_times(t)
-        return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._effective_timing.rate, times)
+        return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._timing_with_stops.rate, times)
 
     def twist_rate(self, t: ArrayLike) -> FloatArray:
         """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
         times = _check_times(t)
         parameters, rate, acceleration = (
             self._path_parameters(times),
-            self._evaluate_column(self._effective_timing.rate, times),
-            self._evaluate_column(self._effective_timing.acceleration, times),
+            self._evaluate_column(self._timing_with_stops.rate, times),
+            self._evaluate_column(self._timing_with_stops.acceleration, times),
         )
         return self.path.twist_slope(parameters) * rate**2 + self.path.twist(parameters) * acceleration
 
@@ -153,7 +153,7 @@ class TimedPath(Presentable):
         return cls(path, timing, stop)
 
     def _path_parameters(self, t: FloatArray) -> FloatArray:
-        return np.asarray(self._effective_timing.s(np.atleast_1d(t))).reshape(t.shape)
+        return np.asarray(self._timing_with_stops.s(np.atleast_1d(t))).reshape(t.shape)
 
     def _evaluate_column(self, function: Callable[[FloatArray], FloatArray], t: FloatArray) -> FloatArray:
         return np.asarray(function(np.atleast_1d(t))).reshape((*t.shape, 1))

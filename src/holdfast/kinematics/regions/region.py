@@ -17,7 +17,7 @@ from holdfast.core.result import Presentable
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.regions.pose_list import PoseList
-from holdfast.kinematics.regions.weights import Density, check_weights, swap_angles
+from holdfast.kinematics.regions.weights import Density, check_weights, swap_roll_and_yaw
 from holdfast.model.arm.model import Arm
 
 Sampling = Literal["random", "sobol"]
@@ -159,7 +159,7 @@ class Region(Presentable):
         if weight is not None and not callable(weight):
             if not isinstance(weight, Mapping):
                 raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
-            weight = Density.from_points(weight if order == "abdi" else swap_angles(weight))
+            weight = Density.from_points(weight if order == "abdi" else swap_roll_and_yaw(weight))
         return cls("box", tuple(middle.tolist()), tuple(edge_lengths.tolist()), name=name, weight=weight)
 
     @classmethod
@@ -247,7 +247,7 @@ class Region(Presentable):
             raise InputError("region: a sampler must be a function draw(generator, count)")
         sampled = draw(np.random.default_rng(0), 2)
         region = cls("sampler", (), (), name=name, draw=(draw, isinstance(sampled, tuple)))
-        region._check_sampled(sampled, 2)
+        region._read_custom_samples(sampled, 2)
         return region
 
     @classmethod
@@ -423,14 +423,14 @@ class Region(Presentable):
     def _sampler_blocks(self, number: int, seed: int) -> Iterator[FloatArray]:
         assert self.draw is not None
         while True:
-            yield self._check_sampled(self.draw[0](self._block_generator(seed, number), self.block), self.block)
+            yield self._read_custom_samples(self.draw[0](self._block_generator(seed, number), self.block), self.block)
             number += 1
 
     @staticmethod
     def _block_generator(seed: int, number: int) -> np.random.Generator:
         return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
 
-    def _check_sampled(self, sampled: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> FloatArray:
+    def _read_custom_samples(self, sampled: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> FloatArray:
         """Return the poses of a sampler as samples (count, 13)."""
         from holdfast.model.arm.poses import check_poses
 

@@ -35,7 +35,7 @@ def check_weights(weights: ArrayLike, count: int, label: str) -> FloatArray:
     return array
 
 
-def swap_angles(points: Mapping[str, Points]) -> dict[str, Points]:
+def swap_roll_and_yaw(points: Mapping[str, Points]) -> dict[str, Points]:
     """Swap roll and yaw, because samples are stored in the order of Abdi et al. 2012, which names them the other way round than
     URDF.
     """
@@ -104,7 +104,7 @@ class Density:
         for name, points in self.pieces:
             unit, factor = (" m", 1.0) if COORDINATE_NAMES.index(name) < 3 else (" deg", 180 / np.pi)
             parts.append(
-                f"{next(iter(swap_angles({name: points})))} "
+                f"{next(iter(swap_roll_and_yaw({name: points})))} "
                 + ", ".join(f"{weight:.4g} at {factor * coordinate:.4g}{unit}" for coordinate, weight in points)
             )
         return "weight by " + "; ".join(parts) + "; linear between"

@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.curve_tracing import Component, ManifoldTracer
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 
 MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
@@ -43,13 +43,13 @@ class CurveConstraint:
         def evaluate_margins(q: FloatArray) -> FloatArray:
             return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
 
-        return cls(evaluate_margins, clearance.lipschitz_bounds(*finite_limits(clearance.arm)), clearance.pair_names)
+        return cls(evaluate_margins, clearance.lipschitz_bounds(*sampling_limits(clearance.arm)), clearance.pair_names)
 
     def is_satisfied(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where all inequalities are met at q (N, n)."""
         return np.asarray((self.evaluate_margins(q) >= 0).all(axis=1))
 
-    def find_free_parts(self, tracer: ManifoldTracer, pose: FloatArray, curve: Component) -> list[Component]:
+    def find_feasible_parts(self, tracer: ManifoldTracer, pose: FloatArray, curve: Component) -> list[Component]:
         """Return the parts of a curve of a pose (4, 4) that meet the inequalities, in order, with the names of the pairs at
         their ends.
 
@@ -69,7 +69,7 @@ class CurveConstraint:
             if not undecided.size:
                 break
             segments, midpoints = q[undecided + 1] - q[undecided], (q[undecided] + q[undecided + 1]) / 2
-            middle, on_curve, _ = tracer.correct(midpoints, np.broadcast_to(pose, (undecided.size, 4, 4)))
+            middle, on_curve, _ = tracer.project_onto_poses(midpoints, np.broadcast_to(pose, (undecided.size, 4, 4)))
             # Near a singular configuration it may land anywhere, and halves would not get shorter.
             on_curve &= np.linalg.norm(middle - midpoints, axis=1) <= _MAX_STRAY_FRACTION * np.linalg.norm(segments, axis=1)
             middle[~on_curve] = midpoints[~on_curve]
@@ -79,9 +79,9 @@ class CurveConstraint:
             margins = np.insert(margins, undecided + 1, middle_margins, axis=0)
         if proved.all():
             return [curve]
-        return self._proved_parts(curve, q, margins, proved)
+        return self._cut_proved_parts(curve, q, margins, proved)
 
-    def _proved_parts(self, curve: Component, q: FloatArray, margins: FloatArray, proved: BoolArray) -> list[Component]:
+    def _cut_proved_parts(self, curve: Component, q: FloatArray, margins: FloatArray, proved: BoolArray) -> list[Component]:
         """Return the runs of proved segments between points q (K, n)."""
         if curve.closed:  # begin behind a piece that is not clear
             cut_index = int(np.flatnonzero(~proved)[0]) + 1
@@ -94,7 +94,7 @@ class CurveConstraint:
         for start, end in zip(edges[::2], edges[1::2], strict=True):
             is_cut = (start > 0 or curve.closed, end < len(q) - 1 or curve.closed)
             end_names = tuple(
-                self._name_end(margins[index], margins[outer_index % len(margins)]) if cut else ""
+                self._find_blocking_pair(margins[index], margins[outer_index % len(margins)]) if cut else ""
                 for cut, index, outer_index in ((is_cut[0], start, start - 1), (is_cut[1], end, end + 1))
             )
             bounds = tuple(None if cut else joint for cut, joint in zip(is_cut, curve.bounded_by, strict=True))
@@ -112,7 +112,7 @@ class CurveConstraint:
             )
         return parts
 
-    def _name_end(self, inside: FloatArray, outside: FloatArray) -> str:
+    def _find_blocking_pair(self, inside: FloatArray, outside: FloatArray) -> str:
         """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is
         known beyond.
         """

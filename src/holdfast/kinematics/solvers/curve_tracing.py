@@ -20,7 +20,7 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm, factor_householder
 from holdfast.kinematics.solvers import joint_space
-from holdfast.kinematics.solvers.inverse_kinematics import scaled_error, solver
+from holdfast.kinematics.solvers.inverse_kinematics import scaled_error_and_jacobian, solver
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
@@ -70,11 +70,13 @@ class Component:
 
         Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
         """
-        widths = np.array([_peak_value(values, self.closed) + _peak_value(-values, self.closed) for values in self.q.T])
+        widths = np.array(
+            [_interpolated_maximum(values, self.closed) + _interpolated_maximum(-values, self.closed) for values in self.q.T]
+        )
         return np.where(self.winding != 0, 2 * np.pi, widths)
 
 
-def _peak_value(x: FloatArray, closed: bool) -> float:
+def _interpolated_maximum(x: FloatArray, closed: bool) -> float:
     """Return the largest value of a smooth curve with points x (K,), by the parabola through the largest point and its
     neighbors.
     """
@@ -133,12 +135,12 @@ class ManifoldTracer:
         arm, task = self.engine.arm, self.task
         q = kinematics.joint_symbols(arm)
         position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        errors, jacobian = scaled_error(arm, task, q, position, rotation)
+        errors, jacobian = scaled_error_and_jacobian(arm, task, q, position, rotation)
         fixed_count = arm.n - task.m - self.dimension
         fixed_rows = [ca.SX.sym("held", fixed_count, arm.n)] if fixed_count else []
         errors, jacobian = ca.vertcat(errors, ca.SX.zeros(fixed_count, 1)), ca.vertcat(jacobian, *fixed_rows)
         is_moving = 1 - ca.sum1(fixed_rows[0]) if fixed_rows else ca.SX.ones(1, arm.n)
-        basis = factor_householder(jacobian).null_rows()
+        basis = factor_householder(jacobian).null_space_basis()
         null_vectors = [
             basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)
         ]  # not even by rounding
@@ -149,23 +151,23 @@ class ManifoldTracer:
         )
 
     def find_seeds(
-        self, poses: FloatArray, rows: NDArray[np.intp], seed: int, starts: int
+        self, poses: FloatArray, pose_indices: NDArray[np.intp], seed: int, starts: int
     ) -> tuple[NDArray[np.intp], FloatArray]:
         """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
         random_starts[..., list(self.fixed_joints)] = list(self.fixed_joints.values())
-        owner = np.repeat(rows, starts)
-        q, converged = self._attempt(random_starts[rows].reshape(-1, self.arm.n), poses[owner])
+        owner = np.repeat(pose_indices, starts)
+        q, converged = self._solve_from_starts(random_starts[pose_indices].reshape(-1, self.arm.n), poses[owner])
         return owner[converged], q[converged]
 
-    def _attempt(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
         limits.
         """
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
-    def correct(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
+    def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
         """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
         there.
         """
@@ -179,7 +181,7 @@ class ManifoldTracer:
             q = np.where(on_pose[:, None], q, outputs[:, :n])
         return q, on_pose & np.isfinite(outputs).all(axis=1), outputs[:, n + 1 :].reshape(-1, self.dimension, n)
 
-    def newton_step(self, q: FloatArray, p: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def newton_step_and_error(self, q: FloatArray, p: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return one least-norm step (N, n) from q (N, n) to positions p (N, 3) and rotations r (N, 3, 3), the error (N,) of q,
         in units of the arm's own, and the first null vector (N, n) at q.
         """
@@ -190,45 +192,56 @@ class ManifoldTracer:
     # ---- curves ----------------------------------------------------------------------------------------------------
 
     def trace_curves(
-        self, poses: FloatArray, owner: NDArray[np.intp], q: FloatArray, spacing: float, found: list[list[Component]]
+        self,
+        poses: FloatArray,
+        pose_of_seed: NDArray[np.intp],
+        q: FloatArray,
+        spacing: float,
+        curves_by_pose: list[list[Component]],
     ) -> list[list[Component]]:
-        """Add to the curves ``found`` of each pose every other curve through a seed q (S, n) of pose ``owner`` (S,)."""
-        pending = np.ones(owner.size, dtype=bool)
-        for pose_index in np.unique(owner):
-            for component in found[pose_index]:
-                self._drop_seeds(pending, component, pose_index, owner, q, spacing)
-        with ProgressCount("starts", owner.size) as advance:
+        """Add to the curves ``curves_by_pose`` of each pose every other curve through a seed q (S, n) of pose ``pose_of_seed``
+        (S,).
+        """
+        pending = np.ones(pose_of_seed.size, dtype=bool)
+        for pose_index in np.unique(pose_of_seed):
+            for component in curves_by_pose[pose_index]:
+                self._drop_seeds(pending, component, pose_index, pose_of_seed, q, spacing)
+        with ProgressCount("starts", pose_of_seed.size) as advance:
             while pending.any():
                 advance(int(np.count_nonzero(~pending)))
-                owner, q = owner[pending], q[pending]
-                pending = np.ones(owner.size, dtype=bool)
+                pose_of_seed, q = pose_of_seed[pending], q[pending]
+                pending = np.ones(pose_of_seed.size, dtype=bool)
                 # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
-                curves_per_pose = max(1, _SIMULTANEOUS_CURVES // np.unique(owner).size)
-                first = np.flatnonzero(_rank_within_owner(owner) < curves_per_pose)
-                for index, component in zip(first, self._trace_both_ways(q[first], poses[owner[first]], spacing), strict=True):
+                curves_per_pose = max(1, _SIMULTANEOUS_CURVES // np.unique(pose_of_seed).size)
+                first = np.flatnonzero(_count_earlier_equals(pose_of_seed) < curves_per_pose)
+                for index, component in zip(
+                    first, self._trace_both_ways(q[first], poses[pose_of_seed[first]], spacing), strict=True
+                ):
                     if component is not None and pending[index]:
-                        found[owner[index]].append(component)
-                        self._drop_seeds(pending, component, owner[index], owner, q, spacing)
+                        curves_by_pose[pose_of_seed[index]].append(component)
+                        self._drop_seeds(pending, component, pose_of_seed[index], pose_of_seed, q, spacing)
                     pending[index] = False
-        return found
+        return curves_by_pose
 
     def _drop_seeds(
         self,
         pending: NDArray[np.bool_],
         component: Component,
         pose: np.intp,
-        owner: NDArray[np.intp],
+        pose_of_seed: NDArray[np.intp],
         q: FloatArray,
         spacing: float,
     ) -> None:
         """Remove the pending seeds of a pose that lie on a component."""
-        own_seeds = np.flatnonzero((owner == pose) & pending)
+        own_seeds = np.flatnonzero((pose_of_seed == pose) & pending)
         if own_seeds.size:
             pending[own_seeds] = distance_to_curve(self.arm, component, q[own_seeds]) > _ON_CURVE_FRACTION * spacing
 
-    def propagate_curves(self, poses: FloatArray, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
+    def propagate_curves_between_poses(
+        self, poses: FloatArray, spacing: float, curves_by_pose: list[list[Component]]
+    ) -> list[list[Component]]:
         """Add the curves at which inverse kinematics converges from the middle of a curve of the previous or next pose."""
-        new_curves = [(pose_index, curve) for pose_index, curves in enumerate(found) for curve in curves]
+        new_curves = [(pose_index, curve) for pose_index, curves in enumerate(curves_by_pose) for curve in curves]
         while new_curves:
             starts = [
                 (pose_index + offset, curve.q[len(curve.q) // 2])
@@ -239,21 +252,23 @@ class ManifoldTracer:
             if not starts:
                 break
             owner = np.array([pose_index for pose_index, _ in starts])
-            q, converged = self._attempt(np.array([start for _, start in starts]), poses[owner])
-            known_counts = [len(curves) for curves in found]
-            self.trace_curves(poses, owner[converged], q[converged], spacing, found)
+            q, converged = self._solve_from_starts(np.array([start for _, start in starts]), poses[owner])
+            known_counts = [len(curves) for curves in curves_by_pose]
+            self.trace_curves(poses, owner[converged], q[converged], spacing, curves_by_pose)
             new_curves = [
-                (pose_index, curve) for pose_index, curves in enumerate(found) for curve in curves[known_counts[pose_index] :]
+                (pose_index, curve)
+                for pose_index, curves in enumerate(curves_by_pose)
+                for curve in curves[known_counts[pose_index] :]
             ]
-        return found
+        return curves_by_pose
 
     def _trace_both_ways(self, q: FloatArray, poses: FloatArray, spacing: float) -> list[Component | None]:
-        q, sound, null_vectors = self.correct(q, poses)
+        q, sound, null_vectors = self.project_onto_poses(q, poses)
         tangent = null_vectors[:, 0]
         rows = np.flatnonzero(sound)
-        ahead = self._trace(q[rows], tangent[rows], poses[rows], spacing)
+        ahead = self._trace_one_direction(q[rows], tangent[rows], poses[rows], spacing)
         open_curves = np.flatnonzero(~ahead.closed)
-        behind = self._trace(q[rows[open_curves]], -tangent[rows[open_curves]], poses[rows[open_curves]], spacing)
+        behind = self._trace_one_direction(q[rows[open_curves]], -tangent[rows[open_curves]], poses[rows[open_curves]], spacing)
         backward_index = {int(forward): backward for backward, forward in enumerate(open_curves)}
         components: list[Component | None] = [None] * len(q)
         end_joints = [*range(self.arm.n), None]  # by the joint of a limit; -1: none
@@ -269,8 +284,8 @@ class ManifoldTracer:
             components[row] = Component(q=points, closed=closed, bounded_by=bounds, length=float(length))
         return components
 
-    def _trace(self, q: FloatArray, tangent: FloatArray, poses: FloatArray, spacing: float) -> _CurveRun:
-        """Follow the curve of each row in one direction. Every pass tries one step of every active row."""
+    def _trace_one_direction(self, q: FloatArray, tangent: FloatArray, poses: FloatArray, spacing: float) -> _CurveRun:
+        """Follow the curve through each start q (N, n) in the direction of its tangent (N, n)."""
         run = _CurveRun(q.copy(), tangent.copy(), [], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
         taken_rows, taken_points = [np.arange(len(q))], [q]
         step = np.full(len(q), spacing)
@@ -278,7 +293,7 @@ class ManifoldTracer:
         active = np.arange(len(q))
         while active.size:
             current, direction = run.q[active], run.tangent[active]
-            predicted, on_pose, null_vectors = self.correct(current + step[active, None] * direction, poses[active])
+            predicted, on_pose, null_vectors = self.project_onto_poses(current + step[active, None] * direction, poses[active])
             next_tangent = (
                 null_vectors[:, 0] * np.where(np.einsum("ij,ij->i", null_vectors[:, 0], direction) < 0, -1.0, 1.0)[:, None]
             )
@@ -340,7 +355,7 @@ class ManifoldTracer:
 
     def sample_manifold(self, pose: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
         """Sample points (N, n) of a manifold of dimension 2 or more, from seeds q (S, n), by a growing front of neighbors."""
-        points = front = self._thin_points(np.empty((0, self.arm.n)), q, spacing)
+        points = front = self._select_spaced_points(np.empty((0, self.arm.n)), q, spacing)
         angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
         planes = [(first, second) for first in range(self.dimension) for second in range(first + 1, self.dimension)]
         directions = np.zeros((len(planes) * angles.size, self.dimension))
@@ -349,17 +364,17 @@ class ManifoldTracer:
                 [np.cos(angles), np.sin(angles)], axis=1
             )
         while len(front) and len(points) < _MAX_POINTS:
-            _, _, null_vectors = self.correct(front, np.broadcast_to(pose, (len(front), 4, 4)))
+            _, _, null_vectors = self.project_onto_poses(front, np.broadcast_to(pose, (len(front), 4, 4)))
             predicted = front[:, None] + spacing * np.einsum("df,nfj->ndj", directions, null_vectors)
             predicted = predicted.reshape(-1, self.arm.n)
-            corrected, on_pose, _ = self.correct(predicted, np.broadcast_to(pose, (len(predicted), 4, 4)))
+            corrected, on_pose, _ = self.project_onto_poses(predicted, np.broadcast_to(pose, (len(predicted), 4, 4)))
             inside = ((corrected >= self.arm.lower) & (corrected <= self.arm.upper)).all(axis=1)
             is_near = np.linalg.norm(corrected - predicted, axis=1) <= spacing
-            front = self._thin_points(points, corrected[on_pose & inside & is_near], 0.9 * spacing)
+            front = self._select_spaced_points(points, corrected[on_pose & inside & is_near], 0.9 * spacing)
             points = np.concatenate([points, front])
         return points[:_MAX_POINTS]
 
-    def _thin_points(self, points: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
+    def _select_spaced_points(self, points: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
         """Return those of q (N, n), in order, that are ``spacing`` away from the points and from the points returned before."""
         if len(points) and len(q):
             q = q[joint_space.find_nearest(self.arm, points, q)[0] >= spacing]
@@ -398,8 +413,8 @@ def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
     return segments
 
 
-def _rank_within_owner(owner: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (S,) how many entries before each one have the same owner."""
+def _count_earlier_equals(owner: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return (S,) the number of earlier entries that are equal to each entry."""
     order = np.argsort(owner, kind="stable")
     first = np.searchsorted(owner[order], owner[order])
     rank = np.empty(owner.size, dtype=np.intp)

@@ -20,7 +20,7 @@ def minimise_constrained(
     x: FloatArray,
     low: FloatArray,
     high: FloatArray,
-    equal: int,
+    equality_count: int,
 ) -> FloatArray:
     """Descend from x (n,) to a local minimum of a cost where its constraints hold; return the last point if that fails.
 
@@ -32,14 +32,14 @@ def minimise_constrained(
         x: The start.
         low: (n,) lower limits of x.
         high: (n,) upper limits.
-        equal: So many of the constraints, the first, must be 0; the others at least 0.
+        equality_count: So many of the constraints, the first, must be 0; the others at least 0.
 
     Source: Nocedal and Wright 2006, algorithm 18.3 and procedure 18.2.
     """
     n = len(x)
     cost, gradient, constraints, jacobian = evaluate(x)
     program = ca.conic("step", "qrqp", {"h": ca.Sparsity.dense(n, n), "a": ca.Sparsity.dense(*jacobian.shape)}, _QUIET_OPTIONS)
-    curvature, is_equality, penalties = np.eye(n), np.arange(len(constraints)) < equal, np.zeros(len(constraints))
+    curvature, is_equality, penalties = np.eye(n), np.arange(len(constraints)) < equality_count, np.zeros(len(constraints))
 
     def solve_subproblem(values: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         """Return the step to where the constraints, linearised with these values, hold, and its multipliers; None if none."""

@@ -132,7 +132,7 @@ def best_path_over(
     smallest = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, best, strict=True)])
     finite_values = np.concatenate(values)[np.isfinite(np.concatenate(values))]
     weight = motion * float(np.median(finite_values) - finite_values.min()) if finite_values.size else 0.0
-    chosen, gaps = _choose_points(values, steps, weight, cost)
+    chosen, gaps = _choose_points_and_gaps(values, steps, weight, cost)
     no_configuration = np.full(arm.n, np.nan)
     q = np.array(
         [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, chosen, strict=True)]
@@ -186,7 +186,7 @@ class _Transitions:
             self.source, self.target, self.size = self.source[allowed], self.target[allowed], self.size[allowed]
 
 
-def _choose_points(
+def _choose_points_and_gaps(
     values: list[FloatArray], steps: list[_Transitions], weight: float, cost: str
 ) -> tuple[list[int], list[int]]:
     """Choose a point at each pose (-1: none exists), and return the gaps too."""
@@ -222,7 +222,10 @@ def _last_reached(values: list[FloatArray], steps: list[_Transitions], start: in
 
 
 def _cheapest_path(
-    values: list[FloatArray], steps: list[_Transitions], join: Callable[[FloatArray, FloatArray], FloatArray], weight: float
+    values: list[FloatArray],
+    steps: list[_Transitions],
+    combine_values: Callable[[FloatArray, FloatArray], FloatArray],
+    weight: float,
 ) -> tuple[float, list[int]]:
     """Return the smallest joined value of the paths from the first pose to the last, and the points of one such path."""
     total = values[0]
@@ -234,7 +237,7 @@ def _cheapest_path(
         previous = np.full(value.size, -1)
         previous[target] = step.source[order[first]]
         total = np.full(value.size, np.inf)
-        total[target] = join(costs[order[first]], value[target])
+        total[target] = combine_values(costs[order[first]], value[target])
         predecessors.append(previous)
     last_point = int(np.argmin(total))
     points = [last_point]

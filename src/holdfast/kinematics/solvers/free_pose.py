@@ -39,7 +39,7 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
     """
     engine = ascent.engine
     q = engine.sample_starts(_SAMPLES_PER_START * starts, np.random.default_rng(seed))
-    values = ascent.oriented_values(q)
+    values = ascent.values_to_maximise(q)
     values = np.where(np.isfinite(values), values, -np.inf)
     ranking = np.argsort(-values, kind="stable")[: _CHECKED_PER_START * starts]
     if ascent.clearance is not None:
@@ -83,7 +83,7 @@ def _ascend_starts(ascent: Ascent, q: FloatArray, retained: int) -> tuple[FloatA
     has_clearance = ascent.clearance is not None
 
     def evaluate_worth(q: FloatArray) -> FloatArray:
-        value = ascent.oriented_values(q)
+        value = ascent.values_to_maximise(q)
         return np.where(np.isfinite(value) & (ascent.is_collision_free(q) if has_clearance else True), value, -np.inf)
 
     dummy_poses = np.broadcast_to(np.eye(4), (len(q), 4, 4))

@@ -24,7 +24,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kinematics.solvers import joint_space
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task
@@ -84,7 +84,7 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
     the axis of which the largest component is positive.
     """
     error_rotation = target_rotation @ rotation.T
-    skew_vector = _skew_part(error_rotation)
+    skew_vector = _axis_times_sine(error_rotation)
     sine, cosine = (
         ca.sqrt(ca.sumsqr(skew_vector)),
         0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1),
@@ -123,52 +123,56 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], rotation_axis * factor))
 
 
-def _skew_part(r: SX) -> SX:
+def _axis_times_sine(r: SX) -> SX:
     """Return the axis times the sine of the angle of a rotation."""
     return 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])
 
 
-def tool_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+def pose_error_for_task(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
     """Return the world-frame error (6,) of the end effector, of which a task takes its rows: the shortest rotation for the
     task.
     """
-    return (pointing_error if _has_free_spin(task) else pose_error)(position, rotation, target, target_rotation)
+    return (pointing_error if _has_free_tool_rotation(task) else pose_error)(position, rotation, target, target_rotation)
 
 
-def _has_free_spin(task: Task) -> bool:
+def _has_free_tool_rotation(task: Task) -> bool:
     return task.frame == "tool" and not np.any(task.rows[:, 5])
 
 
-def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """Return the error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
+def task_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
+    """Return the error (m,) of the task's components, in metres and radians, and its Jacobian (m, n).
 
     Whatever the characteristic length of the indices, errors of poses are in metres.
     """
     chain = kinematics.kinematic_chain(arm, q)
-    error = tool_error(task, chain.position, chain.rotation, target, target_rotation)
+    error = pose_error_for_task(task, chain.position, chain.rotation, target, target_rotation)
     full_jacobian = kinematics.chain_jacobian(arm, chain, chain.position)
     jacobian = ca.horzcat(*[task.error(full_jacobian[:, column], chain.rotation) for column in range(arm.n)])
     return task.error(error, chain.rotation), jacobian
 
 
-def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """Return :func:`task_error` with lengths in units of :attr:`holdfast.Arm.length_unit`, for comparison with a tolerance."""
-    error, jacobian = task_error(arm, task, q, target, target_rotation)
+def scaled_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
+    """Return :func:`task_error_and_jacobian` with lengths in units of :attr:`holdfast.Arm.length_unit`, for comparison with a
+    tolerance.
+    """
+    error, jacobian = task_error_and_jacobian(arm, task, q, target, target_rotation)
     scale = ca.sparsify(ca.SX(ca.DM(task.scale(arm.length_unit))))
     return scale @ error, scale @ jacobian
 
 
-def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the error of :func:`task_error` with sines in place of angles: the same near 0, but differentiable."""
+def sine_task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
+    """Return the error of :func:`task_error_and_jacobian` with sines in place of angles: the same near 0, but
+    differentiable.
+    """
     chain = kinematics.kinematic_chain(arm, q)
-    if _has_free_spin(task):
+    if _has_free_tool_rotation(task):
         rotation_vector = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
     else:
-        rotation_vector = _skew_part(target_rotation @ chain.rotation.T)
+        rotation_vector = _axis_times_sine(target_rotation @ chain.rotation.T)
     return task.error(ca.vertcat(target - chain.position, rotation_vector), chain.rotation)
 
 
-def _pose_parameters(poses: FloatArray) -> FloatArray:
+def _flatten_poses(poses: FloatArray) -> FloatArray:
     return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
 
 
@@ -189,19 +193,19 @@ class InverseKinematics:
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
         self._unit = arm.length_unit
-        self._low, self._high = finite_limits(arm)
+        self._low, self._high = sampling_limits(arm)
 
     @cached_property
     def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
         q = kinematics.joint_symbols(self.arm)
         position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        return q, position, rotation, *scaled_error(self.arm, self.task, q, position, rotation)
+        return q, position, rotation, *scaled_error_and_jacobian(self.arm, self.task, q, position, rotation)
 
     @cached_property
     @cached_kernel
-    def _loop(self) -> Loop:
+    def _damped_step_loop(self) -> Loop:
         q, position, rotation, error, jacobian = self._symbols
-        step, residual = damped_step(self.arm, q, error, jacobian)
+        step, residual = damped_step_and_residual(self.arm, q, error, jacobian)
         return Loop("inverse kinematics", q, [position, rotation], next_state=step, residual=residual)
 
     @cached_property
@@ -209,7 +213,7 @@ class InverseKinematics:
     def _error_kernel(self) -> Kernel:
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
         q, position, rotation, _, _ = self._symbols
-        world_error = ca.SX(ca.DM(self.task.rows)).T @ task_error(self.arm, self.task, q, position, rotation)[0]
+        world_error = ca.SX(ca.DM(self.task.rows)).T @ task_error_and_jacobian(self.arm, self.task, q, position, rotation)[0]
         return Kernel(
             "task error", [q, position, rotation], [ca.vertcat(ca.norm_2(world_error[:3]), ca.norm_2(world_error[3:]))]
         )
@@ -229,7 +233,7 @@ class InverseKinematics:
 
         Joints that are ``fixed_joints``, by index from 0, stay where they are.
         """
-        parameters, loop = _pose_parameters(poses), self._loop_with_locks if fixed_joints else self._loop
+        parameters, loop = _flatten_poses(poses), self._locked_damped_step_loop if fixed_joints else self._damped_step_loop
         if fixed_joints:
             is_free = np.ones((len(q), self.arm.n))
             is_free[:, fixed_joints] = 0.0
@@ -239,11 +243,11 @@ class InverseKinematics:
 
     @cached_property
     @cached_kernel
-    def _loop_with_locks(self) -> Loop:
+    def _locked_damped_step_loop(self) -> Loop:
         q, position, rotation, error, jacobian = self._symbols
         free = ca.SX.sym("free", self.arm.n)
         masked = ca.horzcat(*[jacobian[:, k] * free[k] for k in range(self.arm.n)])
-        step, residual = damped_step(self.arm, q, error, masked)
+        step, residual = damped_step_and_residual(self.arm, q, error, masked)
         return Loop("inverse kinematics with locked joints", q, [position, rotation, free], next_state=step, residual=residual)
 
     def solve_locked(
@@ -264,19 +268,26 @@ class InverseKinematics:
         rows = np.arange(len(poses))[:, None]
         is_free = np.ones((len(poses), self.arm.n))
         is_free[rows, locked] = 0.0
-        parameters = np.concatenate([_pose_parameters(poses), is_free], axis=1)
+        parameters = np.concatenate([_flatten_poses(poses), is_free], axis=1)
         finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
 
         def lock_joints(start: FloatArray, chosen: NDArray[np.int64]) -> FloatArray:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
-        solutions = self._search_starts(
-            self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock_joints, accept=accept
+        solutions = self._solve_with_restarts(
+            self._locked_damped_step_loop,
+            parameters,
+            np.flatnonzero(finite),
+            seed,
+            restarts,
+            tolerance,
+            lock_joints,
+            accept=accept,
         )
         is_valid = (solutions.q[rows, locked] == angles).all(axis=1)
         is_valid &= True if accept is None else accept(solutions.q)
-        position_error, rotation_error = self.task_errors(solutions.q, poses)
+        position_error, rotation_error = self.position_and_rotation_errors(solutions.q, poses)
         reached = self._is_reached(solutions.q, position_error, rotation_error, tolerance) & is_valid
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
@@ -288,7 +299,7 @@ class InverseKinematics:
             restarts=solutions.restarts,
         )
 
-    def reaches_locked(
+    def is_reachable_with_lock(
         self,
         poses: FloatArray,
         locked: NDArray[np.int64],
@@ -305,14 +316,14 @@ class InverseKinematics:
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
     def solve_near(
-        self, q: FloatArray, pose: FloatArray, free: FloatArray, tolerance: float, steps: int = MAX_STEPS
+        self, q: FloatArray, pose: FloatArray, is_movable: FloatArray, tolerance: float, steps: int = MAX_STEPS
     ) -> tuple[FloatArray, bool]:
         """Solve from q (n,) towards one pose (4, 4), without restarts, for an end effector that is dragged.
 
         Args:
             q: (n,) where the arm is, rad and m.
             pose: (4, 4) in the world.
-            free: (n,) 1 for joints that may move, 0 for locked ones.
+            is_movable: (n,) 1 for joints that may move, 0 for locked ones.
             tolerance: rad, and lengths in units of the arm's own.
             steps: At most so many.
 
@@ -321,15 +332,15 @@ class InverseKinematics:
             and within the limits.
         """
         poses = pose[None]
-        run = self._loop_with_locks.run(
-            q[None], np.concatenate([_pose_parameters(poses), free[None]], axis=1), tolerance**2, steps
+        run = self._locked_damped_step_loop.run(
+            q[None], np.concatenate([_flatten_poses(poses), is_movable[None]], axis=1), tolerance**2, steps
         )
         candidates = np.concatenate([run.state, q[None]])
-        distances = np.hypot(*self.task_errors(candidates, np.repeat(poses, 2, axis=0)))
+        distances = np.hypot(*self.position_and_rotation_errors(candidates, np.repeat(poses, 2, axis=0)))
         best = candidates[0] if distances[0] < distances[1] else candidates[1]
         return best, bool(self.check_solutions(best[None], poses, tolerance)[0])
 
-    def _search_starts(
+    def _solve_with_restarts(
         self,
         loop: Loop,
         parameters: FloatArray,
@@ -394,7 +405,7 @@ class InverseKinematics:
 
     def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> NDArray[np.bool_]:
         """Return (N,) True where q is on the pose and within the limits."""
-        return self._is_reached(q, *self.task_errors(q, poses), tolerance)
+        return self._is_reached(q, *self.position_and_rotation_errors(q, poses), tolerance)
 
     def _is_reached(
         self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float
@@ -402,7 +413,7 @@ class InverseKinematics:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
-    def task_errors(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def position_and_rotation_errors(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is NaN."""
         errors = self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
         return errors[:, 0], errors[:, 1]
@@ -428,16 +439,16 @@ class InverseKinematics:
             accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
             steps: At most so many from each start.
         """
-        parameters = _pose_parameters(poses)
+        parameters = _flatten_poses(poses)
         finite = np.isfinite(parameters).all(axis=1)
         rows = np.flatnonzero(finite)
-        solutions = self._search_starts(
-            self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
+        solutions = self._solve_with_restarts(
+            self._damped_step_loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
         )
         q, start_counts = solutions.q, solutions.restarts
         q = joint_space.wrap_joints(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
-        position_error, rotation_error = self.task_errors(q, poses)
+        position_error, rotation_error = self.position_and_rotation_errors(q, poses)
         reached = self._is_reached(q, position_error, rotation_error, tolerance)
         reached &= True if accept is None else accept(q)
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
@@ -446,9 +457,11 @@ class InverseKinematics:
             q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=start_counts
         )
 
-    def prefer_configurations(self, reach: PoseSolutions, q: FloatArray, poses: FloatArray, tolerance: float) -> PoseSolutions:
+    def prefer_given_configurations(
+        self, reach: PoseSolutions, q: FloatArray, poses: FloatArray, tolerance: float
+    ) -> PoseSolutions:
         """Replace the configurations of a result by those of q (N, n) that meet their poses (N, 4, 4) within the limits."""
-        position_error, rotation_error = self.task_errors(q, poses)
+        position_error, rotation_error = self.position_and_rotation_errors(q, poses)
         is_reached = self._is_reached(q, position_error, rotation_error, tolerance)
         return PoseSolutions(
             q=np.where(is_reached[:, None], q, reach.q),
@@ -459,7 +472,7 @@ class InverseKinematics:
         )
 
 
-def damped_step(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
+def damped_step_and_residual(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
     """Return the next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.
 
     Within the limits of the arm, or within ``limits``, two symbols (n,).
@@ -489,7 +502,7 @@ def _finite_bounds(arm: Arm) -> list[tuple[Any, Any]]:
     """Return the limits of each joint, None where there is none."""
     ends = zip(arm.lower, arm.upper, strict=True)
     return [
-        (lower if kinematics.is_limited(lower) else None, upper if kinematics.is_limited(upper) else None)
+        (lower if kinematics.is_limit_given(lower) else None, upper if kinematics.is_limit_given(upper) else None)
         for lower, upper in ends
     ]
 

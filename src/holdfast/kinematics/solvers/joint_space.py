@@ -32,18 +32,18 @@ def build_tree(arm: Arm, q: FloatArray) -> KDTree:
     """Build a k-d tree for neighbors of configurations (N, n) in that distance."""
     from scipy.spatial import KDTree
 
-    return KDTree(fold_joints(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
+    return KDTree(wrap_joints_to_positive(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
 
 
 def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
     that point.
     """
-    if _are_few(q, points):
+    if _is_brute_force_faster(q, points):
         distances = _pairwise_distances(arm, q, points)
         index = distances.argmin(axis=1)
         return distances[np.arange(len(q)), index], index
-    distance, index = build_tree(arm, points).query(fold_joints(arm, q))
+    distance, index = build_tree(arm, points).query(wrap_joints_to_positive(arm, q))
     return np.asarray(distance), np.asarray(index)
 
 
@@ -51,13 +51,13 @@ def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> NDArray[np
     """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
     m, in order.
     """
-    if _are_few(q, q):
+    if _is_brute_force_faster(q, q):
         return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
     close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
     return np.asarray(close_pairs[np.lexsort(close_pairs.T[::-1])])
 
 
-def _are_few(a: FloatArray, b: FloatArray) -> bool:
+def _is_brute_force_faster(a: FloatArray, b: FloatArray) -> bool:
     """Return True if computing all distances takes less time than importing SciPy's trees; the bits are the same."""
     return 0 < len(a) * len(b) <= _MAX_PAIRWISE_DISTANCES
 
@@ -65,7 +65,9 @@ def _are_few(a: FloatArray, b: FloatArray) -> bool:
 def _pairwise_distances(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the distances (N, P) of configurations a (N, n) from b (P, n)."""
     squares = np.zeros((len(a), len(b)))
-    for first, second, periodic in zip(fold_joints(arm, a).T, fold_joints(arm, b).T, is_unlimited(arm), strict=True):
+    for first, second, periodic in zip(
+        wrap_joints_to_positive(arm, a).T, wrap_joints_to_positive(arm, b).T, is_unlimited(arm), strict=True
+    ):
         distance = np.abs(first[:, None] - second)
         squares += (np.where(distance > np.pi, np.abs(distance - 2 * np.pi), distance) if periodic else distance) ** 2
     return np.sqrt(squares)
@@ -76,7 +78,7 @@ def wrap_joints(arm: Arm, q: FloatArray) -> FloatArray:
     return np.where(is_unlimited(arm), np.arctan2(np.sin(q), np.cos(q)), q)
 
 
-def unwind_joints(arm: Arm, q: FloatArray) -> FloatArray:
+def wrap_around_limit_center(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
     limits.
     """
@@ -86,7 +88,7 @@ def unwind_joints(arm: Arm, q: FloatArray) -> FloatArray:
     return q - 2 * np.pi * np.where(arm.prismatic | ~np.isfinite(middle), 0.0, revolutions)
 
 
-def fold_joints(arm: Arm, q: FloatArray) -> FloatArray:
+def wrap_joints_to_positive(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
     remainder = q % (2 * np.pi)
     return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)

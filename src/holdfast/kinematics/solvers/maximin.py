@@ -32,7 +32,7 @@ def maximin_step(
         high: Upper limits.
         radius: Largest entry of z.
     """
-    weights, values, gradients, part_of = _scale_parts(parts)
+    weights, values, gradients, part_of = _flatten_scaled_parts(parts)
     r, p = len(gradients[0]), len(weights)
     unit_vectors = [[ca.SX(float(i == k)) for i in range(r)] for k in range(r)]
     two_sided = [*zip(rows, low, high, strict=True), *[(e, -radius, radius) for e in unit_vectors]]
@@ -103,7 +103,7 @@ def maximin_step(
     return z
 
 
-def _scale_parts(parts: Sequence[ObjectivePart]) -> tuple[list[SX], list[SX], list[Vector], list[int]]:
+def _flatten_scaled_parts(parts: Sequence[ObjectivePart]) -> tuple[list[SX], list[SX], list[Vector], list[int]]:
     """Return weights that sum to 1, functions, gradients, and the part that each function belongs to.
 
     The iteration starts from slacks of the size of the radius, so each part is divided by the size of its slopes, which

@@ -22,8 +22,8 @@ from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.solvers.free_pose import FREE_STARTS, optimise_without_pose
-from holdfast.kinematics.solvers.joint_space import unwind_joints
-from holdfast.kinematics.solvers.optimum import Optimum, default_starts, objective_ascent
+from holdfast.kinematics.solvers.joint_space import wrap_around_limit_center
+from holdfast.kinematics.solvers.optimum import Optimum, default_starts, get_cached_ascent
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task
@@ -291,7 +291,9 @@ def optimise(
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), resolved_clearance, margin, without_pose)
+    ascent = get_cached_ascent(
+        objective, None if task is None else as_task(arm, task), resolved_clearance, margin, without_pose
+    )
     scaled_tolerance = ascent.engine.scale_tolerance(tolerance)
     start_count = (FREE_STARTS if without_pose else default_starts(arm, ascent.task)) if starts is None else starts
     blocks = [slice(begin, begin + _BLOCK_POSES) for begin in range(0, len(targets), _BLOCK_POSES)] or [slice(0, 0)]
@@ -303,7 +305,7 @@ def optimise(
             return optimise_without_pose(ascent, ik_seed, start_count)
         solutions = ascent.engine.solve(block_poses, ik_seed, restarts, scaled_tolerance)
         if initial_q is not None:
-            solutions = ascent.engine.prefer_configurations(
+            solutions = ascent.engine.prefer_given_configurations(
                 solutions, np.atleast_2d(initial_q)[blocks[number]], block_poses, scaled_tolerance
             )
         optimum = ascent.solve(block_poses, solutions, start_seed, start_count, scaled_tolerance)
@@ -317,7 +319,7 @@ def optimise(
             parts = list(shared_pool().map(optimise_block, range(len(blocks))))
     single = np.ndim(requested) == 2
     arrays = {field.name: np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Optimum)}
-    arrays["q"] = unwind_joints(arm, arrays["q"])
+    arrays["q"] = wrap_around_limit_center(arm, arrays["q"])
     return Optima(
         **{name: value[0] if single else value for name, value in arrays.items()},
         objective=objective,

@@ -25,7 +25,13 @@ from holdfast.kernels.linalg import damped_least_norm, dot_product, factor_house
 from holdfast.kernels.program import SX
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.solvers import joint_space
-from holdfast.kinematics.solvers.inverse_kinematics import InverseKinematics, PoseSolutions, clip_to_limits, solver, task_error
+from holdfast.kinematics.solvers.inverse_kinematics import (
+    InverseKinematics,
+    PoseSolutions,
+    clip_to_limits,
+    solver,
+    task_error_and_jacobian,
+)
 from holdfast.kinematics.solvers.maximin import maximin_step
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
@@ -116,19 +122,19 @@ def ascent_step(
     last_move = ca.SX.sym("last", arm.n)
     jacobian = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
     factorization = factor_householder(jacobian)
-    rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else factorization.null_rows()
+    rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else factorization.null_space_basis()
     directions = [ca.vertcat(*column) for column in zip(*rows, strict=True)]
     parts = objective.parts(q, jacobian, factorization, directions)
     # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
-    error, error_jacobian = task_error(arm, task, q, position, rotation)
+    error, error_jacobian = task_error_and_jacobian(arm, task, q, position, rotation)
     correction = ca.SX.zeros(arm.n) if free else damped_least_norm(error_jacobian, error, 1e-12)
     no_limit = 1e3  # stands for no limit: far beyond any trust region
     constraint_rows: list[list[SX]] = []
     constraint_bounds: list[tuple[SX, SX]] = []
     for joint, (lower, upper) in enumerate(zip(arm.lower, arm.upper, strict=True)):
-        if kinematics.is_limited(lower) or kinematics.is_limited(upper):
-            lower_room = lower - q[joint] - correction[joint] if kinematics.is_limited(lower) else ca.SX(-no_limit)
-            upper_room = upper - q[joint] - correction[joint] if kinematics.is_limited(upper) else ca.SX(no_limit)
+        if kinematics.is_limit_given(lower) or kinematics.is_limit_given(upper):
+            lower_room = lower - q[joint] - correction[joint] if kinematics.is_limit_given(lower) else ca.SX(-no_limit)
+            upper_room = upper - q[joint] - correction[joint] if kinematics.is_limit_given(upper) else ca.SX(no_limit)
             constraint_rows.append(rows[joint])
             constraint_bounds.append((lower_room, upper_room))
     outside = [ca.SX.sym("gap"), ca.SX.sym("slope", arm.n)] if around else []
@@ -159,7 +165,7 @@ def ascent_step(
 
 
 @cached_kernel
-def step_kernel(
+def compile_ascent_step(
     objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool, free: bool
 ) -> Kernel:
     """Compile :func:`ascent_step`; the measure of an objective is the last input."""
@@ -188,14 +194,14 @@ class Ascent:
     def _step(self) -> Kernel | None:
         if self.arm.n <= self.task.m and not self.free:
             return None
-        return step_kernel(self.objective, self.task, None, 0.0, False, self.free)
+        return compile_ascent_step(self.objective, self.task, None, 0.0, False, self.free)
 
     @cached_property
     def _collision_free_step(self) -> Kernel:
         """Kernel of the step that also keeps the arm collision-free, compiled at first use and reused for a changed cell."""
         assert self.clearance is not None
         around = self.clearance.obstacles is not None
-        return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
+        return compile_ascent_step(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
 
     def ascend(
         self, collision_free: bool, q: FloatArray, poses: FloatArray, steps: int, radius: FloatArray | None = None
@@ -213,7 +219,7 @@ class Ascent:
             previous = state
             extra_inputs = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
             if obstacles is not None:
-                margin, _, gradient = obstacles.find_nearest(state[:, :n])
+                margin, _, gradient = obstacles.nearest_margin_and_gradient(state[:, :n])
                 extra_inputs = [margin, gradient, *extra_inputs]
             state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], positions, rotations, *extra_inputs)
             # A step that divided by zero (a singular configuration) is not taken.
@@ -221,7 +227,7 @@ class Ascent:
             state[is_invalid] = previous[is_invalid]
         return state[:, :n], state[:, n]
 
-    def oriented_values(self, q: FloatArray) -> FloatArray:
+    def values_to_maximise(self, q: FloatArray) -> FloatArray:
         """Return the objective with its sign set so that larger is better."""
         value = self.objective(q)
         return value if self.objective.better == "larger" else -value
@@ -234,8 +240,8 @@ class Ascent:
         The value is -inf where the end is not on its pose or, if asked, not clear.
         """
         q, radius = self.ascend(collision_free, q, poses[owner], FIRST_STEPS)
-        value = self.oriented_values(q)
-        retained = best_per_owner(
+        value = self.values_to_maximise(q)
+        retained = largest_per_group(
             owner, np.where(self.is_collision_free(q), value, -np.inf) if collision_free else value, _RETAINED_STARTS
         )
         owner, q, radius = owner[retained], q[retained], radius[retained]
@@ -246,14 +252,16 @@ class Ascent:
         is_valid = self.engine.check_solutions(q, poses[owner], tolerance)
         if collision_free:
             is_valid &= self.is_collision_free(q)
-        return owner, q, np.where(is_valid, self.oriented_values(q), -np.inf)
+        return owner, q, np.where(is_valid, self.values_to_maximise(q), -np.inf)
 
     def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return (N,) True where q (N, n) respects the margin."""
         assert self.clearance is not None
         return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
-    def _most_often_nearest(self, owner: NDArray[np.int64], q: FloatArray, poses: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _most_frequent_nearest_pair(
+        self, owner: NDArray[np.int64], q: FloatArray, poses: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
         """Return for each of some poses (H,) the pair that has the smallest margin at most of its configurations among q (K,
         n).
         """
@@ -292,34 +300,34 @@ class Ascent:
         return np.concatenate(owners), np.concatenate(starts_found)
 
     def solve(
-        self, poses: FloatArray, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
+        self, poses: FloatArray, ik_solutions: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
     ) -> Optimum:
         """Find the best of several starts for (N, 4, 4) poses.
 
         Args:
             poses: The poses.
-            first: What inverse kinematics found for them: the first start, and what the result never falls below.
+            ik_solutions: What inverse kinematics found for them: the first start, and what the result never falls below.
             seed: Of the other starts.
             starts: In all, the first included.
             tolerance: Largest pose error, rad, and lengths in units of the arm's own.
         """
         count = len(poses)
         engine, sign = self.engine, 1.0 if self.objective.better == "larger" else -1.0
-        reached = np.flatnonzero(first.success)
-        best_q = np.where(first.success[:, None], first.q, np.nan)
+        reached = np.flatnonzero(ik_solutions.success)
+        best_q = np.where(ik_solutions.success[:, None], ik_solutions.q, np.nan)
         best_value, agreeing = np.full(count, np.nan), np.full(count, np.nan)
         start_counts, blocked = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
         blocked_by = np.full(count, -1, dtype=np.int64)
-        status = first.status.copy()
+        status = ik_solutions.status.copy()
         if reached.size:
-            best_value[reached] = self.oriented_values(first.q[reached])
+            best_value[reached] = self.values_to_maximise(ik_solutions.q[reached])
         start_value = sign * best_value
         if reached.size:
-            owner, q = self._sample_starts(poses, first, seed, starts, tolerance)
+            owner, q = self._sample_starts(poses, ik_solutions, seed, starts, tolerance)
             start_counts = np.bincount(owner, minlength=count)
 
             def choose_best(owner: NDArray[np.int64], q: FloatArray, value: FloatArray, chosen: NDArray[np.int64]) -> None:
-                best_index = best_per_owner(owner, value, 1)
+                best_index = largest_per_group(owner, value, 1)
                 # A formula of the user's own may have no value at the first configuration: any other is better.
                 best_index = best_index[(value[best_index] > -np.inf) & ~(value[best_index] <= best_value[owner[best_index]])]
                 best_q[owner[best_index]], best_value[owner[best_index]] = q[best_index], value[best_index]
@@ -345,7 +353,9 @@ class Ascent:
                     is_candidate = blocked[owner]
                     is_candidate[is_candidate] = self.is_collision_free(q[is_candidate])
                     if is_candidate.any():
-                        choose_best(owner[is_candidate], q[is_candidate], self.oriented_values(q[is_candidate]), blocked_poses)
+                        choose_best(
+                            owner[is_candidate], q[is_candidate], self.values_to_maximise(q[is_candidate]), blocked_poses
+                        )
                         choose_best(
                             *self._refine_starts(owner[is_candidate], q[is_candidate], poses, tolerance, collision_free=True),
                             blocked_poses,
@@ -353,17 +363,17 @@ class Ascent:
                     hopeless = blocked_poses[best_value[blocked_poses] == -np.inf]
                     status[hopeless] = Status.INFEASIBLE
                     best_value[best_value == -np.inf] = np.nan
-                    blocked_by[hopeless] = self._most_often_nearest(owner, q, hopeless)
+                    blocked_by[hopeless] = self._most_frequent_nearest_pair(owner, q, hopeless)
             feasible = reached[status[reached] != Status.INFEASIBLE]
             statuses = self.objective.row_statuses(best_q[feasible])
             for code in (Status.SINGULAR, Status.UNDEFINED):
                 status[feasible[statuses == code]] = code
-        position_error, rotation_error = engine.task_errors(best_q, poses)
+        position_error, rotation_error = engine.position_and_rotation_errors(best_q, poses)
         return Optimum(
             q=best_q,
             value=sign * best_value,
             start_value=start_value,
-            start_q=first.q,
+            start_q=ik_solutions.q,
             status=status,
             position_error=position_error,
             rotation_error=rotation_error,
@@ -383,8 +393,8 @@ def default_starts(arm: Arm, task: Task) -> int:
     return 128 if arm.n - task.m <= 1 else 32
 
 
-def best_per_owner(owner: NDArray[np.int64], value: FloatArray, count: int) -> NDArray[np.int64]:
-    """Return the positions of the ``count`` largest values of each owner, ordered by owner, then value."""
+def largest_per_group(owner: NDArray[np.int64], value: FloatArray, count: int) -> NDArray[np.int64]:
+    """Return the positions of the ``count`` largest values of each group, ordered by group, then by value."""
     order = np.lexsort((-value, owner))
     sorted_owner = owner[order]
     first_index = np.flatnonzero(np.r_[True, sorted_owner[1:] != sorted_owner[:-1]])
@@ -392,7 +402,7 @@ def best_per_owner(owner: NDArray[np.int64], value: FloatArray, count: int) -> N
     return np.asarray(order[rank < count])
 
 
-def objective_ascent(
+def get_cached_ascent(
     objective: Objective,
     task: Task | None = None,
     clearance: Clearance | None = None,

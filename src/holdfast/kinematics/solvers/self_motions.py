@@ -301,11 +301,11 @@ def trace_self_motions(
     if engine.dimension == 1:
         engine.trace_curves(targets, owner, q, spacing, components)
         if follow:
-            engine.propagate_curves(targets, spacing, components)
+            engine.propagate_curves_between_poses(targets, spacing, components)
         was_found = [bool(pose_curves) for pose_curves in components]
         if constraint is not None:
             components = [
-                [part for curve in pose_curves for part in constraint.find_free_parts(engine, target, curve)]
+                [part for curve in pose_curves for part in constraint.find_feasible_parts(engine, target, curve)]
                 for target, pose_curves in zip(targets, components, strict=True)
             ]
         points = [

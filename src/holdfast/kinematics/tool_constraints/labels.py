@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.core import registry
 from holdfast.core.errors import InputError
-from holdfast.core.labels import read_measures, split_label
+from holdfast.core.labels import parse_quantities, split_label
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint, plane, rail, upright
 
@@ -55,7 +55,7 @@ def _read_value(key: str, text: str) -> Any:
     """Read a word, a number, or several numbers, in rad and m."""
     if key == "frame":
         return text
-    numbers = read_measures(key, text)
+    numbers = parse_quantities(key, text)
     return numbers if len(numbers) > 1 else numbers[0]
 
 

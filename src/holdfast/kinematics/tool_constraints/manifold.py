@@ -51,7 +51,7 @@ class ConstraintManifold:
     ) -> None:
         self.arm, self.keep, self.free = arm, tuple(keep), free
         self._low, self._high = limits
-        joint_index, lever_arms = np.arange(arm.n), _lever_arms(arm, *limits)
+        joint_index, lever_arms = np.arange(arm.n), _max_axis_distances(arm, *limits)
         self._revolute = (~arm.prismatic).astype(np.float64)
         self._lever_arms = lever_arms
         self._second_derivative_bounds = (
@@ -161,7 +161,7 @@ class ConstraintManifold:
         is_proved[edge_index] = False
         return is_proved
 
-    def step_fraction(self, d: FloatArray) -> FloatArray:
+    def safe_motion_fraction(self, d: FloatArray) -> FloatArray:
         """Return fractions (N,) of motions d (N, n) that use up at most half the margin of a constraint."""
         with np.errstate(divide="ignore"):
             return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
@@ -250,7 +250,7 @@ def _perpendicular_vectors(axis: FloatArray) -> FloatArray:
     return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))
 
 
-def _lever_arms(arm: Arm, low: FloatArray, high: FloatArray) -> FloatArray:
+def _max_axis_distances(arm: Arm, low: FloatArray, high: FloatArray) -> FloatArray:
     """Bound the distance (n,) of the tool point from each joint axis, m, by the lengths beyond it; 1 for a prismatic joint."""
     length, lever_arms = float(np.linalg.norm(arm.tool[:3, 3])), []
     for index, joint in reversed(list(enumerate(arm.joints))):

@@ -13,8 +13,8 @@ from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
-from holdfast.kinematics.workspace.extrema import CriticalPoints, critical_points
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.kinematics.workspace.extrema import CriticalPoints, critical_point_solver
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, target_pose
 
@@ -81,14 +81,14 @@ def joint_bounds(
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
     pose = target_pose(resolved_task, target)
-    solver = critical_points(arm, resolved_task)
+    solver = critical_point_solver(arm, resolved_task)
     generator = np.random.default_rng(np.random.SeedSequence(seed))
     seeds = solver.find_seeds(pose, max(starts, 128), generator)
     if not len(seeds):
         return [[] for _ in range(arm.n)]
     critical_joint, critical_q = _find_critical_values(solver, pose, seeds, starts, generator)
-    segments = [_segment_range(arm, index, critical_q[critical_joint == index, index]) for index in range(arm.n)]
-    known_configurations = joint_space.fold_joints(arm, np.concatenate([seeds, critical_q]))
+    segments = [_cut_joint_range(arm, index, critical_q[critical_joint == index, index]) for index in range(arm.n)]
+    known_configurations = joint_space.wrap_joints_to_positive(arm, np.concatenate([seeds, critical_q]))
     _decide_segments(solver, pose, segments, known_configurations, seed)
     return [joint_segments.join_arcs() for joint_segments in segments]
 
@@ -193,10 +193,10 @@ class _JointSegments:
         return sorted((float(low), float(high)) for low, high in joined)
 
 
-def _segment_range(arm: Arm, joint: int, critical: FloatArray) -> _JointSegments:
+def _cut_joint_range(arm: Arm, joint: int, critical: FloatArray) -> _JointSegments:
     """Cut the range of a joint at a scan of values and at its critical values."""
     is_periodic = bool(joint_space.is_unlimited(arm)[joint])
-    lower, upper = (0.0, 2 * np.pi) if is_periodic else (float(limits[joint]) for limits in finite_limits(arm))
+    lower, upper = (0.0, 2 * np.pi) if is_periodic else (float(limits[joint]) for limits in sampling_limits(arm))
     values = np.sort(critical % (2 * np.pi)) if is_periodic else np.sort(critical)
     groups = np.split(values, np.flatnonzero(np.diff(values) > _CRITICAL_VALUE_TOLERANCE) + 1) if values.size else []
     critical_values = np.array([np.median(group) for group in groups])
@@ -229,7 +229,7 @@ def _decide_segments(
 
     def check_reached(joint: NDArray[np.int64], values: FloatArray) -> NDArray[np.bool_]:
         poses = np.broadcast_to(pose, (joint.size, 4, 4))
-        return solver.engine.reaches_locked(
+        return solver.engine.is_reachable_with_lock(
             poses, joint, values, np.random.SeedSequence(seed), LOCKED_RESTARTS, _TARGET_TOLERANCE
         )
 

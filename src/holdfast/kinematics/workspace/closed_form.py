@@ -102,7 +102,7 @@ def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> Floa
     A point is there if the healthy arm reaches it within the artificial limits, and the arm with joint 1 locked at any angle
     within its limits does. Both are said by what is left out, arcs of directions; joint 1 has its middle at 0.
     """
-    arcs = _lost_to_first(arm, limits, r), _out_of_limits(arm, limits, r)
+    arcs = _arcs_lost_to_joint1(arm, limits, r), _arcs_outside_healthy_reach(arm, limits, r)
     start, end = (np.concatenate([pair[side] for pair in arcs], axis=-1) for side in (0, 1))
     return np.asarray(FULL_TURN_RAD - _union_length(start, end))
 
@@ -120,8 +120,8 @@ def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> 
         return np.asarray(~((end > start) & ((relative_angle - start) % FULL_TURN_RAD < end - start)).any(axis=1))
 
     flags = [
-        outside_arcs(_out_of_limits(arm, limits[None], radius[None])),
-        outside_arcs(_lost_to_first(arm, limits[None], radius[None])),
+        outside_arcs(_arcs_outside_healthy_reach(arm, limits[None], radius[None])),
+        outside_arcs(_arcs_lost_to_joint1(arm, limits[None], radius[None])),
     ]
     for joint in (1, 2):
         inner, outer = _locked_annulus(arm, limits[None], joint)
@@ -129,7 +129,7 @@ def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> 
     return flags
 
 
-def _lost_to_first(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _arcs_lost_to_joint1(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the start and end (P, R, 2) of the arcs of directions lost to some lock of joint 1; end < start for no arc.
 
     With joint 1 locked the other two links reach an annulus about the elbow.
@@ -148,9 +148,9 @@ def _lost_to_first(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[
     return start, np.stack(end, axis=-1) + 2 * full_arc[..., None]
 
 
-def _out_of_limits(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return likewise (P, R, 12) the directions that the healthy arm does not reach, with joint 1 anywhere within
-    its limits.
+def _arcs_outside_healthy_reach(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the start and end (P, R, 12) of the arcs of directions that the healthy arm does not reach, with joint 1 anywhere
+    within its limits.
     """
     half_range = (limits[:, 0, 1] - limits[:, 0, 0])[:, None, None] / 2
     start, end = _unreached_directions(arm, limits, r)

@@ -14,7 +14,7 @@ from holdfast.core.progress import track
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.kinematics.solvers.inverse_kinematics import scaled_error, solver
+from holdfast.kinematics.solvers.inverse_kinematics import scaled_error_and_jacobian, solver
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
@@ -43,7 +43,7 @@ class CriticalPoints:
         arm, task = self.arm, self.task
         q = kinematics.joint_symbols(arm)
         position, rotation, multipliers = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("u", task.m)
-        error, jacobian = scaled_error(arm, task, q, position, rotation)
+        error, jacobian = scaled_error_and_jacobian(arm, task, q, position, rotation)
         gradient = jacobian.T @ multipliers
         residual = ca.vertcat(error, gradient, ca.sumsqr(multipliers) - 1)
         # On the target the derivative of the error is -J, and that is where the steps go.
@@ -81,14 +81,14 @@ class CriticalPoints:
         n, m, count = self.arm.n, self.m, len(q)
         is_constrained = ~fixed  # whose columns must be at right angles to u
         is_constrained[np.arange(count), joint] = False
-        jacobian = -self._evaluate(pose, q, np.zeros((count, m)))[1][:, :m, :n]
+        jacobian = -self._residual_and_jacobian(pose, q, np.zeros((count, m)))[1][:, :m, :n]
         reduced = np.where(np.isfinite(jacobian), jacobian, 0.0) * is_constrained[:, None, :]
         unknowns = np.concatenate([q, np.linalg.svd(reduced)[0][:, :, -1]], axis=1)
         is_free = np.concatenate([~fixed, np.ones((count, m), dtype=bool)], axis=1)
         done = np.zeros(count, dtype=bool)
         active = np.arange(count)
         for _ in track("steps of Newton's method", range(_MAX_EXTREMUM_STEPS), most=True):
-            residual, derivative = self._evaluate(pose, unknowns[active, :n], unknowns[active, n:])
+            residual, derivative = self._residual_and_jacobian(pose, unknowns[active, :n], unknowns[active, n:])
             residual[:, m : m + n] *= is_constrained[active]
             has_converged = np.abs(residual).max(axis=1) <= CRITICAL_POINT_TOLERANCE
             done[active[has_converged]] = True
@@ -108,7 +108,7 @@ class CriticalPoints:
         inside = ((points >= self.arm.lower - 1e-9) & (points <= self.arm.upper + 1e-9)).all(axis=1)
         return points, done & inside
 
-    def _evaluate(self, pose: FloatArray, q: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _residual_and_jacobian(self, pose: FloatArray, q: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         outputs = self._kernel.rows(q, u, pose[:3, 3], pose[:3, :3])
         size = self.m + self.arm.n + 1
         return outputs[:, :size].copy(), outputs[:, size:].reshape(len(q), size, self.arm.n + self.m)
@@ -119,6 +119,6 @@ def _cached_critical_points(arm: Arm, rows: tuple[tuple[float, ...], ...], frame
     return CriticalPoints(arm, Task("task", np.array(rows), frame))
 
 
-def critical_points(arm: Arm, task: Task) -> CriticalPoints:
+def critical_point_solver(arm: Arm, task: Task) -> CriticalPoints:
     """Return the solver of an arm and task, compiled once."""
     return _cached_critical_points(arm, tuple(map(tuple, task.rows.tolist())), task.frame)

@@ -11,7 +11,7 @@ from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.inverse_kinematics import solver
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -50,7 +50,7 @@ class SamplingBox:
             directions = linear[:2]
         else:
             raise TaskError(f"task '{task.name}' does not hold a point of space or of a plane; use position, planar or pose")
-        lower, upper = finite_limits(arm)
+        lower, upper = sampling_limits(arm)
         tool_points = (
             arm.forward_kinematics(np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n)))[:, :3, 3]
             @ directions.T
@@ -81,7 +81,7 @@ def with_artificial_limits(arm: Arm, limits: FloatArray) -> Arm:
     return arm.with_limits(np.where(is_unlimited, arm.lower, lower), np.where(is_unlimited, arm.upper, upper))
 
 
-def check_reached(arm: Arm, task: Task, poses: FloatArray, seed: int) -> BoolArray:
+def find_reached_poses(arm: Arm, task: Task, poses: FloatArray, seed: int) -> BoolArray:
     """Return (N,) True for poses of which a configuration was found."""
     if not len(poses):
         return np.zeros(0, dtype=bool)
@@ -96,7 +96,7 @@ def check_survival(arm: Arm, task: Task, poses: FloatArray, angles: list[FloatAr
         if not rows.size:
             tables.append(np.zeros((len(poses), values.size), dtype=bool))
             continue
-        is_reached = engine.reaches_locked(
+        is_reached = engine.is_reachable_with_lock(
             poses[rows],
             np.full(rows.size, joint),
             columns,
@@ -157,7 +157,7 @@ def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, coun
     """
     generator = np.random.default_rng(np.random.SeedSequence([seed, 1]))
     poses = space.sample_poses(points, seed)
-    poses = poses[check_reached(arm, task, poses, seed)]
+    poses = poses[find_reached_poses(arm, task, poses, seed)]
     lower, upper = _limit_search_range(arm)
     if not len(poses):
         return np.stack([lower, upper], axis=1)
@@ -167,7 +167,7 @@ def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, coun
         for grid_start, grid_end, periodic in zip(lower, upper, is_periodic, strict=True)
     ]
     survival_tables = check_survival(arm, task, poses, grids, seed)
-    q = find_configurations(arm, task, poses, generator)
+    q = find_solutions_per_pose(arm, task, poses, generator)
     choices = [
         LimitChoices.from_table(grid, bool(periodic), joint_table, q[:, :, joint])
         for joint, (grid, periodic, joint_table) in enumerate(zip(grids, is_periodic, survival_tables, strict=True))
@@ -189,13 +189,13 @@ def choose_limits(choices: list[LimitChoices], q: FloatArray, generator: np.rand
 
 def _limit_search_range(arm: Arm) -> tuple[FloatArray, FloatArray]:
     """Return the range in which limits are searched; a revolute joint needs at most one turn."""
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     exceeds_turn = ~arm.prismatic & (upper - lower > 2 * np.pi)
     middle = (lower + upper) / 2
     return np.where(exceeds_turn, middle - np.pi, lower), np.where(exceeds_turn, middle + np.pi, upper)
 
 
-def find_configurations(arm: Arm, task: Task, poses: FloatArray, generator: np.random.Generator) -> FloatArray:
+def find_solutions_per_pose(arm: Arm, task: Task, poses: FloatArray, generator: np.random.Generator) -> FloatArray:
     """Find configurations (H, S, n) of each pose, NaN where a start did not converge."""
     engine = solver(arm, task)
     rows = np.repeat(np.arange(len(poses)), _SOLUTIONS_PER_POINT)

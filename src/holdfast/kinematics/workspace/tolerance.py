@@ -18,7 +18,7 @@ from holdfast.core.validation import check_arguments
 from holdfast.kinematics.workspace import closed_form as tolerant_planar
 from holdfast.kinematics.workspace import samples as tolerant_sampled
 from holdfast.kinematics.workspace.closed_form import ThreeLinks
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 
@@ -222,7 +222,7 @@ def tolerant_workspace(
 
 
 def _read_limits(arm: Arm, limits: Limits | None) -> FloatArray:
-    ranges = np.stack(finite_limits(arm), axis=1)
+    ranges = np.stack(sampling_limits(arm), axis=1)
     if limits is None:
         return ranges
     if isinstance(limits, Mapping):
@@ -260,9 +260,9 @@ def _sampled_workspace(
     confidence: float,
 ) -> TolerantWorkspace:
     poses = sampling_box.sample_poses(points, seed)
-    healthy = tolerant_sampled.check_reached(arm, task, poses, seed)
+    healthy = tolerant_sampled.find_reached_poses(arm, task, poses, seed)
     within = healthy.copy()
-    within[healthy] = tolerant_sampled.check_reached(
+    within[healthy] = tolerant_sampled.find_reached_poses(
         tolerant_sampled.with_artificial_limits(arm, limits), task, poses[healthy], seed
     )
     values = [np.linspace(lower, upper, angles) for lower, upper in limits]
@@ -300,7 +300,7 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
         float(tolerant_planar.workspace_area(planar_arm, links[None], radii)[0]) for radii in (_AREA_RADII, _AREA_RADII // 2)
     )
     error = abs(area - coarse)
-    outer_radius, inner_radius = _reach_radii(planar_arm)
+    outer_radius, inner_radius = _outer_and_inner_radius(planar_arm)
     coordinates = np.linspace(-outer_radius, outer_radius, _GRID_POINTS)
     plane_points = np.stack(np.meshgrid(coordinates, coordinates), axis=-1).reshape(-1, 2)
     radius = np.hypot(*plane_points.T)
@@ -327,7 +327,7 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
     )
 
 
-def _reach_radii(planar_arm: ThreeLinks) -> tuple[float, float]:
+def _outer_and_inner_radius(planar_arm: ThreeLinks) -> tuple[float, float]:
     total = float(planar_arm.lengths.sum())
     return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
 

@@ -23,15 +23,17 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
     return np.atleast_2d(checked_q), single
 
 
-def finite_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
+def sampling_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
     """Return (n,) lower and upper limits to sample between; a missing limit is +-pi rad or +-1 m, or lies that far beyond the
     other limit.
     """
-    return make_limits_finite(arm.lower, arm.upper, arm.prismatic)
+    return replace_infinite_limits(arm.lower, arm.upper, arm.prismatic)
 
 
-def make_limits_finite(lower: FloatArray, upper: FloatArray, prismatic: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-    """Replace infinite limits (..., n), which need not belong to one arm, as :func:`finite_limits` does."""
+def replace_infinite_limits(
+    lower: FloatArray, upper: FloatArray, prismatic: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray]:
+    """Replace infinite limits (..., n), which need not belong to one arm, as :func:`sampling_limits` does."""
     default_bound = np.where(prismatic, 1.0, np.pi)
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))
     finite_upper = np.where(np.isfinite(upper), upper, np.maximum(default_bound, lower + default_bound))

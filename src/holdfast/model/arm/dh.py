@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from holdfast.core.errors import ArmError
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_constructor
-from holdfast.model.arm.machine import ArmData, Joint, JointType, Link, check_transform, snap_exact_values
+from holdfast.model.arm.machine import ArmData, Joint, JointType, Link, check_transform, snap_rounding_noise
 
 
 @check_constructor
@@ -48,12 +48,12 @@ class DH:
 
 def _rotation_about_x(angle: float) -> FloatArray:
     cosine, sine = np.cos(angle), np.sin(angle)
-    return snap_exact_values(np.array([[1, 0, 0, 0], [0, cosine, -sine, 0], [0, sine, cosine, 0], [0, 0, 0, 1.0]]))
+    return snap_rounding_noise(np.array([[1, 0, 0, 0], [0, cosine, -sine, 0], [0, sine, cosine, 0], [0, 0, 0, 1.0]]))
 
 
 def _rotation_about_z(angle: float) -> FloatArray:
     cosine, sine = np.cos(angle), np.sin(angle)
-    return snap_exact_values(np.array([[cosine, -sine, 0, 0], [sine, cosine, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+    return snap_rounding_noise(np.array([[cosine, -sine, 0, 0], [sine, cosine, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
 
 
 def _translation(x: float, z: float) -> FloatArray:

@@ -19,7 +19,7 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.model.arm import statics
-from holdfast.model.arm.kinematics import Frame, constant_matrix, joint_motions, joint_symbols, split_transform
+from holdfast.model.arm.kinematics import Frame, constant_matrix, joint_symbols, joint_transforms, split_transform
 from holdfast.model.arm.machine import ArmData
 from holdfast.model.arm.soundness import require_possible_inertia
 
@@ -42,7 +42,7 @@ def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
 
 
 @cached_kernel
-def torque_kernel(arm: ArmData) -> Kernel:
+def torque_terms_kernel(arm: ArmData) -> Kernel:
     """Return the kernel ``(q, qd, qdd) -> inertial, viscous, and gravity torques``, each (n,): the terms of
     :func:`inverse_dynamics`.
     """
@@ -96,7 +96,7 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
         ArmError: A link of which nothing is known, or whose inertia no body has.
     """
     require_possible_inertia(arm)
-    steps = joint_motions(arm, q)
+    steps = joint_transforms(arm, q)
     angular_velocity, angular_acceleration, linear_acceleration = ca.SX(3, 1), ca.SX(3, 1), ca.SX(3, 1)
     forces: list[SX] = []
     couples: list[SX] = []
@@ -127,7 +127,7 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
         force, couple = force + forces[index], couple + couples[index]
         torques[index] = ca.dot(constant_matrix(joint.axis), force if joint.prismatic else couple) + joint.armature * qdd[index]
         for frame in (steps[index], split_transform(joint.origin)):
-            force, couple = _express_in_parent(frame, force, couple)
+            force, couple = _wrench_in_parent(frame, force, couple)
     return ca.vertcat(*torques)
 
 
@@ -136,7 +136,7 @@ def _point_acceleration(angular_velocity: SX, angular_acceleration: SX, r: SX) -
     return ca.cross(angular_acceleration, r) + ca.cross(angular_velocity, ca.cross(angular_velocity, r))
 
 
-def _express_in_parent(frame: Frame, force: SX, couple: SX) -> tuple[SX, SX]:
+def _wrench_in_parent(frame: Frame, force: SX, couple: SX) -> tuple[SX, SX]:
     """Express a force and a couple at the origin of a frame in the parent frame, about the parent's origin."""
     rotation, offset = frame
     force = rotation @ force

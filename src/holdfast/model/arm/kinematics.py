@@ -49,9 +49,9 @@ def kinematic_chain(arm: ArmData, q: SX, frame: int | None = None, steps: list[F
         frame: None: the world. k from 0 to n: the frame that moves with joint k - 1 (0: the arm's base), in which the
             axes near joint k are simple. The choice does not change what any invariant index is, only how long its
             code gets.
-        steps: :func:`joint_motions` of the same q, where several chains are made.
+        steps: :func:`joint_transforms` of the same q, where several chains are made.
     """
-    body_frames, joint_frames = body_and_joint_frames(arm, joint_motions(arm, q) if steps is None else steps, frame)
+    body_frames, joint_frames = body_and_joint_frames(arm, joint_transforms(arm, q) if steps is None else steps, frame)
     axes = [_rotate_axis(rotation, joint.axis) for (rotation, _), joint in zip(joint_frames, arm.joints, strict=True)]
     return KinematicChain(
         axes, [position for _, position in joint_frames], *compose_frames(body_frames[-1], split_transform(arm.tool))
@@ -63,7 +63,7 @@ def body_and_joint_frames(arm: ArmData, steps: list[Frame], frame: int | None = 
 
     Args:
         arm: The arm.
-        steps: :func:`joint_motions`.
+        steps: :func:`joint_transforms`.
         frame: The frame in which they are given; see :func:`kinematic_chain`.
 
     Returns:
@@ -86,7 +86,7 @@ def body_poses(arm: ArmData, q: SX) -> SX:
     """Return the world poses, each (3, 4), of the base, of the link that moves with each joint, and of the tool, (3 (n + 2),
     4).
     """
-    body_frames, _ = body_and_joint_frames(arm, joint_motions(arm, q))
+    body_frames, _ = body_and_joint_frames(arm, joint_transforms(arm, q))
     tool_frame = compose_frames(body_frames[-1], split_transform(arm.tool))
     return ca.densify(ca.vertcat(*[ca.horzcat(*pose) for pose in [*body_frames, tool_frame]]))
 
@@ -97,9 +97,9 @@ def tool_pose(arm: ArmData, q: SX) -> SX:
     return ca.vertcat(ca.horzcat(geometry.rotation, geometry.position), ca.horzcat(ca.SX(1, 3), 1))
 
 
-def chain_jacobian(arm: ArmData, geometry: KinematicChain, reference: SX) -> SX:
+def chain_jacobian(arm: ArmData, geometry: KinematicChain, reference_point: SX) -> SX:
     """Return the geometric Jacobian (6, n), rows (linear; angular) in the chain's frame, for the velocity of the point
-    ``reference``.
+    ``reference_point``.
 
     Source: column of a revolute joint ``(z x (p - p_k); z)``, of a prismatic one ``(z; 0)``.
     """
@@ -109,7 +109,7 @@ def chain_jacobian(arm: ArmData, geometry: KinematicChain, reference: SX) -> SX:
         if joint.prismatic:
             columns.append(ca.vertcat(axis, ca.SX(3, 1)))
         else:
-            columns.append(ca.vertcat(ca.cross(axis, reference - geometry.points[index]), axis))
+            columns.append(ca.vertcat(ca.cross(axis, reference_point - geometry.points[index]), axis))
     return ca.horzcat(*columns)
 
 
@@ -133,7 +133,7 @@ def invariant_jacobian(arm: ArmData, q: SX) -> SX:
     that frame's origin. For the 9-joint PA10 this takes 774 operations where the world frame takes 1189.
     """
     best: SX = None
-    steps = joint_motions(arm, q)
+    steps = joint_transforms(arm, q)
     for frame in range(arm.n + 1):
         geometry = kinematic_chain(arm, q, frame, steps)
         candidate = ca.sparsify(chain_jacobian(arm, geometry, ca.SX(3, 1)))
@@ -168,7 +168,7 @@ def split_transform(transform: FloatArray | SX) -> Frame:
     return constant_matrix(transform[:3, :3]), constant_matrix(transform[:3, 3])
 
 
-def is_limited(limit: float | SX) -> bool:
+def is_limit_given(limit: float | SX) -> bool:
     """Return True if there is a limit: a finite number, or a symbol."""
     return isinstance(limit, ca.SX) or bool(np.isfinite(limit))
 
@@ -186,7 +186,7 @@ def _rotate_axis(rotation: SX, axis: FloatArray) -> SX:
     return rotation @ constant_matrix(axis)
 
 
-def joint_motions(arm: ArmData, q: SX) -> list[Frame]:
+def joint_transforms(arm: ArmData, q: SX) -> list[Frame]:
     """Return the motion of every joint by itself: rotation (3, 3) and translation (3,)."""
     return [_joint_motion(arm, k, q) for k in range(arm.n)]
 

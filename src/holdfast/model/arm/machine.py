@@ -67,7 +67,7 @@ class Joint:
         if not (np.isfinite(length) and length > 1e-9):
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
         # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
-        object.__setattr__(self, "axis", _as_read_only(snap_exact_values(axis if abs(length - 1) < 4e-15 else axis / length)))
+        object.__setattr__(self, "axis", _as_read_only(snap_rounding_noise(axis if abs(length - 1) < 4e-15 else axis / length)))
         for field_name in _JOINT_NUMBERS:
             value = float(getattr(self, field_name))
             sign = "" if field_name in ("lower", "upper") else " of 0 or more"
@@ -379,7 +379,7 @@ def _as_float_array(value: ArrayLike, label: str) -> FloatArray:
         raise ArmError(f"{label} must be numbers in an array of the right shape") from error
 
 
-def snap_exact_values(a: FloatArray) -> FloatArray:
+def snap_rounding_noise(a: FloatArray) -> FloatArray:
     """Replace rounding noise such as cos(pi/2) by exactly 0, 1, or -1, so that symbolic products vanish."""
     exact = a.copy()
     for value in (-1.0, 0.0, 1.0):
@@ -400,5 +400,5 @@ def check_transform(value: ArrayLike, label: str) -> FloatArray:
     if not np.allclose(pose[3], [0, 0, 0, 1]):
         raise ArmError(f"{label}: its last row is {pose[3].tolist()}; it must be 0, 0, 0, 1")
     exact = pose.copy()
-    exact[:3, :3] = snap_exact_values(rotation)
+    exact[:3, :3] = snap_rounding_noise(rotation)
     return _as_read_only(exact)

@@ -20,8 +20,8 @@ from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm import mjcf_limits
-from holdfast.model.arm.machine import ArmData, Link, snap_exact_values
-from holdfast.model.arm.tree import LinkTree, LockedJoints, TreeJoint, build_chain, resolve_ends
+from holdfast.model.arm.machine import ArmData, Link, snap_rounding_noise
+from holdfast.model.arm.tree import LinkTree, LockedJoints, TreeJoint, build_chain, resolve_base_and_tip
 
 UNNAMED_MODEL = "MuJoCo Model"
 
@@ -149,7 +149,7 @@ def pose_from_wxyz(position: ArrayLike, wxyz: ArrayLike) -> FloatArray:
         [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
     ]
-    pose[:3, :3] = snap_exact_values(pose[:3, :3])
+    pose[:3, :3] = snap_rounding_noise(pose[:3, :3])
     pose[:3, 3] = position
     return pose
 
@@ -201,7 +201,7 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
                 )
     tied = frozenset(
         joint_names[joint_index]
-        for _, _, tied_joints, _ in _find_ties(mujoco, model)
+        for _, _, tied_joints, _ in _iterate_couplings(mujoco, model)
         if len(tied_joints) > 1
         for joint_index in tied_joints
     )
@@ -288,9 +288,9 @@ def _build_arm(
     name: str,
     source: str,
 ) -> ArmData:
-    base, tip = resolve_ends(tree, base, tip)
+    base, tip = resolve_base_and_tip(tree, base, tip)
     on_chain = {joint.name for joint in tree.joint_path(base, tip) if not tree.is_fixed(joint, hold)}
-    _reject_ties(mujoco, model, tree, on_chain)
+    _reject_coupled_chain(mujoco, model, tree, on_chain)
     base_pose = LockedJoints(tree, on_chain, hold).link_pose(base)
     weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
     gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
@@ -302,7 +302,7 @@ def _build_arm(
     )
 
 
-def _reject_ties(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
+def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
     """Reject equalities and tendons that act on the chain; those between bodies that do not move relative to each other are
     harmless.
     """
@@ -316,7 +316,7 @@ def _reject_ties(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[s
             link = tree.joint_above[link].parent
         return tree.joint_above[link].name if link in tree.joint_above else ""
 
-    for kind, name, tied_joints, tied_bodies in _find_ties(mujoco, model):
+    for kind, name, tied_joints, tied_bodies in _iterate_couplings(mujoco, model):
         if kind == "tendon" and len(tied_joints) == 1 and not tied_bodies:
             continue  # it carries a motor or a spring of this joint and ties it to nothing
         tied_names = [joints[joint] for joint in tied_joints if joints[joint] in on_chain]
@@ -334,7 +334,7 @@ def _reject_ties(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[s
             )
 
 
-def _find_ties(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int], list[int]]]:
+def _iterate_couplings(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int], list[int]]]:
     """Yield word, name, joints, and bodies of every active equality and every tendon."""
     equality_types, wrap_types, object_types = mujoco.mjtEq, mujoco.mjtWrap, mujoco.mjtObj
     for index in range(model.neq):

@@ -41,7 +41,7 @@ def read_checked_model(path: Path) -> str:
 
 def _read_text(path: Path) -> str:
     try:
-        with reading.guard_reading(advice="give the path of an MJCF file", kind=ArmError):
+        with reading.guard_reading(advice="give the path of an MJCF file", error_type=ArmError):
             return reading.read_text(path, _MAX_MODEL_BYTES)
     except UnicodeDecodeError as error:
         raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
@@ -53,14 +53,14 @@ def _check_model(text: str, path: Path, folder: Path, seen: set[Path]) -> None:
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
     elements = 0
-    for element, copies in _count_replicas(root, 1):
+    for element, copies in _elements_with_copies(root, 1):
         elements += copies
         if elements > _MAX_ELEMENTS or copies > _MAX_COPIES:
             raise ArmError(
                 f"with its <replicate> written out, the model has more than {_MAX_COPIES} copies of one element or more than "
                 f"{_MAX_ELEMENTS} elements; leave out what is not the arm"
             )
-        _check_sizes(element)
+        _reject_huge_sizes(element)
     asset_folders = {
         Path(compiler.get(folder_key, ""))
         for compiler in root.iter("compiler")
@@ -73,10 +73,10 @@ def _check_model(text: str, path: Path, folder: Path, seen: set[Path]) -> None:
             for asset_path in {folder / asset_folder / name for asset_folder in asset_folders} | {
                 path.parent / asset_folder / name for asset_folder in asset_folders
             }:
-                _check_file(asset_path, element.tag, folder, seen)
+                _check_asset_file(asset_path, element.tag, folder, seen)
 
 
-def _count_replicas(element: ElementTree.Element, copies: int) -> Iterator[tuple[ElementTree.Element, int]]:
+def _elements_with_copies(element: ElementTree.Element, copies: int) -> Iterator[tuple[ElementTree.Element, int]]:
     """Yield every element with its number of copies once replicas are expanded."""
     stack = [(element, copies)]
     while stack:
@@ -87,7 +87,7 @@ def _count_replicas(element: ElementTree.Element, copies: int) -> Iterator[tuple
         stack.extend((child, count) for child in current)
 
 
-def _check_sizes(element: ElementTree.Element) -> None:
+def _reject_huge_sizes(element: ElementTree.Element) -> None:
     keys, max_entries = _MAX_ENTRIES_BY_TAG.get(element.tag, ((), 0))
     total = 1
     for key in keys:
@@ -109,7 +109,7 @@ def _parse_integer(text: str) -> int:
         return 0
 
 
-def _check_file(asset_path: Path, tag: str, folder: Path, seen: set[Path]) -> None:
+def _check_asset_file(asset_path: Path, tag: str, folder: Path, seen: set[Path]) -> None:
     if not reading.path_exists(asset_path) or asset_path.is_dir():
         return  # for MuJoCo to refuse
     description = f"'{asset_path.name}', which it names"
@@ -122,7 +122,7 @@ def _check_file(asset_path: Path, tag: str, folder: Path, seen: set[Path]) -> No
             except ArmError as error:
                 raise ArmError(f"{description}: {error}") from error
         return
-    with reading.guard_reading(f"{description},", kind=ArmError):
+    with reading.guard_reading(f"{description},", error_type=ArmError):
         header = reading.read_bytes(asset_path, _MAX_FILE_BYTES)[:24]
     if header.startswith(_PNG_SIGNATURE):
         width, height = int.from_bytes(header[16:20]), int.from_bytes(header[20:24])

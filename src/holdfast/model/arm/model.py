@@ -242,7 +242,7 @@ class Arm(Presentable, ArmData):
     def _dynamics_kernel(self) -> Kernel:
         from holdfast.model.arm import dynamics
 
-        return dynamics.torque_kernel(self)
+        return dynamics.torque_terms_kernel(self)
 
     @cached_property
     @cached_kernel

@@ -6,7 +6,7 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 
 _CANDIDATE_COUNT = 96
@@ -25,7 +25,7 @@ def generic_configuration(arm: Arm) -> FloatArray:
     structure do not count. Where it can be had, no joint is behind the plane that the arm is mounted on, across the z axis of
     its base. The same arm gets the same answer.
     """
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     ranges = np.minimum(upper - lower, np.where(arm.prismatic, np.inf, 2 * np.pi))
     start = arm.states.get("home", (lower + upper) / 2)
     margin = 0.05 * (upper - lower)

@@ -100,7 +100,7 @@ def _check_joint(joint: Joint) -> list[DataFinding]:
     warnings = []
     width = joint.upper - joint.lower
     if not np.isfinite(width):
-        kind = "is continuous" if joint.type == "continuous" else _limit_count(joint)
+        kind = "is continuous" if joint.type == "continuous" else _describe_missing_limits(joint)
         warnings.append(f"it {kind}; analyses over the whole joint range need lower and upper, in {joint.unit}")
     elif width == 0:
         warnings.append(f"its lower and upper limit are both {joint.lower:g} {joint.unit}; a joint needs room to move")
@@ -124,7 +124,7 @@ def _check_joint(joint: Joint) -> list[DataFinding]:
     return [DataFinding("warning", subject, message) for message in warnings]
 
 
-def _limit_count(joint: Joint) -> str:
+def _describe_missing_limits(joint: Joint) -> str:
     """Describe the limits that a joint lacks although its type has them."""
     lacking = "has no limits" if np.isinf([joint.lower, joint.upper]).all() else "lacks a limit"
     farthest = f"{FARTHEST_LIMIT_M:g} m" if joint.prismatic else f"{FARTHEST_LIMIT_RAD / (2 * np.pi):g} turns"

@@ -23,7 +23,7 @@ from holdfast.model.arm.kinematics import (
     body_and_joint_frames,
     constant_matrix,
     identity_matrix,
-    joint_motions,
+    joint_transforms,
     split_transform,
 )
 from holdfast.model.arm.machine import ArmData, Link
@@ -64,7 +64,7 @@ def composite_bodies(arm: ArmData, q: SX) -> CompositeBodies:
     """
     require_masses(arm)
     n = arm.n
-    steps = joint_motions(arm, q)
+    steps = joint_transforms(arm, q)
     body_frames, joint_frames = body_and_joint_frames(arm, steps)
     rotations, points = [rotation for rotation, _ in body_frames[1:]], [position for _, position in joint_frames]
     gravity: list[SX] = []

@@ -151,7 +151,7 @@ def plane_normal(arm: ArmData) -> FloatArray | None:
     return np.asarray(normal * (1.0 if normal[np.argmax(np.abs(normal))] > 0 else -1.0))
 
 
-def task_of_path(arm: ArmData, oriented: bool) -> str:
+def default_path_task(arm: ArmData, oriented: bool) -> str:
     """Return the default task name of a path: for a planar arm the rows in its plane, else all rows."""
     is_planar = plane_normal(arm) is not None
     if oriented:

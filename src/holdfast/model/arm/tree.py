@@ -130,7 +130,7 @@ class LinkTree:
 # ---- where the chain may begin and end ---------------------------------------------------------------------------
 
 
-def only_tip(tree: LinkTree, base: str) -> str:
+def require_single_tip(tree: LinkTree, base: str) -> str:
     """Return the tip if there is only one candidate.
 
     Raises:
@@ -246,7 +246,7 @@ def possible_bases(tree: LinkTree, tip: str | None) -> list[str]:
 # ---- the chain ---------------------------------------------------------------------------------------------------
 
 
-def resolve_ends(tree: LinkTree, base: str | None, tip: str | None) -> tuple[str, str]:
+def resolve_base_and_tip(tree: LinkTree, base: str | None, tip: str | None) -> tuple[str, str]:
     """Return base and tip; the defaults are the root and the only end.
 
     Raises:
@@ -261,7 +261,7 @@ def resolve_ends(tree: LinkTree, base: str | None, tip: str | None) -> tuple[str
     if tip is not None and tip not in tree.bodies:
         possible_links = list_names(possible_tips(tree, base))
         raise ArmError(f"there is no tip link '{tip}'; {suggest_name(tip, tree.bodies)}the arm could end at {possible_links}")
-    return base, only_tip(tree, base) if tip is None else tip
+    return base, require_single_tip(tree, base) if tip is None else tip
 
 
 def build_chain(
@@ -290,7 +290,7 @@ def build_chain(
     Raises:
         ArmError: There is no single serial chain from base to tip.
     """
-    base, tip = resolve_ends(tree, base, tip)
+    base, tip = resolve_base_and_tip(tree, base, tip)
     path = tree.joint_path(base, tip)
     moving = [joint for joint in path if not tree.is_fixed(joint, hold)]
     if not moving:
@@ -316,7 +316,7 @@ def build_chain(
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
     locked_joints = LockedJoints(tree, {joint.name for joint in moving}, hold)
-    _reject_followers(tree, base, locked_joints)
+    _reject_mimic_joints(tree, base, locked_joints)
 
     joints: list[Joint] = []
     links: list[Link | None] = []
@@ -326,8 +326,8 @@ def build_chain(
         if joint.name not in on_path:
             pending = pending @ joint.child_pose(locked_joints.joint_value(joint))
             continue
-        joints.append(_model_joint(joint, pending @ joint.origin))
-        links.append(_merge_link(tree, joint.child, on_path, locked_joints))
+        joints.append(_to_arm_joint(joint, pending @ joint.origin))
+        links.append(_merge_rigid_descendants(tree, joint.child, on_path, locked_joints))
         pending = np.eye(4)
     return ArmData(
         name,
@@ -351,7 +351,7 @@ def _advise_base(moving: Sequence[TreeJoint]) -> str:
     )
 
 
-def _reject_followers(tree: LinkTree, base: str, locked_joints: LockedJoints) -> None:
+def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints) -> None:
     """Reject joints next to the chain that mimic joints of the chain, all of them in one error message."""
     masters = {
         joint.name: joint.mimic[0]
@@ -369,7 +369,7 @@ def _reject_followers(tree: LinkTree, base: str, locked_joints: LockedJoints) ->
         )
 
 
-def _model_joint(joint: TreeJoint, origin: FloatArray) -> Joint:
+def _to_arm_joint(joint: TreeJoint, origin: FloatArray) -> Joint:
     joint_type: JointType = (
         "prismatic" if joint.type == "prismatic" else "revolute" if joint.type == "revolute" else "continuous"
     )
@@ -387,7 +387,7 @@ def _model_joint(joint: TreeJoint, origin: FloatArray) -> Joint:
     )
 
 
-def _merge_link(tree: LinkTree, link: str, on_path: set[str], locked_joints: LockedJoints) -> Link | None:
+def _merge_rigid_descendants(tree: LinkTree, link: str, on_path: set[str], locked_joints: LockedJoints) -> Link | None:
     """Merge a link with all descendants that do not move relative to it, in the link's frame."""
     bodies: list[Link] = []
     pending = [(link, np.eye(4))]
@@ -431,10 +431,12 @@ class LockedJoints:
             pose = pose @ joint.child_pose(self.joint_value(joint))
         return pose
 
-    def joint_value(self, joint: TreeJoint, followers: tuple[str, ...] = ()) -> float:
+    def joint_value(self, joint: TreeJoint, mimic_trail: tuple[str, ...] = ()) -> float:
         """Return the value of a joint, rad or m; without meaning for joints that neither slide nor rotate about one axis."""
-        if joint.name in followers:
-            raise ArmError(f"the joints {list_names(followers)} mimic each other in a circle; one of them must be independent")
+        if joint.name in mimic_trail:
+            raise ArmError(
+                f"the joints {list_names(mimic_trail)} mimic each other in a circle; one of them must be independent"
+            )
         if joint.name in self.hold:
             return float(self.hold[joint.name])
         if joint.mimic:
@@ -443,5 +445,5 @@ class LockedJoints:
                 raise ArmError(f"joint '{joint.name}' mimics '{master}', which moves on the chain; freeze it with hold")
             if master not in self.tree.joints:
                 raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
-            return multiplier * self.joint_value(self.tree.joints[master], (*followers, joint.name)) + offset
+            return multiplier * self.joint_value(self.tree.joints[master], (*mimic_trail, joint.name)) + offset
         return float(min(max(joint.rest, joint.lower), joint.upper))

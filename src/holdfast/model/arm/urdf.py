@@ -85,7 +85,7 @@ def load_urdf(
             "" if given_path is None else str(Path(given_path).absolute()) for given_path in (path, meshes, srdf_file)
         )
         arm = replace(arm, chain=arm.chain and replace(arm.chain, file=urdf_path, meshes=mesh_folder, srdf=srdf_path))
-        return arm if srdf_file is None else replace(arm, states=_read_states(srdf_file, arm))
+        return arm if srdf_file is None else replace(arm, states=_read_srdf_configurations(srdf_file, arm))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
@@ -115,7 +115,7 @@ def xacro_advice(path: Path) -> str:
 
 def _parse_robot(path: Path, kind: str) -> ElementTree.Element:
     """Return the ``<robot>`` of a file; prefixes of tags stay as they are, declared or not, as in the readers of ROS."""
-    with reading.guard_reading(advice=f"give the path of a {kind} file", kind=ArmError):
+    with reading.guard_reading(advice=f"give the path of a {kind} file", error_type=ArmError):
         content = reading.read_bytes(path, _MAX_FILE_BYTES)
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = builder.start, builder.end, builder.data
@@ -169,7 +169,7 @@ def read_disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
     return frozenset((first_link, second_link) for first_link, second_link in pairs)
 
 
-def _read_states(path: Path, arm: ArmData) -> dict[str, FloatArray]:
+def _read_srdf_configurations(path: Path, arm: ArmData) -> dict[str, FloatArray]:
     """Return the configurations of an SRDF file that name every joint of the arm."""
     configurations: dict[str, FloatArray] = {}
     for state in _parse_robot(path, "SRDF").iter("group_state"):
@@ -181,8 +181,8 @@ def _read_states(path: Path, arm: ArmData) -> dict[str, FloatArray]:
     return configurations
 
 
-def read_tree(robot: ElementTree.Element, stem: str) -> LinkTree:
-    """Return the links and joints of a ``<robot>``; ``stem`` is its name if it has none.
+def read_tree(robot: ElementTree.Element, default_name: str) -> LinkTree:
+    """Return the links and joints of a ``<robot>``; ``default_name`` is its name if it has none.
 
     Raises:
         ArmError: It is not a sound tree.
@@ -200,7 +200,7 @@ def read_tree(robot: ElementTree.Element, stem: str) -> LinkTree:
             raise ArmError(f"the joint name '{joint.name}' is used more than once; names must be unique")
         joints[joint.name] = joint
     tied = {name for joint in joints.values() if joint.mimic for name in (joint.name, joint.mimic[0])}
-    return LinkTree(robot.get("name") or stem, bodies, joints, tied=frozenset(tied))
+    return LinkTree(robot.get("name") or default_name, bodies, joints, tied=frozenset(tied))
 
 
 def _read_body(element: ElementTree.Element, label: str) -> Link | None:

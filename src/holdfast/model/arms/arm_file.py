@@ -8,12 +8,12 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import replace_file
-from holdfast.core.progress import warn_now
+from holdfast.core.progress import print_warning
 from holdfast.model.arm.machine import GRAVITY
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms import dh_file
 from holdfast.model.arms.catalogue import TABLE_ENDINGS
-from holdfast.model.arms.dh_rows import dh_table, table_bodies
+from holdfast.model.arms.dh_rows import bodies_in_row_frames, dh_table
 from holdfast.model.arms.urdf_writing import urdf_text
 
 
@@ -22,14 +22,14 @@ def write_arm(arm: Arm, file: Path) -> Path:
     ending = file.suffix.lower()
     if ending == ".urdf":
         replace_file(file, urdf_text(arm), "arm file")
-        lost_data = lost_in_urdf(arm)
+        lost_data = quantities_lost_in_urdf(arm)
         if lost_data:
-            warn_now(
+            print_warning(
                 f"'{file}' lacks {', '.join(lost_data)}, for which URDF has no place; save a .yaml file to keep all numbers"
             )
     elif ending in TABLE_ENDINGS:
         table = dh_table(arm)
-        links, payload = table_bodies(arm, table)
+        links, payload = bodies_in_row_frames(arm, table)
         text = dh_file.format_dh_file(table, arm.name, arm.gravity, arm.source, links=links, payload=payload)
         replace_file(file, text, "arm file")
     else:
@@ -37,7 +37,7 @@ def write_arm(arm: Arm, file: Path) -> Path:
     return file
 
 
-def lost_in_urdf(arm: Arm) -> list[str]:
+def quantities_lost_in_urdf(arm: Arm) -> list[str]:
     """Name the numbers of an arm that a URDF file cannot hold."""
     one_sided = any(np.isfinite(joint.lower) != np.isfinite(joint.upper) for joint in arm.joints)
     losses = {

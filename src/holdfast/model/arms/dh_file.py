@@ -36,8 +36,8 @@ from numpy.typing import ArrayLike
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.core.errors import ArmError, InputError
-from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
-from holdfast.core.progress import warn_now
+from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
+from holdfast.core.progress import print_warning
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.dh import DH
@@ -66,7 +66,7 @@ def load_dh_file(path: str | Path) -> Arm:
     try:
         return build_arm(ArmFile.model_validate(read_mapping(path, "holdfast.model.arms.dh_file", "rows")), path)
     except ValidationError as error:
-        raise ArmError(f"{path.name}: {describe_error(error, ArmFile, POSE_TAGS)}") from error
+        raise ArmError(f"{path.name}: {describe_validation_error(error, ArmFile, POSE_TAGS)}") from error
     except (ArmError, InputError) as error:
         raise ArmError(f"{path.name}: {error}") from error
 
@@ -245,7 +245,7 @@ def build_arm(table: ArmFile, path: Path) -> Arm:
     for number, row in enumerate(table.rows if table.angles == "rad" else (), start=1):
         for key, angle in (("alpha", row.alpha), ("theta", row.theta)):
             if abs(angle) > _MAX_PLAUSIBLE_ANGLE_RAD:
-                warn_now(
+                print_warning(
                     f"{path.name}: {key} of row {number} is {angle:g} rad, {abs(angle) / (2 * np.pi):.3g} turns; if it is in "
                     "degrees, add 'angles: deg'"
                 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.dh import DH
-from holdfast.model.arm.machine import Link, snap_exact_values
+from holdfast.model.arm.machine import Link, snap_rounding_noise
 from holdfast.model.arm.model import Arm
 
 # Axes this near to parallel, rad, count as parallel: where a file says 3.14159 for pi their common normal is kilometres away.
@@ -76,12 +76,12 @@ def dh_table(arm: Arm) -> DHTable:
     for index in range(arm.n - 1):
         frames.append(_next_frame(frames[-1], points[index], axes[index + 1], points[index + 1], own_x_axes[index]))
     frames.append(_last_frame(arm, frames[-1], joints[-1], axes[-1]))
-    rows = tuple(_make_row(arm, index, frames[index], frames[index + 1]) for index in range(arm.n))
+    rows = tuple(_dh_row_between(arm, index, frames[index], frames[index + 1]) for index in range(arm.n))
     tool = _invert_pose(frames[-1]) @ joints[-1] @ arm.tool
-    return DHTable(rows, arm.base @ first_frame, _clean_pose(tool))
+    return DHTable(rows, arm.base @ first_frame, _snap_pose(tool))
 
 
-def table_bodies(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | None]:
+def bodies_in_row_frames(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | None]:
     """Express the links and the payload of an arm in the frames of the rows of its table."""
     q = np.zeros(arm.n)
     link_frames, row_motions = arm.frames(q), table.arm().frames(q)
@@ -89,9 +89,9 @@ def table_bodies(arm: Arm, table: DHTable) -> tuple[list[Link | None], Link | No
     link_poses = [_invert_pose(row) @ link_frames[index + 1] for index, row in enumerate(row_frames)]
     links = arm.links or (None,) * arm.n
     row_links = [
-        None if link is None else link.in_frame(_clean_pose(pose)) for link, pose in zip(links, link_poses, strict=True)
+        None if link is None else link.in_frame(_snap_pose(pose)) for link, pose in zip(links, link_poses, strict=True)
     ]
-    return row_links, None if arm.payload is None else arm.payload.in_frame(_clean_pose(link_poses[-1]))
+    return row_links, None if arm.payload is None else arm.payload.in_frame(_snap_pose(link_poses[-1]))
 
 
 def _first_frame(z: FloatArray, p: FloatArray) -> FloatArray:
@@ -142,12 +142,12 @@ def _last_frame(arm: Arm, frame: FloatArray, joint: FloatArray, z: FloatArray) -
     return joint @ arm.flange if has_row_form else joint
 
 
-def _make_row(arm: Arm, k: int, frame: FloatArray, next_frame: FloatArray) -> DH:
+def _dh_row_between(arm: Arm, k: int, frame: FloatArray, next_frame: FloatArray) -> DH:
     joint, displacement = arm.joints[k], next_frame[:3, 3] - frame[:3, 3]
     return DH(
-        a=_clean_length(float(displacement @ next_frame[:3, 0])),
+        a=_snap_length(float(displacement @ next_frame[:3, 0])),
         alpha=_signed_angle(frame[:3, 2], next_frame[:3, 2], next_frame[:3, 0]),
-        d=_clean_length(float(displacement @ frame[:3, 2])),
+        d=_snap_length(float(displacement @ frame[:3, 2])),
         theta=_signed_angle(frame[:3, 0], next_frame[:3, 0], frame[:3, 2]),
         type="prismatic" if joint.prismatic else "revolute",
         lower=None if np.isinf(joint.lower) else joint.lower,
@@ -185,13 +185,13 @@ def _signed_angle(a: FloatArray, b: FloatArray, axis: FloatArray) -> float:
     return float(np.deg2rad(180.0 if degrees == -180 else degrees)) + 0.0
 
 
-def _clean_length(value: float) -> float:
+def _snap_length(value: float) -> float:
     rounded = round(value, 12) + 0.0  # no -0
     return rounded if abs(value - rounded) < 1e-14 else value
 
 
-def _clean_pose(transform: FloatArray) -> FloatArray:
+def _snap_pose(transform: FloatArray) -> FloatArray:
     clean = transform.copy()
-    clean[:3, :3] = snap_exact_values(clean[:3, :3])
-    clean[:3, 3] = [_clean_length(coordinate) for coordinate in clean[:3, 3]]
+    clean[:3, :3] = snap_rounding_noise(clean[:3, :3])
+    clean[:3, 3] = [_snap_length(coordinate) for coordinate in clean[:3, 3]]
     return clean

@@ -39,7 +39,7 @@ class ArmSpec:
         return arm if self.name is None else replace(arm, name=self.name)
 
 
-def match_arm_options(
+def arm_specs_from_options(
     specs: Sequence[str],
     base: Sequence[str] | None,
     tip: Sequence[str] | None,
@@ -66,12 +66,12 @@ def match_arm_options(
         columns[option] = option_values
     rows = zip(specs, *columns.values(), strict=True)
     return [
-        ArmSpec(spec_text, base_link, tip_link, {} if hold_text is None else read_hold(hold_text), arm_name)
+        ArmSpec(spec_text, base_link, tip_link, {} if hold_text is None else parse_held_joints(hold_text), arm_name)
         for spec_text, base_link, tip_link, hold_text, arm_name in rows
     ]
 
 
-def read_hold(text: str, option: str = "--hold") -> dict[str, float]:
+def parse_held_joints(text: str, option: str = "--hold") -> dict[str, float]:
     """Read ``joint=number`` pairs separated by commas; the joints are those of a file that is not read yet."""
     values_by_joint: dict[str, float] = {}
     for assignment in text.split(","):

@@ -198,7 +198,7 @@ class Cell:
         """
         from holdfast.model.cell import cell_file
 
-        return cls(**cell_file.parse_cell(data, Path(folder)))
+        return cls(**cell_file.cell_arguments_from_data(data, Path(folder)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as JSON types: the keys and values of a file, with the full paths of other files.
@@ -209,8 +209,8 @@ class Cell:
         from holdfast.model.cell import cell_file
 
         data: dict[str, Any] = {"name": self.name} | ({"margin": float(self.margin)} if self.margin else {})
-        data["objects"] = {solid.name: cell_file.describe_object(solid) for solid in self.objects}
-        data |= {"held": [cell_file.describe_object(solid) for solid in self.held]} if self.held else {}
+        data["objects"] = {solid.name: cell_file.object_to_dict(solid) for solid in self.objects}
+        data |= {"held": [cell_file.object_to_dict(solid) for solid in self.held]} if self.held else {}
         data |= {"may_touch": [list(pair) for pair in self.may_touch]} if self.may_touch else {}
         full_shape = self.shape if self.shape in cell_file.SHAPE_WORDS else str(Path(self.shape).resolve())
         arm: dict[str, Any] = {"shape": full_shape} if full_shape else {}
@@ -286,13 +286,13 @@ class Cell:
 
         def describe_solid(solid: Solid) -> Any:
             if not isinstance(solid, (Mesh, Points)):
-                return [solid.name, cell_file.describe_object(solid)]
+                return [solid.name, cell_file.object_to_dict(solid)]
             radius = solid.radius if isinstance(solid, Points) else 0.0
             return [solid.name, type(solid).__name__, solid.digest, radius, solid.pose.tolist(), solid.margin]
 
         content = [
             sorted(map(describe_solid, self.objects), key=lambda row: row[0]),
-            [cell_file.describe_object(solid) for solid in self.held],
+            [cell_file.object_to_dict(solid) for solid in self.held],
             [float(self.margin), sorted(map(list, self.may_touch))],
             [shape, self.spheres_to, sorted(self.hold.items())],
         ]

@@ -38,7 +38,7 @@ import yaml
 from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast.core.errors import HoldfastError, InputError
-from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_error, read_mapping
+from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotations_of_quaternions
 from holdfast.model.arm.urdf import rpy_rotation
@@ -128,7 +128,7 @@ def read_cell_file(path: Path) -> dict[str, Any]:
     return {"name": path.stem} | read_mapping(path, EXAMPLE_MODULE, "objects")
 
 
-def parse_cell(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+def cell_arguments_from_data(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     """Return the arguments of :class:`holdfast.Cell` from the keys and values of a file.
 
     Args:
@@ -141,19 +141,19 @@ def parse_cell(data: dict[str, Any], folder: Path) -> dict[str, Any]:
     try:
         parsed = CellFile.model_validate(data)
     except ValidationError as error:
-        raise InputError(describe_error(error, CellFile, FORMAT_TAGS)) from error
+        raise InputError(describe_validation_error(error, CellFile, FORMAT_TAGS)) from error
     return {
         "objects": [_build_solid(name, entry, f"objects.{name}", folder) for name, entry in parsed.objects.items()],
         "name": parsed.name or "cell",
         "margin": parsed.margin,
-        "held": [_build_held(index, entry, folder) for index, entry in enumerate(parsed.held)],
+        "held": [_build_held_object(index, entry, folder) for index, entry in enumerate(parsed.held)],
         "may_touch": [(object_name, link_name) for object_name, link_name in parsed.may_touch],
         **parsed.arm.model_dump(exclude_none=True),
         "shape": shape if (shape := parsed.arm.shape or "") in SHAPE_WORDS else str(folder / shape),
     }
 
 
-def _build_held(number: int, entry: _ObjectEntry, folder: Path) -> Solid:
+def _build_held_object(number: int, entry: _ObjectEntry, folder: Path) -> Solid:
     location = f"held[{number}]"
     solid = _build_solid(f"held {number + 1}", entry, location, folder)
     if _object_kind(entry, location) not in _HOLDABLE_KINDS:
@@ -244,7 +244,7 @@ def format_cell(data: dict[str, Any]) -> str:
     return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=128)
 
 
-def describe_object(solid: Solid) -> dict[str, Any]:
+def object_to_dict(solid: Solid) -> dict[str, Any]:
     """Return an object's keys and values with every digit; a file is named by its full path.
 
     Raises:
@@ -260,7 +260,7 @@ def describe_object(solid: Solid) -> dict[str, Any]:
         case HalfSpace():
             entry = {"half_space": [0.0, 0.0, 1.0]}
         case Mesh():
-            entry = {"mesh": _describe_surface(solid) if solid.source is None else str(solid.source.path)}
+            entry = {"mesh": _mesh_to_dict(solid) if solid.source is None else str(solid.source.path)}
             entry |= {"scale": float(solid.scale)} if solid.source is not None else {}
             entry |= {"solid": solid.solid}
         case Points():
@@ -274,7 +274,7 @@ def describe_object(solid: Solid) -> dict[str, Any]:
     return entry | ({"margin": float(solid.margin)} if solid.margin else {})
 
 
-def _describe_surface(solid: Mesh) -> dict[str, Any]:
+def _mesh_to_dict(solid: Mesh) -> dict[str, Any]:
     """Return the triangles of a mesh in m, with its scale already applied."""
     return {"vertices": solid.surface.vertices.tolist(), "faces": solid.surface.faces.tolist()}
 

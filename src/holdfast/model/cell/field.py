@@ -17,13 +17,19 @@ from holdfast.model.cell.interpolation import FieldTables, interpolate_bounds
 from holdfast.model.cell.nodes import (
     HALF_DIAGONAL,
     NodeGrid,
-    bound_distances,
-    find_inside,
+    find_inside_nodes,
+    node_distance_bounds,
     point_parts,
     split_triangles,
     triangle_parts,
 )
-from holdfast.model.cell.outside import FACE_NODES, RADIAL_NODES, half_edges, largest_inverse_distance, tabulate_outside
+from holdfast.model.cell.outside import (
+    FACE_NODES,
+    RADIAL_NODES,
+    half_edges,
+    largest_inverse_distance,
+    tabulate_outside_distances,
+)
 
 FieldData = tuple[
     NodeGrid, FloatArray, NDArray[np.float32], float
@@ -52,7 +58,8 @@ class DistanceField:
     Attributes:
         grid: The nodes, in the object's own frame.
         values: What the signed distance of each node is at least, m.
-        outside: (6, ACROSS, ACROSS, AWAY) what is seen from outside, see :func:`holdfast.model.cell.outside.tabulate_outside`.
+        outside: (6, ACROSS, ACROSS, AWAY) what is seen from outside, see
+            :func:`holdfast.model.cell.outside.tabulate_outside_distances`.
         enclosing_radius: How far any of it is from the middle of the grid, m.
         offset: Taken away from the distance at the end, m: the radius of the balls of a cloud.
     """
@@ -124,18 +131,18 @@ def _compute_surface_field(surface: Triangles) -> FieldData:
     grid = NodeGrid.enclose_box(
         surface.vertices.min(axis=0), surface.vertices.max(axis=0), _RIM_WIDTHS, _MAX_NODES, _MIN_NODE_SPACING_M
     )
-    below, above = bound_distances(grid, triangle_parts(corners, _MAX_EDGE_WIDTHS * grid.width))
-    is_inside = find_inside(grid, surface.vertices, surface.faces, below)
+    below, above = node_distance_bounds(grid, triangle_parts(corners, _MAX_EDGE_WIDTHS * grid.width))
+    is_inside = find_inside_nodes(grid, surface.vertices, surface.faces, below)
     # The foot of a point on the surface is in a cut triangle. A corner of that which is in the same plane, or on the same edge,
     # is within the longest edge over the root of 3 of the foot, and farther from the point by Pythagoras.
     max_edge = half_edges(grid).max() / FACE_NODES
-    outside = tabulate_outside(grid, split_triangles(corners, max_edge).reshape(-1, 3), max_edge / np.sqrt(3))
+    outside = tabulate_outside_distances(grid, split_triangles(corners, max_edge).reshape(-1, 3), max_edge / np.sqrt(3))
     return grid, np.where(is_inside, -above, below), *outside
 
 
 def _compute_cloud_field(centers: FloatArray) -> FieldData:
     grid = NodeGrid.enclose_box(centers.min(axis=0), centers.max(axis=0), _RIM_WIDTHS, _MAX_NODES, _MIN_NODE_SPACING_M)
-    return grid, bound_distances(grid, point_parts(centers))[0], *tabulate_outside(grid, centers, 0.0)
+    return grid, node_distance_bounds(grid, point_parts(centers))[0], *tabulate_outside_distances(grid, centers, 0.0)
 
 
 def _load_or_compute(digest: str, compute: Callable[[], FieldData], offset: float) -> DistanceField:

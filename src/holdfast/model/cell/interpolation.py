@@ -62,19 +62,21 @@ class FieldTables:
     outside: NDArray[np.float32]
 
 
-def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], counts: Sequence[int]) -> FloatArray:
+def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points_per_table: Sequence[int]) -> FloatArray:
     """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` consecutive points belong to field i, in its
     own frame.
     """
-    parameters = np.repeat([field.parameters for field in tables], counts, axis=0) if len(tables) > 1 else tables[0].parameters
+    parameters = (
+        np.repeat([field.parameters for field in tables], points_per_table, axis=0) if len(tables) > 1 else tables[0].parameters
+    )
     node_coordinates = np.clip(np.nan_to_num(_coordinate_kernel().rows(points, parameters)), 0, _MAX_NODE_INDEX).astype(
         np.int64
     )
     cells, corners = np.empty((len(points), 6)), np.empty((len(points), 16))
-    ends = np.cumsum(counts)
-    for field, start, stop in zip(tables, ends - counts, ends, strict=True):
-        _look_up(field.values, node_coordinates[start:stop, :3], 0, cells[start:stop, :3], corners[start:stop, :8])
-        _look_up(
+    ends = np.cumsum(points_per_table)
+    for field, start, stop in zip(tables, ends - points_per_table, ends, strict=True):
+        _read_cell_corners(field.values, node_coordinates[start:stop, :3], 0, cells[start:stop, :3], corners[start:stop, :8])
+        _read_cell_corners(
             field.outside,
             node_coordinates[start:stop, 3:6],
             node_coordinates[start:stop, 6],
@@ -84,7 +86,7 @@ def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], counts
     return _bound_kernel().rows(points, parameters, cells, corners)
 
 
-def _look_up(
+def _read_cell_corners(
     table: NDArray[np.float32], coordinates: IndexArray, block: IndexArray | int, cells: FloatArray, corners: FloatArray
 ) -> None:
     """Write the cells (N, 3) of a block of a table that contain given coordinates (N, 3), or are nearest, and the values at

@@ -111,8 +111,10 @@ class Mesh(GriddedSolid):
                 raise InputError(f"object '{self.name}': {error}") from error
             object.__setattr__(self, "source", Source(Path(self.shape).resolve(), hashlib.sha256(content).hexdigest()))
         else:
-            triangles = mesh.make_triangles(*_split_pair(self.shape, self.name), f"the mesh of object '{self.name}'")
-        _require_metres(triangles.vertices * self.scale, self.name, f"is scale {0.001 * self.scale:g} meant?")
+            triangles = mesh.make_triangles(
+                *_split_vertices_and_faces(self.shape, self.name), f"the mesh of object '{self.name}'"
+            )
+        _reject_implausible_size(triangles.vertices * self.scale, self.name, f"is scale {0.001 * self.scale:g} meant?")
         object.__setattr__(
             self, "surface", self._orient_surface(mesh.Triangles(triangles.vertices * self.scale, triangles.faces))
         )
@@ -168,7 +170,7 @@ class Points(GriddedSolid):
             raise InputError(f"{label} have shape {points.shape}; they must be (N, 3) numbers, at least one point, m")
         if not np.isfinite(points).all():
             raise InputError(f"{label} hold NaN or infinity; leave those points out")
-        _require_metres(points, self.name, "are they in millimetres?")
+        _reject_implausible_size(points, self.name, "are they in millimetres?")
         points.setflags(write=False)
         object.__setattr__(self, "points", points)
 
@@ -189,7 +191,7 @@ class Points(GriddedSolid):
         return cloud_field(self.centres, self.radius, self.digest)
 
 
-def _split_pair(shape: Any, name: str) -> tuple[Any, Any]:
+def _split_vertices_and_faces(shape: Any, name: str) -> tuple[Any, Any]:
     try:
         vertices, faces = shape
     except (TypeError, ValueError) as error:
@@ -197,7 +199,7 @@ def _split_pair(shape: Any, name: str) -> tuple[Any, Any]:
     return vertices, faces
 
 
-def _require_metres(points: FloatArray, name: str, question: str) -> None:
+def _reject_implausible_size(points: FloatArray, name: str, advice: str) -> None:
     farthest = float(np.abs(points).max())
     if farthest > _MAX_COORDINATE_M:
         raise InputError(
@@ -205,7 +207,7 @@ def _require_metres(points: FloatArray, name: str, question: str) -> None:
         )
     extent = float(np.ptp(points, axis=0).max())
     if extent > MAX_OBJECT_SIZE_M:
-        raise InputError(f"object '{name}' is {extent:.4g} m large, more than {MAX_OBJECT_SIZE_M:g} m; {question}")
+        raise InputError(f"object '{name}' is {extent:.4g} m large, more than {MAX_OBJECT_SIZE_M:g} m; {advice}")
 
 
 def _convex_hull(triangles: mesh.Triangles, name: str) -> mesh.Triangles:

@@ -171,7 +171,7 @@ def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
 # ---- distances without a sign ------------------------------------------------------------------------------------
 
 
-def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, FloatArray]:
+def node_distance_bounds(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, FloatArray]:
     """Return lower and upper bounds of the distance of every node from the nearest part, m; they are equal where they are
     exact.
     """
@@ -179,7 +179,7 @@ def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, F
 
     fine_grid = grid.finer_grid
     half_diagonal = HALF_DIAGONAL * fine_grid.width
-    is_seed = _near_distances(fine_grid, parts, half_diagonal * (1 + 1e-9)) <= half_diagonal * (1 + 1e-9)
+    is_seed = _distances_within_band(fine_grid, parts, half_diagonal * (1 + 1e-9)) <= half_diagonal * (1 + 1e-9)
     # Where the nearest seed of each node is; asked for distances, it would tell those of seven times as many nodes.
     nearest = distance_transform_edt(~is_seed, sampling=fine_grid.width, return_distances=False, return_indices=True)
     offsets = fine_grid.width * (nearest[:, ::2, ::2, ::2] - 2 * np.indices(grid.shape))
@@ -191,14 +191,14 @@ def bound_distances(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, F
         )
         * grid.width
     )
-    near_distance = _near_distances(grid, parts, band)
+    near_distance = _distances_within_band(grid, parts, band)
     is_exact = near_distance <= band
     return np.where(is_exact, near_distance, np.maximum(far_distance - half_diagonal * (1 + 1e-9), 0.0)), np.where(
         is_exact, near_distance, far_distance + half_diagonal * (1 + 1e-9)
     )
 
 
-def _node_ranges(grid: NodeGrid, parts: DistanceParts, band: float) -> tuple[IndexArray, IndexArray]:
+def _part_node_boxes(grid: NodeGrid, parts: DistanceParts, band: float) -> tuple[IndexArray, IndexArray]:
     """Return the first node and the numbers of nodes along x, y, and z, (M, 3) each, of the box around each part."""
     last_node = np.array(grid.shape) - 1
     first_node = np.clip(np.ceil((parts.lower - band - grid.origin) / grid.width), 0, last_node).astype(np.int64)
@@ -207,14 +207,14 @@ def _node_ranges(grid: NodeGrid, parts: DistanceParts, band: float) -> tuple[Ind
 
 
 def _count_pairs(grid: NodeGrid, parts: DistanceParts, band: float) -> float:
-    return float(_node_ranges(grid, parts, band)[1].astype(np.float64).prod(axis=1).sum())
+    return float(_part_node_boxes(grid, parts, band)[1].astype(np.float64).prod(axis=1).sum())
 
 
-def _near_distances(grid: NodeGrid, parts: DistanceParts, band: float) -> FloatArray:
+def _distances_within_band(grid: NodeGrid, parts: DistanceParts, band: float) -> FloatArray:
     """Return the distance of every node from the nearest part, m, exact where it is at most ``band``, infinite or larger
     elsewhere.
     """
-    first_nodes, counts = _node_ranges(grid, parts, band)
+    first_nodes, counts = _part_node_boxes(grid, parts, band)
     _, nodes_y, nodes_z = grid.shape
     squared_distances = np.full(int(np.prod(grid.shape)), np.inf)
     for part_indices, (i, j, k) in _part_node_pairs(first_nodes, counts):
@@ -248,7 +248,7 @@ def _part_node_pairs(
 # ---- the sign ----------------------------------------------------------------------------------------------------
 
 
-def find_inside(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, lower_distance: FloatArray) -> BoolArray:
+def find_inside_nodes(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, lower_distance: FloatArray) -> BoolArray:
     """Return the nodes inside a closed surface, and those for which rounding leaves a doubt.
 
     The triangles above a node are counted with their orientation, along z and, as a check, along x. Neighbours that are both
@@ -280,7 +280,7 @@ def _winding_numbers(grid: NodeGrid, vertices: FloatArray, faces: IndexArray) ->
     corners = vertices[faces]
     flat_grid = NodeGrid(grid.origin * [1, 1, 0], grid.width, (grid.shape[0], grid.shape[1], 1))
     lower, upper = corners.min(axis=1) * [1, 1, 0], corners.max(axis=1) * [1, 1, 0]
-    first_nodes, counts = _node_ranges(
+    first_nodes, counts = _part_node_boxes(
         flat_grid, DistanceParts(lower, upper, lambda part_indices, positions: positions[:, 0]), 0.0
     )
     crossings = np.zeros((*grid.shape[:2], grid.shape[2] + 1), dtype=np.int32)

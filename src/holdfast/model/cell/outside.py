@@ -39,7 +39,7 @@ def largest_inverse_distance(grid: NodeGrid) -> float:
     return float(2 / half_edges(grid).max())
 
 
-def tabulate_outside(grid: NodeGrid, samples: FloatArray, sample_gap: float) -> tuple[NDArray[np.float32], float]:
+def tabulate_outside_distances(grid: NodeGrid, samples: FloatArray, sample_gap: float) -> tuple[NDArray[np.float32], float]:
     """Return E and the distance of the farthest sample from the center of the grid, m.
 
     E, (6, ACROSS, ACROSS, AWAY), m, is rounded up: faces (low x, high x, low y, ...), the two coordinates that follow, 1 / r.
@@ -55,7 +55,7 @@ def tabulate_outside(grid: NodeGrid, samples: FloatArray, sample_gap: float) -> 
     half_sizes, offset = half_edges(grid), radial_offset(grid)
     centered = samples - (grid.origin + half_sizes)
     enclosing_radius = float(np.sqrt((centered * centered).sum(axis=1).max()))
-    thinned, thinning_error = _thin_points(centered)
+    thinned, thinning_error = _subsample_points(centered)
     tree = cKDTree(thinned)
     inverse_distances = largest_inverse_distance(grid) * np.linspace(0, 1, RADIAL_NODES) ** 2
     face_coordinates = np.linspace(-1, 1, FACE_NODES)
@@ -82,7 +82,7 @@ def tabulate_outside(grid: NodeGrid, samples: FloatArray, sample_gap: float) -> 
     return rounded_up.reshape(6, FACE_NODES, FACE_NODES, RADIAL_NODES), enclosing_radius
 
 
-def _thin_points(points: FloatArray) -> tuple[FloatArray, float]:
+def _subsample_points(points: FloatArray) -> tuple[FloatArray, float]:
     """Return at most ``_MAX_SURFACE_POINTS`` points (M, 3), and the largest distance of a given point (N, 3) from the nearest
     of them, m.
     """

@@ -13,13 +13,13 @@ from holdfast.core.errors import InputError
 from holdfast.core.files.mesh import Triangles
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm import mjcf
-from holdfast.model.arm.tree import LinkTree, LockedJoints, resolve_ends
+from holdfast.model.arm.tree import LinkTree, LockedJoints, resolve_base_and_tip
 from holdfast.model.arm.urdf import read_tree, robot_element
 from holdfast.model.cell.meshes import Mesh
 from holdfast.model.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
-from holdfast.model.shapes.mjcf_pieces import collect_geoms as collected_geoms
+from holdfast.model.shapes.mjcf_pieces import collect_mjcf_shapes as collected_geoms
 from holdfast.model.shapes.pieces import Missing, Piece, Place
-from holdfast.model.shapes.urdf_pieces import collect_elements as collected_elements
+from holdfast.model.shapes.urdf_pieces import collect_urdf_shapes as collected_elements
 
 
 def cell_arguments_from_urdf(
@@ -34,7 +34,7 @@ def cell_arguments_from_urdf(
     """
     robot = robot_element(path)
     tree = read_tree(robot, path.stem)
-    base, arm_links, place_link = _separate_arm(tree, base, tip, hold)
+    base, arm_links, place_link = _separate_arm_links(tree, base, tip, hold)
     world_to_base = np.linalg.inv(place_link(base)[1])  # type: ignore[index]
 
     def place_in_base(link: str) -> tuple[int, FloatArray] | None:
@@ -55,7 +55,7 @@ def cell_arguments_from_mjcf(path: Path, base: str | None, tip: str | None, hold
         HoldfastError: MuJoCo is not installed.
     """
     model, tree = mjcf.compile_tree(path)
-    _, arm_links, place_link = _separate_arm(tree, base, tip, hold)
+    _, arm_links, place_link = _separate_arm_links(tree, base, tip, hold)
     arm_links = arm_links - {tree.root}  # the world, which is never of the arm
     pieces, missing = collected_geoms(
         model, "collision", lambda body: None if body in arm_links else place_link(body), world=True
@@ -63,13 +63,15 @@ def cell_arguments_from_mjcf(path: Path, base: str | None, tip: str | None, hold
     return _cell_arguments(tree.name, pieces, missing, lambda _: "hull", tree.root)
 
 
-def _separate_arm(tree: LinkTree, base: str | None, tip: str | None, hold: Mapping[str, float]) -> tuple[str, set[str], Place]:
+def _separate_arm_links(
+    tree: LinkTree, base: str | None, tip: str | None, hold: Mapping[str, float]
+) -> tuple[str, set[str], Place]:
     """Return the base, the links of the arm below its first joint, and a function that places links which do not move with the
     arm.
     """
     moving, arm_links = set(), set()
     if any(joint.is_moving for joint in tree.joints.values()):
-        base, tip = resolve_ends(tree, base, tip)
+        base, tip = resolve_base_and_tip(tree, base, tip)
         path = tree.joint_path(base, tip)
         moving = {joint.name for joint in path if not tree.is_fixed(joint, hold)}
         first_moving = next((index for index, joint in enumerate(path) if joint.name in moving), len(path))

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError
 
 from holdfast.core.errors import ArmError
-from holdfast.core.files.yaml import Number, Strict, Three, describe_error, read_mapping
+from holdfast.core.files.yaml import Number, Strict, Three, describe_validation_error, read_mapping
 
 Positive = Annotated[Number, Field(gt=0)]
 
@@ -48,7 +48,7 @@ def parse_capsules(data: dict[str, Any]) -> CapsuleFile:
     try:
         model = CapsuleFile.model_validate(data)
     except ValidationError as error:
-        raise ArmError(describe_error(error, CapsuleFile)) from error
+        raise ArmError(describe_validation_error(error, CapsuleFile)) from error
     if model.radius is None and model.links is None:
         raise ArmError("it gives neither radius nor links, so there are no capsules; give one of them")
     return model

@@ -11,7 +11,7 @@ from holdfast.core.formatting import format_count, format_percent
 from holdfast.core.probability.sobol_sequence import sobol_points
 from holdfast.core.result import Result
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.cell.cell import Cell, as_cell
 from holdfast.model.cell.meshes import GriddedSolid, Mesh, Points
@@ -131,7 +131,7 @@ def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Cl
     ]
     open_cell = replace(loaded_cell, may_touch=[*loaded_cell.may_touch, *((name, "base") for name in base_contacts)])
     obstacles = Obstacles(arm, resolved_clearance.capsules, open_cell)
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     touches = obstacles.pair_distances(lower + (upper - lower) * sobol_points(CHECKED_CONFIGURATIONS, arm.n)) < 0
     by_object = (
         touches.reshape(CHECKED_CONFIGURATIONS, -1, len(loaded_cell)).any(axis=1).mean(axis=0)

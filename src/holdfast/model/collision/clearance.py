@@ -21,14 +21,14 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import Vector, dot_product, select_smallest
 from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import as_configurations, finite_limits
+from holdfast.model.arm.configurations import as_configurations, sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import plane_normal
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.capsules import Capsules, IgnoredPair
 from holdfast.model.collision.changes import pair_lipschitz_bounds
 from holdfast.model.collision.obstacles import Obstacles
-from holdfast.model.collision.segments import LineSegment, closest_parameters, point_distance, separating_wrench
+from holdfast.model.collision.segments import LineSegment, closest_parameters, distance_between_points, separating_wrench
 
 if TYPE_CHECKING:
     from holdfast.model.collision.exact.exactness import ExactQueries
@@ -161,7 +161,7 @@ class Clearance:
     @cached_json
     def _overlap_fractions(self, pairs: list[Pair]) -> list[float]:
         """Return the fraction of configurations in which each pair overlaps."""
-        lower, upper = finite_limits(self.arm)
+        lower, upper = sampling_limits(self.arm)
         q = lower + (upper - lower) * sobol_points(_OVERLAP_SAMPLES, self.arm.n)
         symbols = kinematics.joint_symbols(self.arm)
         # Used once: the virtual machine needs no compilation.
@@ -184,7 +184,7 @@ class Clearance:
 
     def _capsule_axes(self, q: SX) -> list[LineSegment]:
         """Return the axes of the capsules."""
-        moving, _ = kinematics.body_and_joint_frames(self.arm, kinematics.joint_motions(self.arm, q), self._reference_link)
+        moving, _ = kinematics.body_and_joint_frames(self.arm, kinematics.joint_transforms(self.arm, q), self._reference_link)
         axes = []
         for part in self.capsules:
             rotation, position = moving[part.link + 1]
@@ -196,7 +196,7 @@ class Clearance:
     def _pair_distances(self, axes: list[LineSegment], pairs: list[Pair]) -> list[SX]:
         radius_sums = [sum(self.capsules.parts[part].radius for part in pair) for pair in pairs]
         return [
-            point_distance(axes[first], axes[second], *closest_parameters(axes[first], axes[second])) - radius_sum
+            distance_between_points(axes[first], axes[second], *closest_parameters(axes[first], axes[second])) - radius_sum
             for (first, second), radius_sum in zip(pairs, radius_sums, strict=True)
         ]
 
@@ -262,7 +262,7 @@ class Clearance:
 
     @cached_property
     @cached_kernel
-    def _pairs_kernel(self) -> Kernel:
+    def _pair_distances_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("clearance by pair", [q], [ca.vertcat(*self.distances(q))])
 
@@ -305,7 +305,7 @@ class Clearance:
     def by_pair(self, q: ArrayLike) -> FloatArray:
         """Return the distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
-        values = self.alone._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
+        values = self.alone._pair_distances_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         if self.obstacles is not None:
             values = np.concatenate([values, self.obstacles.pair_distances(rows)], axis=1)
         return values[0] if single else values
@@ -317,7 +317,7 @@ class Clearance:
         )
 
     def _smallest_value(self, q: FloatArray, obstacle_values: Callable[[FloatArray], FloatArray] | None) -> FloatArray:
-        values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant_rows(q, np.inf)
+        values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant_if_finite(q, np.inf)
         return values if obstacle_values is None else np.minimum(values, obstacle_values(q))
 
     @cached_property
@@ -381,11 +381,11 @@ class Clearance:
 
     def nearest(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the margin (N,) m and its gradient (N, n) of configurations (N, n)."""
-        margin, gradient = _constant_rows(q, np.inf), np.repeat(_constant_rows(q, 0.0)[:, None], self.arm.n, axis=1)
+        margin, gradient = _constant_if_finite(q, np.inf), np.repeat(_constant_if_finite(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
             margin, gradient = self.alone._value_kernel.rows(q)[:, 0], self.alone._gradient_kernel.rows(q)
         if self.obstacles is not None:
-            obstacle_margin, _, obstacle_gradient = self.obstacles.find_nearest(q)
+            obstacle_margin, _, obstacle_gradient = self.obstacles.nearest_margin_and_gradient(q)
             closer = ~(margin <= obstacle_margin)
             margin, gradient = np.where(closer, obstacle_margin, margin), np.where(closer[:, None], obstacle_gradient, gradient)
         return margin, gradient
@@ -440,6 +440,6 @@ class Clearance:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
 
 
-def _constant_rows(rows: FloatArray, value: float) -> FloatArray:
+def _constant_if_finite(rows: FloatArray, value: float) -> FloatArray:
     """Return ``value`` for every row that is finite, NaN for the others."""
     return np.where(np.isfinite(rows).all(axis=1), value, np.nan)

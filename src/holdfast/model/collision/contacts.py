@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.engines import is_library_installed
 
@@ -84,7 +84,7 @@ def find_first_contacts(
         else lambda instant: np.stack([np.interp(instant, time, column) for column in q.T], axis=1)
     )
     time, q = _refine_instants(time, q, evaluate_motion)
-    lower, upper = finite_limits(clearance.arm)
+    lower, upper = sampling_limits(clearance.arm)
     change_bounds = clearance.lipschitz_bounds(np.minimum(lower, q.min(axis=0)), np.maximum(upper, q.max(axis=0)))
     distances = clearance.by_pair(q)
     while True:
@@ -120,7 +120,9 @@ def find_first_contacts(
                 for index, count in zip(candidates, steps, strict=True)
                 if count
             ]
-            exact_time = _exact_time(clearance, int(pair), np.concatenate([*instants, time[-1:]]), instant, evaluate_motion)
+            exact_time = _exact_contact_time(
+                clearance, int(pair), np.concatenate([*instants, time[-1:]]), instant, evaluate_motion
+            )
         link, _, obstacle = clearance.pair_names[pair].partition(" & ")
         contacts.append(
             Contact(time=instant, link=link, object=obstacle, depth=float(-distances[:, pair].min()), exact_time=exact_time)
@@ -141,7 +143,7 @@ def _refine_instants(
     return time, q
 
 
-def _exact_time(
+def _exact_contact_time(
     clearance: Clearance, pair: int, instants: FloatArray, after: float, evaluate: Callable[[FloatArray], FloatArray]
 ) -> float:
     """Return when the bodies of a pair first touch at one of some instants, or between it and the previous;

@@ -71,7 +71,7 @@ def make_cover(shape: CollisionModel, arm: Arm, spheres_to: float = MAX_MEAN_EXC
         for (first, (first_capsule, first_owners)), (second, (second_capsule, second_owners)) in combinations(
             enumerate(capsules), 2
         )
-        if first_capsule.link != second_capsule.link and _is_unchecked(shape, first_owners, second_owners)
+        if first_capsule.link != second_capsule.link and _are_links_unchecked(shape, first_owners, second_owners)
     ]
     source = _describe_cover(shape, arm, len(rows), mean_excess, max_excess)
     return Capsules(tuple(part for part, _ in capsules), apart=tuple(unchecked_pairs), source=source, shape=shape)
@@ -83,7 +83,7 @@ def _load_built_in_covers() -> dict[str, Any]:
     return dict(json.loads((DATA_FOLDER / "covers.json").read_text()))
 
 
-def _is_unchecked(shape: CollisionModel, owners: list[str], others: list[str]) -> bool:
+def _are_links_unchecked(shape: CollisionModel, owners: list[str], others: list[str]) -> bool:
     """Return True if no link that one capsule covers is to be checked against one that the other covers."""
     pairs = [(min(first, second), max(first, second)) for first in owners for second in others]
     return bool(pairs) and shape.unchecked.issuperset(pairs)
@@ -133,7 +133,7 @@ def fit_capsules(shape: CollisionModel, max_mean_excess: float) -> Any:
         bodies: list[_CoveredBody] = []
         for owner, owned in groupby(sorted(link_pieces, key=lambda item: item.owner), key=lambda item: item.owner):
             pieces = list(owned)
-            rows += [_exact_row(piece) for piece in pieces if piece.kind in ("capsule", "sphere")]
+            rows += [_capsule_row_of_piece(piece) for piece in pieces if piece.kind in ("capsule", "sphere")]
             bodies += _cover_triangles(
                 [_piece_triangles(item) for item in pieces if item.kind not in ("capsule", "sphere")], owner, max_mean_excess
             )
@@ -145,7 +145,7 @@ def fit_capsules(shape: CollisionModel, max_mean_excess: float) -> Any:
     return rows, float(np.mean(mean_excesses[1:] or mean_excesses)), max(max_excesses)
 
 
-def _exact_row(piece: Piece) -> list[Any]:
+def _capsule_row_of_piece(piece: Piece) -> list[Any]:
     radius, *length = piece.size
     ends = [(piece.pose[:3, 3] + piece.pose[:3, 2] * offset / 2).tolist() for offset in (-sum(length), sum(length))]
     return [piece.link, *ends, radius, [piece.owner]]
@@ -242,11 +242,11 @@ def _make_body(
     excesses = (
         np.maximum(sampled_directions @ start, sampled_directions @ end) + radius - (sampled_directions @ points.T).max(axis=1)
     )
-    excess = float(excesses.mean()) + _hollow_distance(points, faces, cuts)
+    excess = float(excesses.mean()) + _mean_hull_gap(points, faces, cuts)
     return _CoveredBody(points, faces, owners, cuts, (start, end, radius), excess, float(excesses.max()))
 
 
-def _hollow_distance(points: FloatArray, faces: Triangles, cuts: tuple[tuple[FloatArray, float], ...]) -> float:
+def _mean_hull_gap(points: FloatArray, faces: Triangles, cuts: tuple[tuple[FloatArray, float], ...]) -> float:
     """Return the mean distance, m, of the hull's surface from the triangles; the planes of cuts do not count."""
     from scipy import spatial  # takes long to import, and is needed once for each shape
 

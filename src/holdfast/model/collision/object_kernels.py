@@ -46,7 +46,7 @@ def distance_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
 
 
 @cached_kernel
-def nearest_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
+def nearest_gradient_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
     """Compile the least distance from a block, the position of its link, the object in the block, and the gradient (n,)."""
     q, objects, sphere_positions = _kernel_symbols(arm, spheres)
     best: Vector = []
@@ -78,7 +78,7 @@ def _kernel_symbols(arm: ArmData, spheres: SphereCover) -> tuple[SX, SX, list[Ve
 def sphere_centers(arm: ArmData, spheres: SphereCover) -> tuple[SX, list[Vector]]:
     """Return joint variables (n,), and the center of each moving sphere, (3,) in the world, m."""
     q = kinematics.joint_symbols(arm)
-    moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, q))
+    moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
     centers = []
     for sphere in np.flatnonzero(spheres.link > BASE_LINK):
         rotation, position = moving[spheres.link[sphere] + 1]
@@ -99,7 +99,7 @@ def directional_jacobian(arm: ArmData, q: SX, link: SX, point: Sequence[SX], dir
 
 
 @cache
-def outward_kernel() -> Kernel:
+def outward_gradient_kernel() -> Kernel:
     """Compile the gradient (3,) in the world of the signed distance at a point (3,), of an object's parameters (18,)."""
     point, numbers = ca.SX.sym("point", 3), ca.SX.sym("numbers", OBJECT_PARAMETERS)
     return Kernel(
@@ -118,7 +118,10 @@ def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], num
         for radius, sphere_group in groupby(by_radius, radii.__getitem__):
             nearest: Vector = []
             for sphere in sphere_group:
-                candidate = [_square_or_depth(_object_terms(numbers, sphere_positions[sphere])[2]), *sphere_positions[sphere]]
+                candidate = [
+                    _squared_distance_or_depth(_point_in_object_frame(numbers, sphere_positions[sphere])[2]),
+                    *sphere_positions[sphere],
+                ]
                 nearest = _select_vector(candidate[0] < nearest[0], candidate, nearest) if nearest else candidate
             value, *point = nearest
             root = ca.sqrt(_positive_part(value))
@@ -128,7 +131,7 @@ def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], num
     return results
 
 
-def _object_terms(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vector]:
+def _point_in_object_frame(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vector]:
     """Return the point in the object's frame, its distance from the center along each axis, and that less the half sizes."""
     local_point: Vector = [
         numbers[9 + axis] + sum(numbers[3 * axis + column] * point[column] for column in range(3)) for axis in range(3)
@@ -143,7 +146,7 @@ def _object_terms(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vec
     return local_point, extents, [extents[axis] - numbers[12 + axis] for axis in range(3)]
 
 
-def _square_or_depth(d: Vector) -> SX:
+def _squared_distance_or_depth(d: Vector) -> SX:
     """Return the square of the distance outside, the signed distance inside, of an object without rounding."""
     depth = _maximum(d)
     return ca.if_else(depth > 0, _outside_square(d), depth)
@@ -167,7 +170,7 @@ def _maximum(d: Vector) -> SX:
 
 def _outward_gradient(numbers: SX, point: Sequence[SX]) -> Vector:
     """Return the gradient (3,) in the world of the signed distance, a unit vector; 0 in the middle of a sphere or an axis."""
-    local_point, extents, excess = _object_terms(numbers, point)
+    local_point, extents, excess = _point_in_object_frame(numbers, point)
     depth, length = _maximum(excess), ca.sqrt(_outside_square(excess))
     outside = depth > 0
     faces_taken: SX = 0.0  # inside, the first of the faces that are nearest
@@ -226,10 +229,10 @@ class FormulaObjects:
 
     @cached_property
     def _nearest_kernel(self) -> Kernel:
-        return nearest_kernel(self.arm, self.spheres)
+        return nearest_gradient_kernel(self.arm, self.spheres)
 
     @cached_property
-    def _plain_blocks(self) -> FloatArray:
+    def _uninflated_blocks(self) -> FloatArray:
         return self._pack_blocks(np.zeros(len(self.objects)))
 
     @cached_property
@@ -248,20 +251,24 @@ class FormulaObjects:
         rows += [far_object] * (-len(rows) % BLOCK_OBJECTS)
         return np.array(rows).reshape(-1, BLOCK_OBJECTS, len(far_object))
 
-    def _evaluate_blocks(self, kernel: Kernel, q: FloatArray, blocks: FloatArray, first: int | None = None) -> list[FloatArray]:
+    def _evaluate_blocks(
+        self, kernel: Kernel, q: FloatArray, blocks: FloatArray, output_count: int | None = None
+    ) -> list[FloatArray]:
         """Evaluate a kernel on each block, (N, outputs) each."""
         if len(q) == 1:  # one call: the blocks are its rows
-            return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
-        return [kernel.rows(q, block, first=first) for block in blocks]
+            return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=output_count)[:, None])
+        return [kernel.rows(q, block, first=output_count) for block in blocks]
 
     def _smallest_distance(self, q: FloatArray, blocks: FloatArray) -> FloatArray:
         if not (self.objects and self._links):
             return np.where(np.isfinite(q).all(axis=1), np.inf, np.nan)
-        return reduce(np.minimum, [rows[:, 0] for rows in self._evaluate_blocks(self._distance_kernel, q, blocks, first=1)])
+        return reduce(
+            np.minimum, [rows[:, 0] for rows in self._evaluate_blocks(self._distance_kernel, q, blocks, output_count=1)]
+        )
 
     def smallest_distance(self, q: FloatArray) -> FloatArray:
         """Return the least distance (N,), m; infinite without an object, NaN for rows (N, n) that are not finite."""
-        return self._smallest_distance(q, self._plain_blocks)
+        return self._smallest_distance(q, self._uninflated_blocks)
 
     def smallest_margin(self, q: FloatArray) -> FloatArray:
         """Return the least distance above the margins (N,), m."""
@@ -271,18 +278,18 @@ class FormulaObjects:
         """Return a lower bound (N, L, F) of the distance of every link from every object, m."""
         rows = [
             outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)
-            for outputs in self._evaluate_blocks(self._distance_kernel, q, self._plain_blocks)
+            for outputs in self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks)
         ]
         return np.concatenate([np.empty((len(q), self._links, 0)), *rows], axis=2)[:, :, : len(self.objects)]
 
-    def single_blocks(self) -> list[SingleRowKernel]:
-        """Return :func:`nearest_kernel` of each block for one configuration at a time: the first n of its inputs."""
+    def single_row_kernels(self) -> list[SingleRowKernel]:
+        """Return :func:`nearest_gradient_kernel` of each block for one configuration at a time: the first n of its inputs."""
         kernels = [self._nearest_kernel.single_row() for _ in self._inflated_blocks]
         for single_kernel, block in zip(kernels, self._inflated_blocks, strict=True):
             single_kernel.inputs[self.arm.n :] = block.ravel()
         return kernels
 
-    def find_nearest(self, q: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
+    def nearest_margin_and_gradient(self, q: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
         """Return the least distance above the margins, m, the position of its link, its object, and the gradient (N, n).
 
         Args:

@@ -24,7 +24,7 @@ from holdfast.model.cell.meshes import GriddedSolid
 from holdfast.model.cell.solids import PrimitiveSolid, Solid
 from holdfast.model.collision.capsules import BASE_LINK, Capsules, link_name
 from holdfast.model.collision.changes import link_lipschitz_bounds
-from holdfast.model.collision.object_kernels import FAR_AWAY_M, FormulaObjects, outward_kernel
+from holdfast.model.collision.object_kernels import FAR_AWAY_M, FormulaObjects, outward_gradient_kernel
 from holdfast.model.collision.objects.end_links import EndLinks
 from holdfast.model.collision.objects.gridded import GriddedObjects
 from holdfast.model.collision.sphere_cover import SphereCover, make_sphere_cover
@@ -96,7 +96,7 @@ class Obstacles:
                 f"make it one of the solids of holdfast.model.cell"
             )
         self.may_touch = self._allowed_contacts()
-        self._check_base()
+        self._check_base_contacts()
 
     # ---- what is looked at ---------------------------------------------------------------------------------------
 
@@ -113,7 +113,7 @@ class Obstacles:
             allowed[links.index(link), names.index(object_name)] = True
         return allowed
 
-    def _check_base(self) -> None:
+    def _check_base_contacts(self) -> None:
         """Check the contacts of the base, which does not move, so that any contact is permanent.
 
         Raises:
@@ -167,7 +167,7 @@ class Obstacles:
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
-    def find_nearest(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
+    def nearest_margin_and_gradient(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
         """Return the smallest distance (N,) above the margin of its pair, m, the pair, and the gradient (N, n).
 
         Args:
@@ -176,10 +176,10 @@ class Obstacles:
         count = len(self.cell)
         margin, pair, gradient = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
         if len(self._formula_indices) and len(self.links):
-            margin, link, object_index, gradient = self._formula_objects.find_nearest(q)
+            margin, link, object_index, gradient = self._formula_objects.nearest_margin_and_gradient(q)
             pair = np.where(np.isnan(margin), np.nan, link * count + self._formula_indices[object_index])
         if self._gridded_objects is not None:
-            grid_margin, link, object_index, grid_gradient = self._gridded_objects.find_nearest(
+            grid_margin, link, object_index, grid_gradient = self._gridded_objects.nearest_margin_and_gradient(
                 q, self._own_margins[self._grid_indices]
             )
             closer = ~(margin <= grid_margin)
@@ -189,10 +189,10 @@ class Obstacles:
             )
         return margin, np.where(np.isnan(pair), -1, pair).astype(np.int64), gradient
 
-    def single_blocks(self) -> list[SingleRowKernel]:
+    def single_row_kernels(self) -> list[SingleRowKernel]:
         """Return the kernels for one configuration at a time, by block of objects; none with objects that have grids."""
         formulas = len(self._formula_indices) and len(self.links) and self._gridded_objects is None
-        return self._formula_objects.single_blocks() if formulas else []
+        return self._formula_objects.single_row_kernels() if formulas else []
 
     def smallest_margin(self, q: FloatArray) -> FloatArray:
         """Return the least distance above the margin of its pair, (N,) m."""
@@ -219,17 +219,17 @@ class Obstacles:
             distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
         return distances.reshape(len(q), len(self.pairs))
 
-    def never_collision_free(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+    def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
         """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
         its own.
 
         Proved by the places that the last two links can have, for objects with a formula; False proves nothing.
         """
-        return self._end_links.are_too_close(poses, margin)
+        return self._end_links.are_poses_too_close(poses, margin)
 
     def find_nearest_gap(self, q: FloatArray) -> NearestGap:
         """Return the pair with the smallest margin at one configuration (n,)."""
-        margin, pair, _ = (value[0] for value in self.find_nearest(q[None]))
+        margin, pair, _ = (value[0] for value in self.nearest_margin_and_gradient(q[None]))
         link, object_index = self.pairs[pair]
         solid, on_link = self.cell.objects[object_index], self.spheres.link == link
         pose = self.arm.frames(q)[link + 1]
@@ -238,7 +238,7 @@ class Obstacles:
         nearest_sphere = int((distances - self.spheres.radius[on_link]).argmin())
         center = centers[nearest_sphere]
         if isinstance(solid, PrimitiveSolid):
-            gradient = outward_kernel()(center, solid.numbers())
+            gradient = outward_gradient_kernel()(center, solid.numbers())
         else:
             gradient = solid.distance_and_gradient(center)[1]
         outward = gradient / max(float(np.linalg.norm(gradient)), 1e-300)

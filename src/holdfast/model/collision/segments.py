@@ -52,7 +52,7 @@ def closest_parameters(a: LineSegment, b: LineSegment) -> tuple[SX, SX]:
     return _clip_to_unit((span_product * t - along_a) / a.square), t
 
 
-def point_distance(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
+def distance_between_points(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
     """Return the distance of the points at s on a and t on b, at least 1e-12 m; with :func:`closest_parameters`, that of the
     segments.
     """
@@ -68,7 +68,7 @@ def separating_wrench(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
     does on the way of its point. Where the axes cross there is no direction, and the force fades to 0 within 1e-12 m.
     """
     point = b.point_at(t)
-    force = (point - a.point_at(s)) / point_distance(a, b, s, t)
+    force = (point - a.point_at(s)) / distance_between_points(a, b, s, t)
     return ca.vertcat(ca.cross(point, force), force)
 
 

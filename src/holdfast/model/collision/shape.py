@@ -141,12 +141,12 @@ def make_hull(piece: Piece) -> PieceHull:
     )
 
 
-def corner_points(piece: Piece, inside: bool = False) -> FloatArray:
-    """Return points (V, 3) in the frame of the link whose hull contains the piece; with ``inside``, is contained in it.
+def corner_points(piece: Piece, inscribed: bool = False) -> FloatArray:
+    """Return points (V, 3) in the frame of the link whose hull contains the piece; with ``inscribed``, is contained in it.
 
     The hull is the piece itself for a box and a convex mesh.
     """
-    points = piece.vertices if piece.kind == "mesh" else _primitive_corners(piece, inside)
+    points = piece.vertices if piece.kind == "mesh" else _primitive_corners(piece, inscribed)
     return np.asarray(points @ piece.pose[:3, :3].T + piece.pose[:3, 3])
 
 

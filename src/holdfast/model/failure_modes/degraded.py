@@ -65,7 +65,10 @@ class Degraded:
         """
         stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
         left = {name: _check_range(arm, name, ends) for name, ends in _values_by_name(arm, ranges or {}, "ranges").items()}
-        slow = {name: _check_fraction(arm, name, value) for name, value in _values_by_name(arm, speeds or {}, "speeds").items()}
+        slow = {
+            name: _check_speed_fraction(arm, name, value)
+            for name, value in _values_by_name(arm, speeds or {}, "speeds").items()
+        }
         if not (stands or left or slow):
             raise InputError(f"nothing of '{arm.name}' is degraded; give locked, ranges or speeds")
         for name in [*left, *slow]:
@@ -77,12 +80,12 @@ class Degraded:
     @property
     def lo(self) -> FloatArray:
         """(n,) lower limits in force, rad or m; of a locked joint its value, NaN where that is not known (see :meth:`at`)."""
-        return self._limits_on_side(0)
+        return self._lower_or_upper_limits(0)
 
     @property
     def hi(self) -> FloatArray:
         """(n,) upper limits in force, likewise."""
-        return self._limits_on_side(1)
+        return self._lower_or_upper_limits(1)
 
     @property
     def v(self) -> FloatArray:
@@ -125,7 +128,7 @@ class Degraded:
             raise InputError(f"what is degraded belongs to '{self.arm.name}', not to '{arm.name}'; make it with this arm")
         return self
 
-    def _limits_on_side(self, side: int) -> FloatArray:
+    def _lower_or_upper_limits(self, side: int) -> FloatArray:
         bounds: FloatArray = np.stack([self.limited.lower, self.limited.upper])[side]
         for name, value in self.locked.items():
             bounds[self.arm.joint_index(name)] = np.nan if value is None else value
@@ -141,7 +144,7 @@ class Degraded:
         """
         from pydantic import ValidationError
 
-        from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+        from holdfast.core.files.yaml import Number, Strict, describe_validation_error, read_mapping
 
         class File(Strict):
             locked: list[str] | dict[str, Number | None] | None = None
@@ -152,7 +155,7 @@ class Degraded:
             file_content = File.model_validate(read_mapping(Path(path), "holdfast.Degraded", "locked, range or speed"))
             return cls(arm, locked=file_content.locked or (), ranges=file_content.range, speeds=file_content.speed)
         except ValidationError as error:
-            raise InputError(f"failure file '{path}': {describe_error(error, File)}") from error
+            raise InputError(f"failure file '{path}': {describe_validation_error(error, File)}") from error
         except HoldfastError as error:
             raise InputError(f"failure file '{path}': {error}") from error
 
@@ -203,12 +206,12 @@ _Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str
 Locked = _Mapping | str | int | Iterable[str | int] | Degraded
 
 
-def _values_by_name(arm: Arm, given: Mapping[Any, Any], what: str) -> dict[str, Any]:
+def _values_by_name(arm: Arm, values_by_joint: Mapping[Any, Any], quantity: str) -> dict[str, Any]:
     values: dict[str, Any] = {}
-    for joint, value in given.items():
+    for joint, value in values_by_joint.items():
         name = arm.joint_names[arm.joint_index(joint)]
         if name in values:
-            raise InputError(f"{what} gives joint '{name}' twice; give each joint once")
+            raise InputError(f"{quantity} gives joint '{name}' twice; give each joint once")
         values[name] = value
     return values
 
@@ -230,7 +233,7 @@ def _check_range(arm: Arm, name: str, ends_given: ArrayLike) -> tuple[float, flo
     return low, high
 
 
-def _check_fraction(arm: Arm, name: str, given: Any) -> float:
+def _check_speed_fraction(arm: Arm, name: str, given: Any) -> float:
     number = require_real_numbers(given, f"the speed of '{name}'", "a fraction of its velocity limit")
     if number.ndim or not 0 < number <= 1:
         raise InputError(f"the speed of '{name}' is {given!r}; give a fraction of its velocity limit, above 0 and at most 1")

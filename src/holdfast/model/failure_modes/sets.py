@@ -14,7 +14,7 @@ import numpy as np
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.labels import FAILURE_SET_SIZES, TASK_SIZES, is_count
-from holdfast.core.progress import warn_now
+from holdfast.core.progress import print_warning
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
@@ -107,7 +107,7 @@ def read_joint(arm: Arm, text: str) -> int:
         k = arm.joint_index(text)
         if is_count(text) and 1 <= int(text) <= arm.n and int(text) != k + 1:
             other = arm.joint_names[int(text) - 1]
-            warn_now(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
+            print_warning(f"'{text}' is taken as the name of joint {k + 1}, not as number {text}, which is joint '{other}'")
         return k
     if is_count(text):
         if 1 <= int(text) <= arm.n:

@@ -23,10 +23,12 @@ def read_mjcf_pieces(
     what is drawn are the others, or all where there are no others on a body.
     """
     model, tree = mjcf.compile_tree(file)
-    return collect_geoms(model, purpose, LinkCarriers(tree, arm, hold).place)
+    return collect_mjcf_shapes(model, purpose, LinkCarriers(tree, arm, hold).locate_link)
 
 
-def collect_geoms(model: Any, purpose: Purpose, find_pose: Place, world: bool = False) -> tuple[list[Piece], list[Missing]]:
+def collect_mjcf_shapes(
+    model: Any, purpose: Purpose, find_pose: Place, world: bool = False
+) -> tuple[list[Piece], list[Missing]]:
     """Return the shapes of the bodies that have a pose (those of the world only on request) and the unreadable ones."""
     mujoco = mjcf.import_mujoco()
     kinds: dict[int, Kind] = {
@@ -78,7 +80,7 @@ def collect_geoms(model: Any, purpose: Purpose, find_pose: Place, world: bool = 
     return pieces, missing
 
 
-def excluded_pairs(file: Path) -> frozenset[tuple[str, str]]:
+def read_excluded_contacts(file: Path) -> frozenset[tuple[str, str]]:
     """Return the pairs of bodies whose contacts the model excludes, each in alphabetical order."""
     model, _ = mjcf.compile_tree(file)
     pairs = [(int(x) >> 16, int(x) & 0xFFFF) for x in model.exclude_signature]

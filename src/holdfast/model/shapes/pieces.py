@@ -89,12 +89,12 @@ class LinkCarriers:
         self._numbers: dict[str, int] = {name: k for k, name in enumerate(arm.joint_names)}
         for k, joint in enumerate(arm.joints):
             there = tree.joints.get(joint.name)
-            place = None if there is None else self.place(there.parent)
+            place = None if there is None else self.locate_link(there.parent)
             same = place is not None and there is not None and place[0] == k - 1
             if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_POSE_TOLERANCE)):  # type: ignore[index, union-attr]
                 raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
 
-    def place(self, link: str) -> tuple[int, FloatArray] | None:
+    def locate_link(self, link: str) -> tuple[int, FloatArray] | None:
         """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
         base.
         """

@@ -61,11 +61,11 @@ def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
     if root_element_name(arm.chain.file) == "mujoco":
         from holdfast.model.shapes import mjcf_pieces
 
-        return mjcf_pieces.excluded_pairs(Path(arm.chain.file))
+        return mjcf_pieces.read_excluded_contacts(Path(arm.chain.file))
     return urdf.read_disabled_pairs(Path(arm.chain.srdf)) if arm.chain.srdf else frozenset()
 
 
-def with_meshes(arm: Arm, folder: str | Path) -> Arm:
+def with_mesh_folder(arm: Arm, folder: str | Path) -> Arm:
     """Return the same arm with a folder that is searched first for its meshes.
 
     Raises:

@@ -24,12 +24,12 @@ def read_urdf_pieces(
 ) -> tuple[list[Piece], list[Missing]]:
     """See :func:`holdfast.model.shapes.reading.read_pieces`; ``folder`` has the meshes."""
     robot = robot_element(file)
-    return collect_elements(
-        robot, file, purpose, LinkCarriers(read_tree(robot, file.stem), arm, hold).place, folder, open_files
+    return collect_urdf_shapes(
+        robot, file, purpose, LinkCarriers(read_tree(robot, file.stem), arm, hold).locate_link, folder, open_files
     )
 
 
-def collect_elements(
+def collect_urdf_shapes(
     robot: ElementTree.Element, file: Path, purpose: Purpose, find_pose: Place, folder: Path | None, open_files: bool = True
 ) -> tuple[list[Piece], list[Missing]]:
     """Return the shapes of the links that have a pose, and the shapes that could not be read."""

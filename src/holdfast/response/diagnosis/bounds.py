@@ -20,7 +20,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis.fitting import fit_masses_and_friction, scale_masses
-from holdfast.response.diagnosis.plausibility import prepare_log, require_explained, require_following
+from holdfast.response.diagnosis.plausibility import prepare_log, require_explained_torques, require_reference_tracking
 from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S, compute_signals
 from holdfast.response.faults.log import Log
 
@@ -284,8 +284,8 @@ def calibrate(
     for log in logs:
         if abs(log.rate / rate - 1) > RATE_TOLERANCE:
             raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
-    require_following(arm, logs)
-    require_explained(arm, logs, coulomb=coulomb_friction, viscous=viscous_friction)
+    require_reference_tracking(arm, logs)
+    require_explained_torques(arm, logs, coulomb=coulomb_friction, viscous=viscous_friction)
     scales = np.ones(arm.n)
     if fit:
         scales, coulomb_friction, viscous_friction = fit_masses_and_friction(arm, logs, coulomb_friction, viscous_friction)

@@ -171,9 +171,11 @@ class AlarmDecision:
         """
         if self._sensor_suspected and (self.count >= self._isolation_cycles or last):
             return self._sensor_verdict()
-        if self.force_advantage > PUSHED and not (self._classifier is not None and self._classifier.exceeds_push_error):
+        if self.force_advantage > PUSHED and not (
+            self._classifier is not None and self._classifier.exceeds_external_force_error
+        ):
             reason = ("a force on a link explains all rows",)
-            suspect = self._find_lone_joint()
+            suspect = self._find_sole_exceeding_joint()
             return FaultVerdict(
                 True, self._alarm_time, kind="contact", candidates=("contact",), suspect=suspect, evidence=reason
             )
@@ -192,10 +194,10 @@ class AlarmDecision:
         classification: dict[str, Any] = self._classifier.classify(joint.unit, () if self._has_tool else ("sensor",))
         classification["evidence"] = reason + classification["evidence"]
         if classification["kind"] == "contact":
-            return FaultVerdict(True, self._alarm_time, suspect=self._find_lone_joint(), **classification)
+            return FaultVerdict(True, self._alarm_time, suspect=self._find_sole_exceeding_joint(), **classification)
         return FaultVerdict(True, self._alarm_time, joint=joint.name, **classification)
 
-    def _find_lone_joint(self) -> str | None:
+    def _find_sole_exceeding_joint(self) -> str | None:
         """Return the joint that alone was above its bound, on average over the cycles that isolate it."""
         above_bound = np.flatnonzero(self._residual_sizes > self._isolation_cycles)
         return self._arm.joint_names[above_bound[0]] if above_bound.size == 1 else None
@@ -215,16 +217,16 @@ class AlarmDecision:
         return FaultVerdict(True, self._alarm_time, joint=joint, kind="sensor", candidates=candidates, evidence=reasons)
 
 
-def _force_advantage(arm: Arm, q: FloatArray, change: FloatArray, scale: FloatArray) -> float:
+def _force_advantage(arm: Arm, q: FloatArray, residual_change: FloatArray, scale: FloatArray) -> float:
     """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
 
     Args:
         arm: The arm.
         q: (n,) where it is, rad and m.
-        change: (n,) N m and N.
+        residual_change: (n,) N m and N.
         scale: (n,) its deviations.
     """
-    ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), change / scale
+    ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), residual_change / scale
     smallest_error = np.inf
     for index, end in enumerate(ends):
         columns = (jacobian[:3] + np.cross(jacobian[3:].T, end - ends[-1]).T).T / scale[:, None]

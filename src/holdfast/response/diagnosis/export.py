@@ -13,7 +13,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from holdfast.control.laws.c_functions import CFunction, fill_template, write_c_comment, write_c_functions
+from holdfast.control.laws.c_functions import CFunction, fill_template, generate_c_functions, write_c_comment
 from holdfast.control.laws.export import check_name, holdfast_version, quote_c_string
 from holdfast.core.files.output import write_files
 from holdfast.core.progress import reports_progress
@@ -178,7 +178,7 @@ def _model_functions(arm: Arm, bounds: Bounds) -> dict[str, CFunction]:
     """Return the functions of the arm's equations, from the same graph as the Python monitor."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
-    moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, q))
+    moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
     link_ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # of links, from the tool
     tool_outputs = {"there": [pose[:3, :3].T, pose[:3, 3]], "jacobian": [kinematics.world_jacobian(arm, q)], "ends": link_ends}
     functions = {"tool": CFunction({"q": q}, tool_outputs)}
@@ -245,7 +245,7 @@ def _pose_weights(sensors: Sensors) -> FloatArray:
 def _model_source(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
     """Return names, bounds, and the functions of the arm's equations as C source."""
     functions = _model_functions(arm, bounds)
-    source = write_c_functions(functions)
+    source = generate_c_functions(functions)
     joints = ", ".join(quote_c_string(quantity) for quantity in arm.joint_names)
     source += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
     source += "".join(_c_array(f"{quantity}_bound", getattr(bounds, quantity)) for quantity in ("torque", "change", "tracking"))

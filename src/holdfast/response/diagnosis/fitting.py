@@ -14,7 +14,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.model.arm.kinematics import joint_symbols
 from holdfast.model.arm.machine import Link
 from holdfast.model.arm.model import Arm
-from holdfast.response.diagnosis.gaps import LogSegment, complete_rows, log_segments
+from holdfast.response.diagnosis.gaps import LogSegment, complete_row_mask, split_at_gaps
 from holdfast.response.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_terms, observe_residuals
 from holdfast.response.faults.log import Log
 
@@ -68,7 +68,7 @@ def fit_masses_and_friction(
     for log in logs:
         if log.tau is None:
             continue
-        residual = partial(_sample_residuals, segments=[*log_segments(log, complete_rows(log))], rate=log.rate)
+        residual = partial(_residuals_per_time_constant, segments=[*split_at_gaps(log, complete_row_mask(log))], rate=log.rate)
         nominal_residual = residual(nominal, coulomb, viscous)
         deviation = np.maximum(nominal_residual.std(axis=0), 1e-6) if deviation is None else deviation
         columns = np.zeros((*nominal_residual.shape, 3 * joint_count))
@@ -92,7 +92,7 @@ def fit_masses_and_friction(
     return np.asarray(1 + solution[:joint_count]), np.maximum(dry_friction, 0.0), np.maximum(viscous_friction, 0.0)
 
 
-def _sample_residuals(
+def _residuals_per_time_constant(
     kernel: Kernel, coulomb: FloatArray, viscous: FloatArray, *, segments: Sequence[LogSegment], rate: float
 ) -> FloatArray:
     """Return residuals of a recording, one for each time constant of the observer."""

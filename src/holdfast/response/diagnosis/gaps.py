@@ -31,7 +31,7 @@ def count_cycles(seconds: float, dt: float) -> int:
     return max(1, round(seconds / dt))
 
 
-def complete_rows(log: Log) -> NDArray[np.bool_]:
+def complete_row_mask(log: Log) -> NDArray[np.bool_]:
     """Return the mask (T,) of the rows in which all joint signals have numbers.
 
     Raises:
@@ -44,8 +44,8 @@ def complete_rows(log: Log) -> NDArray[np.bool_]:
     return np.asarray(is_complete)
 
 
-def log_segments(log: Log, is_complete: NDArray[np.bool_]) -> Iterator[LogSegment]:
-    """Yield the segments of a recording between its long gaps; ``is_complete`` is the mask of :func:`complete_rows`."""
+def split_at_gaps(log: Log, is_complete: NDArray[np.bool_]) -> Iterator[LogSegment]:
+    """Yield the segments of a recording between its long gaps; ``is_complete`` is the mask of :func:`complete_row_mask`."""
     period, rows = 1 / log.rate, np.flatnonzero(is_complete)
     max_gap = count_cycles(MAX_BRIDGED_GAP_S, period)
     for index, segment_rows in enumerate(np.split(rows, np.flatnonzero(np.diff(rows) > max_gap + 1) + 1)):

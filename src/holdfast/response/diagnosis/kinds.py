@@ -102,11 +102,11 @@ class FaultClassifier:
         self._ts += torque * slip
 
     @property
-    def exceeds_push_error(self) -> bool:
+    def exceeds_external_force_error(self) -> bool:
         """True if the joint is farther from its reference than an external force moves a joint with an intact motor."""
         return self._tracking_error > LOST * self._bounds[1]
 
-    def classify(self, unit: str, unless_seen: tuple[str, ...]) -> dict[str, Any]:
+    def classify(self, unit: str, candidates_without_pose: tuple[str, ...]) -> dict[str, Any]:
         """Return kind, loss, candidates, and evidence.
 
         A motor can lose all that it is asked for and no more. A joint that follows against its motor, and needs a torque to
@@ -114,7 +114,7 @@ class FaultClassifier:
 
         Args:
             unit: Of the joint.
-            unless_seen: What remains possible where the tool's pose is not measured.
+            candidates_without_pose: What remains possible where the tool's pose is not measured.
         """
         travel, reference_travel = (max(highest - lowest, 0.0) for lowest, highest in (self._q_range, self._reference_range))
         is_still = travel < STILL and travel < PART * reference_travel + NOISE_FACTOR * self._sensor_noise
@@ -136,7 +136,9 @@ class FaultClassifier:
             }
 
         if not self._has_torques:
-            return make_answer(*(("locked", ("locked", "standstill", *unless_seen)) if is_still else ("unknown", ())))
+            return make_answer(
+                *(("locked", ("locked", "standstill", *candidates_without_pose)) if is_still else ("unknown", ()))
+            )
         loss = float(np.clip(-self._rt / self._tt, 0.0, 1.3)) if self._tt > 0 else np.nan
         drag = max(0.0, -self._rs / max(self._ss, 1e-12))
         loss_error = self._rr + 2 * loss * self._rt + loss**2 * self._tt
@@ -144,10 +146,10 @@ class FaultClassifier:
         if is_still and self._max_requested_torque >= TIMES * self._coulomb:
             if FRICTION_LOSS_RANGE[0] < loss < FRICTION_LOSS_RANGE[1] and self._min_gravity_torque < TIMES * self._coulomb:
                 evidence.append("friction may hold it: gravity on it is small")
-                return make_answer("standstill", ("locked", "limp", *unless_seen), loss)
-            return make_answer("locked", ("locked", *unless_seen))
+                return make_answer("standstill", ("locked", "limp", *candidates_without_pose), loss)
+            return make_answer("locked", ("locked", *candidates_without_pose))
         if not min(loss_error, drag_error) < 0.5 * self._rr:
-            return make_answer("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *unless_seen))
+            return make_answer("unknown", ("weak", "friction", "reduced_range", "reduced_speed", *candidates_without_pose))
         follows = self._tracking_error < self._bounds[1]
         is_driven = self._rs + self._ts > DRIVEN * self._coulomb * self._ss > 0
         drag_disadvantage = (drag_error - loss_error) / (self._cycle_count * (SCALE * self._bounds[0]) ** 2)

@@ -20,7 +20,7 @@ from holdfast.response.diagnosis.observer import (
     OBSERVER_GAIN_PER_S,
     friction_torque,
     momentum_kernel,
-    residual_level,
+    slow_residual_component,
 )
 from holdfast.response.diagnosis.plausibility import prepare_log
 from holdfast.response.diagnosis.sensors import Sensors
@@ -101,15 +101,15 @@ class Monitor:
         return Diagnosis(arm=self.arm, log=log, bounds=bounds, signals=signals, scaled=scaled, verdict=verdict)
 
     def _start_decision(
-        self, time: float, levels: tuple[str, ...], alarmed: tuple[str, ...], level: FloatArray
+        self, time: float, available_signals: tuple[str, ...], alarmed: tuple[str, ...], initial_level: FloatArray
     ) -> AlarmDecision:
-        available = {"torques": "torque" in levels, "tool": "tool" in levels}
+        available = {"torques": "torque" in available_signals, "tool": "tool" in available_signals}
         return AlarmDecision(
             self.arm,
             self.bounds,
             self.sensors,
             time=time,
-            level=level,
+            level=initial_level,
             joints=self._is_monitored,
             **available,
             tool_alone=alarmed == ("tool",),
@@ -120,7 +120,7 @@ class Monitor:
     ) -> FaultVerdict:
         """Return the verdict on a recording from the cycles after its alarm."""
         is_calm_row = (scaled.torque[: row + 1] < UNSURE).all(axis=1)
-        level_before = residual_level(
+        level_before = slow_residual_component(
             np.concatenate([np.zeros((1, log.n)), signals.torque[: row + 1][is_calm_row]]), signals.dt
         )[-1]
         decision = self._start_decision(float(log.t[row]), signals.levels, alarmed, level_before)

@@ -58,7 +58,7 @@ def low_pass(signal: FloatArray, dt: float, band: float, initial: FloatArray) ->
     return np.asarray(filtered)
 
 
-def residual_level(residual: FloatArray, dt: float) -> FloatArray:
+def slow_residual_component(residual: FloatArray, dt: float) -> FloatArray:
     """Return the slowly varying levels (T, n) of residuals (T, n), from 0 on, which errors of the masses cause, unlike faults
     and external forces.
     """

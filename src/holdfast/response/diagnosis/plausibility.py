@@ -56,14 +56,14 @@ def prepare_log(arm: Arm, log: Log) -> Log:
             advice = "; leave tau out if it was not recorded" if signal == "tau" else ""
             raise InputError(f"{signal} of '{arm.joint_names[empty[0]]}' has no number; give it for every joint{advice}")
     for name, reference, measured in zip(arm.joint_names, log.q_ref.T, log.q.T, strict=True):
-        ratio, correlation = _compare_motions(reference, measured)
+        ratio, correlation = _fit_slope_and_correlation(reference, measured)
         for known_ratio, advice in _KNOWN_RATIOS.items():
             if abs(ratio / known_ratio - 1) < _RATIO_TOLERANCE and abs(correlation) > _RATIO_CORRELATION:
                 raise InputError(f"q of '{name}' moves {ratio:.3g} times as far as its q_ref; {advice}")
     return log
 
 
-def require_following(arm: Arm, logs: Sequence[Log]) -> None:
+def require_reference_tracking(arm: Arm, logs: Sequence[Log]) -> None:
     """Raise an error if joints of a healthy arm do not follow their references.
 
     Raises:
@@ -73,12 +73,12 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
         moving = [joint for joint in range(arm.n) if np.ptp(log.q_ref[np.isfinite(log.q_ref[:, joint]), joint]) > _MIN_TRAVEL]
         for joint in moving:
             name, measured = arm.joint_names[joint], log.q[:, joint]
-            if _compare_motions(log.q_ref[:, joint], measured)[1] < _FOLLOWING_CORRELATION:
+            if _fit_slope_and_correlation(log.q_ref[:, joint], measured)[1] < _FOLLOWING_CORRELATION:
                 others = [
                     other_joint
                     for other_joint in moving
                     if other_joint != joint
-                    and _compare_motions(log.q_ref[:, other_joint], measured)[1] > _SWAPPED_JOINT_CORRELATION
+                    and _fit_slope_and_correlation(log.q_ref[:, other_joint], measured)[1] > _SWAPPED_JOINT_CORRELATION
                 ]
                 advice = (
                     f"it follows that of '{arm.joint_names[others[0]]}', so give the joints in the arm's order"
@@ -90,7 +90,7 @@ def require_following(arm: Arm, logs: Sequence[Log]) -> None:
             raise InputError("tau never changes while joints move; leave tau out if it was not recorded")
 
 
-def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, viscous: FloatArray) -> None:
+def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, viscous: FloatArray) -> None:
     """Raise an error if the model of a healthy arm does not explain its torques: another sign, unit, or order.
 
     The observer's residual is the model's torque less the recorded one, and without torques the model's alone.
@@ -126,7 +126,7 @@ def require_explained(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, vis
             f"needs; give the "
             "motors' torques on the joints, positive in the direction of the joint"
         )
-    order = _best_order(recorded, model)
+    order = _find_torque_column_order(recorded, model)
     if order is not None and significant.any():
         names = ", ".join(arm.joint_names[joint] for joint in order)
         raise InputError(
@@ -163,7 +163,7 @@ def _quote_names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
     return ", ".join(f"'{name}'" for name, is_chosen in zip(arm.joint_names, chosen, strict=True) if is_chosen)
 
 
-def _best_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
+def _find_torque_column_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
     """Return the joints to which the columns of recorded torques belong, if another order explains them."""
     from scipy.optimize import linear_sum_assignment
 
@@ -174,7 +174,7 @@ def _best_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
     return order if explained and order != sorted(order) else None
 
 
-def _compare_motions(reference: FloatArray, measured: FloatArray) -> tuple[float, float]:
+def _fit_slope_and_correlation(reference: FloatArray, measured: FloatArray) -> tuple[float, float]:
     """Return the slope of measured over reference values, and their correlation; zeros without motion."""
     is_measured = np.isfinite(reference) & np.isfinite(measured)
     if is_measured.sum() < 2 or np.ptp(reference[is_measured]) <= _MIN_TRAVEL or np.ptp(measured[is_measured]) == 0:

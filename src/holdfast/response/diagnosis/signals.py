@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors, rotations_of_quaternions
-from holdfast.response.diagnosis.gaps import MAX_BRIDGED_GAP_S, complete_rows, log_segments
+from holdfast.response.diagnosis.gaps import MAX_BRIDGED_GAP_S, complete_row_mask, split_at_gaps
 from holdfast.response.diagnosis.observer import (
     accumulate_excess,
     filtered_rates,
     momentum_kernel,
     observe_residuals,
-    residual_level,
+    slow_residual_component,
 )
 from holdfast.response.faults.log import Log
 
@@ -83,7 +83,7 @@ class Signals:
         """
         if name == "change":
             torque = self.torque[self.seen]
-            change = torque - residual_level(torque, self.dt)
+            change = torque - slow_residual_component(torque, self.dt)
             return np.asarray(np.abs(change).max(axis=0) if "torque" in self.levels else np.full(change.shape[1], np.inf))
         if name in ("torque", "tracking"):
             values = np.nan_to_num(np.abs(getattr(self, name))).max(axis=0)
@@ -143,13 +143,13 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
         InputError: A record of another arm, in other units, or without a row that has all of its numbers.
         ArmError: Torques are there, and the arm's inertial data are missing or impossible.
     """
-    period, is_complete = 1 / log.rate, complete_rows(log)
+    period, is_complete = 1 / log.rate, complete_row_mask(log)
     levels, tracking = ["tracking"], np.where(is_complete[:, None], log.q_ref - log.q, np.nan)
     torque_residual, rates, gravity, commanded = (
         np.where(is_complete[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4)
     )
     observe = partial(observe_residuals, dt=period, coulomb=coulomb, viscous=viscous)
-    for segment in log_segments(log, is_complete):
+    for segment in split_at_gaps(log, is_complete):
         complete_part = is_complete[segment.rows]
         if segment.tau is None:
             rates[segment.rows][complete_part] = filtered_rates(segment.q, period, moving=segment.settling > 1)[complete_part]
@@ -160,7 +160,7 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
     if log.tau is not None:
         levels.append("torque")
     else:
-        tracking[~find_calm_rows(log.q_ref, is_complete, period)] = np.nan
+        tracking[~find_slow_rows(log.q_ref, is_complete, period)] = np.nan
     tool_errors = np.full((len(is_complete), 6), np.nan)
     if log.x is not None and log.quat is not None:
         pose_rows = np.flatnonzero(is_complete & np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
@@ -186,7 +186,7 @@ def tool_residual(arm: Arm, q: FloatArray, x: FloatArray, rotations: FloatArray)
     return np.concatenate([x - poses[:, :3, 3], rotation_errors], axis=1)
 
 
-def find_calm_rows(reference: FloatArray, is_complete: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
+def find_slow_rows(reference: FloatArray, is_complete: NDArray[np.bool_], dt: float) -> NDArray[np.bool_]:
     """Return (T,) True where all references (T, n) were slow for a while, counting only the rows that have them."""
     row_indices, is_calm = np.flatnonzero(is_complete), np.zeros(len(is_complete), dtype=bool)
     steps = np.abs(np.diff(reference[row_indices], axis=0, prepend=reference[row_indices[:1]]))

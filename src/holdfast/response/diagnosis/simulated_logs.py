@@ -199,7 +199,7 @@ class _RecordedRobot:
 
 def _make_logs(arm: Arm, robots: Sequence[_RecordedRobot], pose: bool) -> list[Log]:
     """Return the recordings of robots whose motions have one length."""
-    measured, true_positions, torque = _run_cycles(arm, robots)
+    measured, true_positions, torque = _simulate_robots(arm, robots)
     times, logs = np.arange(len(true_positions), dtype=np.float64) * _CYCLE_S, []
     for robot_index, robot in enumerate(robots):
         tool_positions, quaternions = _measured_tool_poses(arm, true_positions[:, robot_index], robot) if pose else (None, None)
@@ -217,7 +217,7 @@ def _make_logs(arm: Arm, robots: Sequence[_RecordedRobot], pose: bool) -> list[L
     return logs
 
 
-def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _simulate_robots(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Run R robots in lockstep; return measured and true positions and torques (T, R, n)."""
     advance, cycle_count, joint_count = import_mujoco().mj_step, len(robots[0].reference), arm.n
     times = np.arange(cycle_count, dtype=np.float64) * _CYCLE_S
@@ -247,10 +247,10 @@ def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray,
                 robot.injector.read_sensors(positions_now[robot_index], reference=reference[cycle, robot_index])
                 + noise[cycle, robot_index]
             )
-        drives.sense(measured_now, positions_now)
+        drives.update_rate_error(measured_now, positions_now)
         torque = gravity(measured_now.reshape(-1) if len(robots) == 1 else measured_now)
         velocity = np.concatenate(velocity_arrays).reshape(measured_now.shape)
-        commands[cycle] = drives.compute_command(
+        commands[cycle] = drives.compute_motor_controls(
             reference[cycle], rates[cycle], measured_now, gravity=torque, velocity=velocity
         )
         for (model, state, control), command, robot in zip(simulations, commands[cycle], robots, strict=True):
@@ -260,7 +260,7 @@ def _run_cycles(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray,
                 robot.apply_forces(times[cycle])
             advance(model, state)
     np.concatenate(position_arrays, out=true_positions[cycle_count].reshape(-1))
-    return measured, true_positions[:-1], drives.compute_torque(commands, np.diff(true_positions, axis=0))
+    return measured, true_positions[:-1], drives.compute_mean_torque(commands, np.diff(true_positions, axis=0))
 
 
 def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> FloatArray:

@@ -14,7 +14,7 @@ from pydantic import ValidationError, model_validator
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
-from holdfast.core.files.yaml import Strict, describe_error, read_mapping
+from holdfast.core.files.yaml import Strict, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
 
 _TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
@@ -89,7 +89,7 @@ def _read_layout(columns: str | Path) -> _Columns:
                 raise InputError(f"{name}: unit '{column.unit}' is not known; use {', '.join(_ARRAY_UNITS[name]) or 'none'}")
         return layout
     except ValidationError as error:
-        raise InputError(f"columns '{columns}': {describe_error(error, _Columns, ('str', 'list[str]'))}") from error
+        raise InputError(f"columns '{columns}': {describe_validation_error(error, _Columns, ('str', 'list[str]'))}") from error
     except InputError as error:
         raise InputError(f"columns '{columns}': {error}") from error
 

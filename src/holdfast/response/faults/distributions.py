@@ -78,7 +78,7 @@ class ParameterDistribution:
             case "loguniform":
                 return float(lower * (upper / lower) ** uniform_value)
             case "exponential":
-                return draw_exponential(lower, uniform_value)
+                return exponential_quantile(lower, uniform_value)
             case _:
                 return self.numbers[int(uniform_value * len(self.numbers))]
 
@@ -89,7 +89,7 @@ class ParameterDistribution:
         return {self.law: self.numbers[0] if self.law == "exponential" else list(self.numbers)}
 
 
-def draw_exponential(mean: float, uniform_value: float) -> float:
+def exponential_quantile(mean: float, uniform_value: float) -> float:
     """Return the number that a uniform number of [0, 1) draws from the exponential law."""
     return -mean * math.log1p(-uniform_value)
 

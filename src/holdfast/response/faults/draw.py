@@ -13,7 +13,7 @@ from itertools import islice
 import numpy as np
 
 from holdfast.core.errors import InputError
-from holdfast.response.faults.distributions import draw_exponential
+from holdfast.response.faults.distributions import exponential_quantile
 from holdfast.response.faults.entry import Fault
 from holdfast.response.faults.events import FaultEvent
 from holdfast.response.faults.kind import find_kind
@@ -60,7 +60,7 @@ def draw_events(
     if not uniform_values[0] < entry.probability:
         return []
     if entry.rate_per_hour is not None:
-        onset = draw_exponential(_SECONDS_PER_HOUR / entry.rate_per_hour, uniform_values[2])
+        onset = exponential_quantile(_SECONDS_PER_HOUR / entry.rate_per_hour, uniform_values[2])
         if onset > horizon:
             return []
     else:
@@ -112,7 +112,7 @@ def _draw_intervals(entry: Fault, onset: float, end: float, stream: Iterator[flo
     for _ in range(_MAX_INTERVALS):
         if start >= end:
             return
-        time_on, time_off = draw_exponential(entry.on, next(stream)), draw_exponential(entry.off, next(stream))
+        time_on, time_off = exponential_quantile(entry.on, next(stream)), exponential_quantile(entry.off, next(stream))
         yield start, round(min(start + time_on, end), 6)
         start = round(start + time_on + time_off, 6)
     raise InputError(f"'{entry.kind}' comes and goes more than {_MAX_INTERVALS} times in an episode; make them longer")

@@ -13,7 +13,7 @@ from pydantic import Field, ValidationError, create_model, model_validator
 
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import replace_file
-from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error, read_mapping
 from holdfast.core.validation import check_constructor
 from holdfast.response.faults.batch import FaultBatch, make_batch
 from holdfast.response.faults.draw import draw_events
@@ -174,7 +174,9 @@ def load(file: str | Path) -> FaultModel:
                 raise InputError(f"faults[{index}]: {error}") from error
         return FaultModel(entries, model.seed)
     except ValidationError as error:
-        raise InputError(f"faults file '{file}': {describe_error(error, _FaultModelFile, ('str', 'list[str]'))}") from error
+        raise InputError(
+            f"faults file '{file}': {describe_validation_error(error, _FaultModelFile, ('str', 'list[str]'))}"
+        ) from error
     except InputError as error:
         raise InputError(f"faults file '{file}': {error}") from error
 

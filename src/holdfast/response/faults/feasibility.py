@@ -107,7 +107,7 @@ def feasible(
     if weak_gains and locked_values:
         return Feasibility("unknown", "locks and weak motors together are not looked at")
     if weak_gains:
-        return _check_gravity_load(arm, pose, task_rows, within, weak_gains, tolerance)
+        return _check_weak_motor_torques(arm, pose, task_rows, within, weak_gains, tolerance)
     conditions = [f"{joint} locked" for joint in locked_values] + [f"{joint} within its reduced range" for joint in ranges]
     condition_text = f"with {' and '.join(conditions)}" if conditions else "by the healthy arm"
     if not 0 < tolerance <= 1:
@@ -184,7 +184,7 @@ def _check_by_recovery(
     return Feasibility("not found", f"no motion to the goal was found {condition_text}: {recovery.verdict.why}")
 
 
-def _check_gravity_load(
+def _check_weak_motor_torques(
     arm: Arm, goal: FloatArray, task: str | Task, within: float | None, gains: Mapping[str, float], tolerance: float
 ) -> Feasibility:
     """Return the feasibility from the torque of weak motors against gravity in some configuration of the goal."""

@@ -180,14 +180,14 @@ class FaultInjector:
         """Brake a joint at once, until the next reset; this is no fault and does not appear in ``active``."""
         model_joint = self._model_joints[self.joints.index(joint)]
         braked = ActiveFault("locked", model_joint, {}, self.time, model_joint.q)
-        self._stop_joint(braked)
+        self._stop_with_impact(braked)
         self._brakes.append(braked)
-        self._update_inserted()
+        self._apply_brake_change()
 
     def release(self, joint: str) -> None:
         """Release a joint that was braked."""
         self._brakes = [braked for braked in self._brakes if braked.joint.name != joint]
-        self._update_inserted()
+        self._apply_brake_change()
 
     def before_step(self, time: float) -> None:
         """Begin and end the faults that are due at a time, s, and insert the active ones into the model."""
@@ -267,7 +267,7 @@ class FaultInjector:
             kind.begin(fault)
             self._active[event] = fault
             if kind.holds_joint and not fault.is_pending:
-                self._stop_joint(fault)
+                self._stop_with_impact(fault)
         self._apply_faults()
 
     def _apply_faults(self) -> None:
@@ -275,7 +275,7 @@ class FaultInjector:
         self.insert()
         self._schedule_changes()
 
-    def _update_inserted(self) -> None:
+    def _apply_brake_change(self) -> None:
         """Apply a change of the brakes where the model currently has the faults."""
         if self.is_inserted:
             self.insert()
@@ -285,15 +285,15 @@ class FaultInjector:
         if not fault.is_pending:
             kind.update(fault)
             if kind.changes_model:
-                self._update_inserted()
-        elif kind.take_hold(fault):
+                self._apply_brake_change()
+        elif kind.take_delayed_effect(fault):
             self.insert()
             fault.is_pending = False
             if kind.holds_joint:
-                self._stop_joint(fault)
+                self._stop_with_impact(fault)
             self._apply_faults()
 
-    def _stop_joint(self, fault: ActiveFault) -> None:
+    def _stop_with_impact(self, fault: ActiveFault) -> None:
         """Stop a joint, together with the locked joints, as in an impact: the momenta of all others are conserved."""
         velocity = self.data.qvel
         if self.model.neq and self.data.eq_active.any():

@@ -113,7 +113,7 @@ class FaultKind:
     def begin(self, fault: ActiveFault) -> None:
         """Store in ``fault.memory`` what the fault needs from the time of its onset."""
 
-    def take_hold(self, fault: ActiveFault) -> bool:
+    def take_delayed_effect(self, fault: ActiveFault) -> bool:
         """Return True if a delayed fault takes effect at this step, and set ``fault.position``."""
         return True
 

@@ -18,7 +18,7 @@ from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
 from holdfast.kinematics.solvers.self_motions import SelfMotion
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.arm.task import Task
@@ -58,7 +58,7 @@ class MotionConditions:
             InputError: A row that is kept exactly and that the path leaves free.
         """
         parts = [part for constraint in constraints for part in _split_constraint(constraint)]
-        set_by_path = tuple(part for part in parts if _is_set_by_path(arm, task, part))
+        set_by_path = tuple(part for part in parts if _is_decided_by_path(arm, task, part))
         left_to_arm = tuple(part for part in parts if part not in set_by_path)
         exact_part = next((part for part in left_to_arm if len(part.normals) or part.turned or not part.angle), None)
         if exact_part is not None:
@@ -86,7 +86,7 @@ class MotionConditions:
         """Manifold of the constraints that the path leaves to the arm; None if there are none."""
         if not self.left_to_arm:
             return None
-        return ConstraintManifold(self.arm, self.left_to_arm, self.arm.upper > self.arm.lower, finite_limits(self.arm))
+        return ConstraintManifold(self.arm, self.left_to_arm, self.arm.upper > self.arm.lower, sampling_limits(self.arm))
 
     def are_met(self, q: FloatArray, slack: float = 0.0) -> BoolArray:
         """Return (N,) True where configurations (N, n) on the path meet the conditions, with a slack of the clearance in m."""
@@ -101,7 +101,7 @@ class MotionConditions:
         """Return the first of configurations (N, n) that violates a constraint, and the violation as a phrase."""
         return _find_first_violation(self.constraints, self.arm.forward_kinematics(q))
 
-    def meet_constraints(self, q: FloatArray) -> BoolArray:
+    def are_constraints_met(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where configurations (N, n) meet the tool constraints."""
         poses = self.arm.forward_kinematics(q)
         return np.array(
@@ -130,7 +130,7 @@ class MotionConditions:
         parts = tuple(
             part
             for component in self_motion.components
-            for part in feasible_intervals.find_free_parts(tracer, self_motion.pose, component)
+            for part in feasible_intervals.find_feasible_parts(tracer, self_motion.pose, component)
         )
         q = np.concatenate([component.q for component in parts]) if parts else self_motion.q[:0]
         return replace(self_motion, components=parts, q=q, status=self_motion.status if parts else Status.INFEASIBLE)
@@ -172,9 +172,9 @@ def _split_constraint(constraint: ToolConstraint) -> list[ToolConstraint]:
     return parts
 
 
-def _is_set_by_path(arm: Arm, task: Task, constraint: ToolConstraint) -> bool:
+def _is_decided_by_path(arm: Arm, task: Task, constraint: ToolConstraint) -> bool:
     """Return True if no motion that meets the task rows changes the constraint, so that the path alone decides it."""
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     q = np.random.default_rng(np.random.SeedSequence(0)).uniform(lower, upper, (_SAMPLED_CONFIGURATIONS, arm.n))
     poses, jacobian = arm.forward_kinematics(q), arm.jacobian(q) * (arm.upper > arm.lower)
     null_space = np.linalg.svd(_world_task_rows(task, poses) @ jacobian)[2][:, task.m :]

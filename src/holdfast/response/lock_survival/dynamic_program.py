@@ -194,13 +194,20 @@ def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: Floa
     return excesses
 
 
-def _find_close_pairs(arm: Arm, b: FloatArray, a: FloatArray, reach: FloatArray) -> tuple[IndexArray, IndexArray]:
-    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``reach`` (n,) in any joint, in order."""
+def _find_close_pairs(
+    arm: Arm, first_q: FloatArray, second_q: FloatArray, max_differences: FloatArray
+) -> tuple[IndexArray, IndexArray]:
+    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``max_differences`` (n,) in any joint, in
+    order.
+    """
     from scipy.spatial import KDTree
 
-    padded_reach = reach * (1 + 1e-9)
+    padded_reach = max_differences * (1 + 1e-9)
     boxes = np.where(joint_space.is_unlimited(arm), 2 * np.pi * (1 + 1e-12) / padded_reach, 0.0)  # rounding stays inside
-    trees = [KDTree(joint_space.fold_joints(arm, configurations) / padded_reach, boxsize=boxes) for configurations in (b, a)]
+    trees = [
+        KDTree(joint_space.wrap_joints_to_positive(arm, configurations) / padded_reach, boxsize=boxes)
+        for configurations in (first_q, second_q)
+    ]
     pairs = trees[0].sparse_distance_matrix(trees[1], 1.0, p=np.inf, output_type="ndarray")
     order = np.lexsort((pairs["j"], pairs["i"]))
     return pairs["i"][order], pairs["j"][order]
@@ -227,7 +234,7 @@ def smooth_motion(
 
     sides = zip(
         *(
-            _bound_shift(pose_nodes, lock_table, pose_gains, int(node))
+            _lossless_shift_bounds(pose_nodes, lock_table, pose_gains, int(node))
             for pose_nodes, lock_table, pose_gains, node in zip(nodes, lock_tables, gains, chosen, strict=True)
         ),
         strict=True,
@@ -245,7 +252,7 @@ def smooth_motion(
     )
     smooth_q, shifts = q, np.zeros(len(q))
     for _ in range(_SMOOTHING_ROUNDS):
-        tangent = tracer.correct(smooth_q, poses)[2][:, 0]
+        tangent = tracer.project_onto_poses(smooth_q, poses)[2][:, 0]
         tangent *= np.where(np.einsum("ij,ij->i", tangent, curve_directions) < 0, -1.0, 1.0)[:, None]
         matrix = np.zeros((len(q) - 1, q.shape[1], len(q)))
         row = np.arange(len(q) - 1)
@@ -254,7 +261,7 @@ def smooth_motion(
         bounds = (lower - shifts)[movable], (upper - shifts)[movable]
         change = np.zeros(len(q))
         change[movable] = lsq_linear(matrix.reshape(-1, len(q))[:, movable], -steps, bounds, tol=1e-6).x
-        candidate_q, is_on_pose, _ = tracer.correct(smooth_q + change[:, None] * tangent, poses)
+        candidate_q, is_on_pose, _ = tracer.project_onto_poses(smooth_q + change[:, None] * tangent, poses)
         inside = ((candidate_q >= tracer.arm.lower) & (candidate_q <= tracer.arm.upper)).all(axis=1)
         if not (is_on_pose & inside).all():
             break
@@ -262,7 +269,7 @@ def smooth_motion(
     return smooth_q
 
 
-def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: FloatArray, chosen: int) -> tuple[float, float]:
+def _lossless_shift_bounds(nodes: CurveNodes, lock_table: LockTable, gain: FloatArray, chosen: int) -> tuple[float, float]:
     """Return how far a configuration may move against and along its curve without a loss of gain."""
     limits = []
     for neighbors, sign in ((nodes.previous, -1.0), (nodes.following, 1.0)):
@@ -271,7 +278,7 @@ def _bound_shift(nodes: CurveNodes, verdicts: LockTable, gain: FloatArray, chose
             other = int(neighbors[node])
             segment_length = float(np.linalg.norm(nodes.pieces[node if sign > 0 else other]))
             if gain[other] < gain[chosen] - 1e-12:
-                length += segment_length * verdicts.safe_fraction(node, other, is_ahead=sign > 0)
+                length += segment_length * lock_table.lossless_move_fraction(node, other, is_ahead=sign > 0)
                 break
             length, node = length + segment_length, other
         limits.append(sign * min(length, _MAX_CURVE_SHIFT_RAD))

@@ -26,7 +26,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike
-from holdfast.response.lock_survival.lock_evaluation import evaluate_locks, is_off_path
+from holdfast.response.lock_survival.lock_evaluation import find_survived_locks, is_off_path
 from holdfast.response.lock_survival.planning import BaselineMotion, LockSurvival
 from holdfast.response.lock_survival.problem import Mode, SurvivalProblem, make_problem
 from holdfast.response.lock_survival.rates import FailureRates, RatesLike
@@ -115,7 +115,7 @@ def evaluate_motion(
     broken = problem.conditions.find_violation(q)
     if broken is not None:
         raise InputError(f"the motion breaks what is kept: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
-    return LockSurvival.for_motion(problem, q, survives=evaluate_locks(problem, q))
+    return LockSurvival.for_motion(problem, q, survives=find_survived_locks(problem, q))
 
 
 def with_baselines(
@@ -133,17 +133,17 @@ def with_baselines(
                 raise InputError(
                     f"compare holds '{baseline}'; give '{LEAST_NORM}', or a measure such as relative manipulability"
                 )
-            least_norm = _follow_objective(problem, relative_manipulability(problem.arm, problem.task), "none", False, seed)
+            least_norm = _plan_baseline_motion(problem, relative_manipulability(problem.arm, problem.task), "none", False, seed)
             comparisons.append(_evaluate_baseline(problem, "least norm", least_norm.q))
             continue
-        projected = _follow_objective(problem, baseline, "gradient-projection", True, seed)
+        projected = _plan_baseline_motion(problem, baseline, "gradient-projection", True, seed)
         comparisons.append(_evaluate_baseline(problem, f"gradient projection of {baseline.name}", projected.q))
         assert projected.best_path is not None
         comparisons.append(_evaluate_baseline(problem, f"best continuous {baseline.name}", projected.best_path))
     return replace(result, comparisons=tuple(comparisons))
 
 
-def _follow_objective(
+def _plan_baseline_motion(
     problem: SurvivalProblem, objective: Objective, method: str, from_best_start: bool, seed: int
 ) -> Trajectory:
     objective_option = {"minimise" if objective.better == "smaller" else "maximise": objective}
@@ -165,7 +165,7 @@ def _follow_objective(
 def _evaluate_baseline(problem: SurvivalProblem, name: str, q: FloatArray) -> BaselineMotion:
     """Evaluate the locks that a motion survives; where it is off the path or violates a condition, it survives none."""
     is_invalid = is_off_path(problem, q)
-    is_invalid[~is_invalid] = ~problem.conditions.meet_constraints(q[~is_invalid])
-    survives = evaluate_locks(problem, np.where(is_invalid[:, None], np.nan, q))
+    is_invalid[~is_invalid] = ~problem.conditions.are_constraints_met(q[~is_invalid])
+    survives = find_survived_locks(problem, np.where(is_invalid[:, None], np.nan, q))
     result = LockSurvival.for_motion(problem, q, survives=survives)
     return BaselineMotion(name=name, survival=result.survival, curve=result.curve(), off=float(is_invalid.mean()))

@@ -87,13 +87,13 @@ class CurveNodes:
     def _search_tree(self) -> KDTree:
         return joint_space.build_tree(self.arm, self.q)
 
-    def locate(self, q: FloatArray) -> tuple[IndexArray, FloatArray, BoolArray]:
+    def locate_on_curves(self, q: FloatArray) -> tuple[IndexArray, FloatArray, BoolArray]:
         """Return for q (N, n) the node behind it along its curve (N,), the fraction of the segment to the next node (N,), 0 to
         1, and a flag (N,) that is True on a curve.
         """
         if not len(self.q):
             return np.zeros(len(q), dtype=np.int64), np.zeros(len(q)), np.zeros(len(q), dtype=bool)
-        distances, nearest = self._search_tree.query(joint_space.fold_joints(self.arm, q))
+        distances, nearest = self._search_tree.query(joint_space.wrap_joints_to_positive(self.arm, q))
         previous_nodes, next_nodes = self.previous[nearest], self.following[nearest]
         is_ahead = (
             np.einsum(

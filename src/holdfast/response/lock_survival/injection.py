@@ -12,7 +12,7 @@ from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.response.lock_survival import tables
-from holdfast.response.lock_survival.lock_evaluation import MAX_CHANGING_SETS, can_regain_path, is_off_path
+from holdfast.response.lock_survival.lock_evaluation import MAX_CHANGING_SETS, can_reach_remaining_poses, is_off_path
 from holdfast.response.lock_survival.problem import SurvivalProblem
 
 _ARC_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
@@ -53,7 +53,9 @@ class LockTests:
         return list(zip(self.time[is_different].tolist(), self.joint[is_different].tolist(), strict=True))
 
 
-def sample_locks(problem: SurvivalProblem, lock_count: int, generator: np.random.Generator) -> tuple[FloatArray, IndexArray]:
+def sample_lock_times(
+    problem: SurvivalProblem, lock_count: int, generator: np.random.Generator
+) -> tuple[FloatArray, IndexArray]:
     """Sample times (N,) and joints (N,): joints by their rates; times uniformly, or as first failures within the duration."""
     rates, duration = problem.rates, problem.path.duration
     joints = generator.choice(problem.arm.n, size=lock_count, p=rates.each / rates.total)
@@ -72,7 +74,7 @@ def can_finish_path(
     Its motion began at ``q_start`` (n,).
     """
     if problem.mode == "detour":
-        return can_regain_path(problem, q, np.searchsorted(problem.time, lock_times), locked_joints)
+        return can_reach_remaining_poses(problem, q, np.searchsorted(problem.time, lock_times), locked_joints)
     if problem.redundancy == 1:
         return _reaches_last_pose(problem, q, lock_times, locked_joints, tuple(problem.immobile_joints))
     survived = np.zeros(len(q), dtype=bool)
@@ -88,11 +90,11 @@ def can_finish_path(
             narrower, q[undecided], lock_times[undecided], locked_joints[undecided], q_start=q_start
         )
     undecided = np.flatnonzero(~survived)
-    survived[undecided] = _can_finish_changing(problem, q[undecided], lock_times[undecided], locked_joints[undecided])
+    survived[undecided] = _can_finish_by_switching(problem, q[undecided], lock_times[undecided], locked_joints[undecided])
     return survived
 
 
-def _can_finish_changing(
+def _can_finish_by_switching(
     problem: SurvivalProblem, q: FloatArray, lock_times: FloatArray, locked_joints: IndexArray
 ) -> BoolArray:
     """Return (N,) True where a redundant arm, which may fix other joints at every sample, finishes the path."""
@@ -112,7 +114,7 @@ def _can_finish_changing(
             landed.append(end_configurations[has_arrived])
             landed_locks.append(lock_indices[selected[has_arrived]])
         configurations, lock_indices = np.concatenate(landed), np.concatenate(landed_locks)
-        selected = tables.select_spread(configurations, lock_indices)
+        selected = tables.select_farthest_by_owner(configurations, lock_indices)
         configurations, lock_indices = configurations[selected], lock_indices[selected]
     survived = np.zeros(len(q), dtype=bool)
     survived[lock_indices[_are_on_last_pose(problem, configurations)]] = True
@@ -181,7 +183,8 @@ def _are_on_last_pose(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """Return True for branches that passed the end on the last pose."""
     last_poses = np.broadcast_to(problem.lock.poses[-1], (len(q), 4, 4))
     return np.asarray(
-        np.max(solver(problem.arm, problem.task).task_errors(q, last_poses), axis=0, initial=0.0) <= _FINAL_ERROR_TOLERANCE
+        np.max(solver(problem.arm, problem.task).position_and_rotation_errors(q, last_poses), axis=0, initial=0.0)
+        <= _FINAL_ERROR_TOLERANCE
     )
 
 
@@ -230,7 +233,7 @@ def interpolate_motion(problem: SurvivalProblem, q: FloatArray, times: FloatArra
     fractions = (times - problem.time[sample]) / np.diff(problem.time)[sample]
     interpolated = q[sample] + fractions[:, None] * joint_space.joint_difference(arm, q[sample + 1], q[sample])
     poses = problem.path.pose(times)
-    corrected_q = problem.lock.tracer.correct(interpolated, poses)[0]
+    corrected_q = problem.lock.tracer.project_onto_poses(interpolated, poses)[0]
     inside = np.clip(corrected_q, arm.lower, arm.upper)
     if problem.redundancy > 1:
         return problem.conditions.project_configurations(inside, poses)

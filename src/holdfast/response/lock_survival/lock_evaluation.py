@@ -16,24 +16,26 @@ _LOCKED_IK_RESTARTS = 30  # of inverse kinematics with a joint locked
 _LOCKED_IK_TOLERANCE = 1e-6  # rad, and lengths in units of the arm's own
 
 
-def evaluate_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
+def find_survived_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """Return (T, n) True for the locks of a motion (T, n) that are survived; False where the motion is NaN."""
     if problem.mode == "on-path":
-        return follow_locks(problem, q)
+        return find_path_survived_locks(problem, q)
     if problem.redundancy > 1:
         survives = np.isfinite(q).all(axis=1, keepdims=True).repeat(problem.arm.n, axis=1)
         samples, joints = np.nonzero(survives)
-        survives[samples, joints] = can_regain_path(problem, q[samples], samples + 1, joints)
+        survives[samples, joints] = can_reach_remaining_poses(problem, q[samples], samples + 1, joints)
         return survives
     return np.array(
         [
             tables.are_in_ranges(problem.arm, configuration[None], ranges)[0]
-            for configuration, ranges in zip(q, problem.common_ranges, strict=True)
+            for configuration, ranges in zip(q, problem.remaining_path_ranges, strict=True)
         ]
     )
 
 
-def can_regain_path(problem: SurvivalProblem, q: FloatArray, first_pose: IndexArray, locked_joints: IndexArray) -> BoolArray:
+def can_reach_remaining_poses(
+    problem: SurvivalProblem, q: FloatArray, first_pose: IndexArray, locked_joints: IndexArray
+) -> BoolArray:
     """Return (N,) True where inverse kinematics solves all poses from a pose on with one joint locked.
 
     Args:
@@ -47,7 +49,7 @@ def can_regain_path(problem: SurvivalProblem, q: FloatArray, first_pose: IndexAr
     pose_indices = np.concatenate([np.arange(pose, len(problem.time)) for pose in first_pose])
     accept = problem.conditions.are_met if problem.conditions.is_restrictive else None
     lock_values, seed = q[lock_indices, locked_joints[lock_indices]], np.random.SeedSequence(problem.seed)
-    is_solved = solver(problem.arm, problem.task).reaches_locked(
+    is_solved = solver(problem.arm, problem.task).is_reachable_with_lock(
         problem.lock.poses[pose_indices],
         locked_joints[lock_indices],
         lock_values,
@@ -61,7 +63,7 @@ def can_regain_path(problem: SurvivalProblem, q: FloatArray, first_pose: IndexAr
     return survived
 
 
-def follow_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
+def find_path_survived_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """Return (T, n) True for the locks of a motion (T, n) that are survived without leaving the path.
 
     With more than one degree of redundancy the failed arm continues with further joints fixed, either the same joints to the
@@ -70,7 +72,7 @@ def follow_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """
     if problem.redundancy == 1:
         return tables.follow_motion_locks(problem.lock, q)
-    survives = has_stopped_moving(problem, q)
+    survives = has_joint_finished_moving(problem, q)
     for fixed_set in problem.fixed_joint_sets:
         is_undecided = ~survives
         is_undecided[:, list(fixed_set)] = False
@@ -80,18 +82,18 @@ def follow_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
             )
     narrower = problem.with_axis_at(q[0]) if np.isfinite(q[0]).all() else None
     if narrower is not None:
-        survives |= follow_locks(narrower, np.where(is_off_path(narrower, q)[:, None], np.nan, q))
+        survives |= find_path_survived_locks(narrower, np.where(is_off_path(narrower, q)[:, None], np.nan, q))
     is_undecided = ~survives & np.isfinite(q).all(axis=1, keepdims=True)
     if is_undecided.any():
         followers = [
             problem.with_fixed_joints(dict.fromkeys(fixed_set, 0.0)).lock
             for fixed_set in problem.fixed_joint_sets[:MAX_CHANGING_SETS]
         ]
-        survives |= tables.follow_changing_locks(followers, q, is_undecided)
+        survives |= tables.find_switching_survived_locks(followers, q, is_undecided)
     return survives
 
 
-def has_stopped_moving(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
+def has_joint_finished_moving(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
     """Return (T, n) True where a motion (T, n) exists to its end and no longer moves the joint, and redundancy remains."""
     is_defined = np.isfinite(q).all(axis=1, keepdims=True)
     moves = np.abs(q - q[-1]) > _STANDSTILL_TOLERANCE
@@ -108,5 +110,5 @@ def is_off_path(problem: SurvivalProblem, q: FloatArray, poses: FloatArray | Non
         poses: (N, 4, 4) or (1, 4, 4) poses of the tool in the world; those of the problem's path if not given.
     """
     poses = np.broadcast_to(problem.lock.poses if poses is None else poses, (len(q), 4, 4))
-    position, rotation = solver(problem.arm, problem.task).task_errors(q, poses)
+    position, rotation = solver(problem.arm, problem.task).position_and_rotation_errors(q, poses)
     return ~(np.maximum(position, rotation) <= PATH_TOLERANCE)

@@ -67,20 +67,26 @@ class LockedFollower:
         """
         targets = np.broadcast_to(self.poses[np.asarray(pose_index) + 1], (len(q), 4, 4))
         return self._step_with_retries(
-            q, locked_joints, np.broadcast_to(pose_index, len(q)), targets, self.tracer.newton_step(q, *_split_poses(targets))
+            q,
+            locked_joints,
+            np.broadcast_to(pose_index, len(q)),
+            targets,
+            self.tracer.newton_step_and_error(q, *_positions_and_rotations(targets)),
         )
 
     def solve_poses(self, q: FloatArray, locked_joints: IndexArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Solve poses (N, 4, 4) near configurations (N, n) without moving joint (N,); return the result and its success."""
-        return self._solve_newton(q, locked_joints, poses, self.tracer.newton_step(q, *_split_poses(poses)))
+        return self._solve_newton(
+            q, locked_joints, poses, self.tracer.newton_step_and_error(q, *_positions_and_rotations(poses))
+        )
 
-    def step_all_joints(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
+    def step_with_each_lock(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
         """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), the locked joint second, and success (N,
         n).
         """
         n = self.arm.n
         next_poses = self.poses[pose_indices + 1]
-        evaluation = self.tracer.newton_step(q, *_split_poses(next_poses))
+        evaluation = self.tracer.newton_step_and_error(q, *_positions_and_rotations(next_poses))
         repeated_q, targets, steps_back, errors, null_vectors = (
             np.repeat(values, n, axis=0) for values in (q, next_poses, *evaluation)
         )
@@ -110,7 +116,7 @@ class LockedFollower:
                 current_q,
                 locked_joints[retried],
                 substep_poses,
-                self.tracer.newton_step(current_q, *_split_poses(substep_poses)),
+                self.tracer.newton_step_and_error(current_q, *_positions_and_rotations(substep_poses)),
             )
             retried, current_q = retried[is_on_pose], current_q[is_on_pose]
         next_q[retried], has_arrived[retried] = current_q, True
@@ -143,7 +149,9 @@ class LockedFollower:
             change[rows, active_joints] = 0.0
             change *= (_MAX_JOINT_STEP / np.maximum(np.abs(change).max(axis=1), _MAX_JOINT_STEP))[:, None]
             next_q[active] += change
-            steps_back, errors, current_null = self.tracer.newton_step(next_q[active], *_split_poses(targets[active]))
+            steps_back, errors, current_null = self.tracer.newton_step_and_error(
+                next_q[active], *_positions_and_rotations(targets[active])
+            )
             has_converged = errors <= _POSE_TOLERANCE
             is_on_pose[active[has_converged]] = True
             final_null_vectors[active[has_converged]] = current_null[has_converged]
@@ -162,5 +170,5 @@ class LockedFollower:
         )
 
 
-def _split_poses(poses: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _positions_and_rotations(poses: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])

@@ -23,8 +23,8 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.collision.clearance import Clearance
 from holdfast.response.lock_survival.dynamic_program import SearchBounds
-from holdfast.response.lock_survival.injection import LockTests, can_finish_path, interpolate_motion, sample_locks
-from holdfast.response.lock_survival.lock_evaluation import has_stopped_moving
+from holdfast.response.lock_survival.injection import LockTests, can_finish_path, interpolate_motion, sample_lock_times
+from holdfast.response.lock_survival.lock_evaluation import has_joint_finished_moving
 from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
 from holdfast.response.lock_survival.rates import FailureRates
 from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
@@ -248,12 +248,12 @@ class LockSurvival(Result):
         if locks < 1:
             raise InputError(f"locks is {locks}; it must be 1 or more")
         generator = np.random.default_rng(np.random.SeedSequence(seed))
-        lock_times, locked_joints = sample_locks(self._problem, locks, generator)
+        lock_times, locked_joints = sample_lock_times(self._problem, locks, generator)
         survived = can_finish_path(
             self._problem, interpolate_motion(self._problem, self.q, lock_times), lock_times, locked_joints, q_start=self.q[0]
         )
         sample_before = np.clip(np.searchsorted(self.time, lock_times, side="right") - 1, 0, len(self.time) - 2)
-        survived |= has_stopped_moving(self._problem, self.q)[sample_before, locked_joints]
+        survived |= has_joint_finished_moving(self._problem, self.q)[sample_before, locked_joints]
         expected = self.survives[sample_before, locked_joints]
         return LockTests(
             time=lock_times,

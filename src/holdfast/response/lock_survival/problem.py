@@ -19,7 +19,7 @@ from holdfast.kinematics.solvers.self_motions import SelfMotion, make_tracer, tr
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.kinematics.tool_constraints.labels import KeepLike, read_constraints
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.task import Task, as_task, task_of_path
+from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.response.lock_survival import tables
@@ -135,9 +135,9 @@ class SurvivalProblem:
         return [self.conditions.restrict_curves(self.lock.tracer, each_pose) for each_pose in traced_curves]
 
     @cached_property
-    def common_ranges(self) -> list[list[tables.Spans]]:
+    def remaining_path_ranges(self) -> list[list[tables.Spans]]:
         """Values of each joint (n,) that its self-motions take at every pose from each pose (T,) on."""
-        return tables.compute_common_ranges(self.self_motions)
+        return tables.compute_remaining_path_ranges(self.self_motions)
 
 
 def make_problem(
@@ -169,7 +169,7 @@ def make_problem(
         raise InputError(f"samples is {samples}; it must be 3 or more")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    task_rows = as_task(arm, task_of_path(arm, path.path.oriented) if task is None else task)
+    task_rows = as_task(arm, default_path_task(arm, path.path.oriented) if task is None else task)
     clearance_model = chosen_clearance(arm, clearance, cell, looks=False)
     if clearance_model is None and margin:
         raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")

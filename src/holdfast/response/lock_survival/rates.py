@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from pydantic import Field, ValidationError
 
 from holdfast.core.errors import InputError
-from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_constructor, require_real_numbers
 from holdfast.model.arm.model import Arm
@@ -91,7 +91,7 @@ class FailureRates:
             )
             return cls.for_arm(arm, model.rates, per_second=model.unit == "1/s")
         except ValidationError as error:
-            raise InputError(f"rates file '{file}': {describe_error(error, _RatesFile)}") from error
+            raise InputError(f"rates file '{file}': {describe_validation_error(error, _RatesFile)}") from error
         except InputError as error:
             raise InputError(f"rates file '{file}': {error}") from error
 

@@ -130,11 +130,11 @@ def plan_motion_to(
         if ((start_configurations < arm.lower) | (start_configurations > arm.upper)).any():
             raise InputError("the start lies outside the joint limits")
     exposures = _JointExposure(arm, goal_self_motion.arcs(), failing.each / max_speeds)
-    best_start, best_goal = exposures.choose_pair(start_configurations, goal_self_motion.q)
+    best_start, best_goal = exposures.choose_start_and_goal(start_configurations, goal_self_motion.q)
     best_goal = _refine_goal(exposures, goal_self_motion, best_start, best_goal)
     if len(start_configurations) > 1:
-        best_start, _ = exposures.choose_pair(start_configurations, best_goal[None])
-    unwound_goal, outside = exposures.unwind_goal(best_start, best_goal)
+        best_start, _ = exposures.choose_start_and_goal(start_configurations, best_goal[None])
+    unwound_goal, outside = exposures.choose_goal_revolutions(best_start, best_goal)
     return Approach(
         arm=arm,
         task=task_rows,
@@ -190,7 +190,7 @@ class _JointExposure:
         )
         return np.where(longer_cost < shorter_cost - 1e-12, longer_end, shorter_end), np.minimum(shorter_cost, longer_cost)
 
-    def choose_pair(self, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def choose_start_and_goal(self, starts: FloatArray, ends: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the least exposed pair of starts (S, n) and ends (G, n); among equals the shortest motion."""
         costs, lengths = np.zeros((len(starts), len(ends))), np.zeros((len(starts), len(ends)))
         for joint, weight in enumerate(self._weights):
@@ -201,7 +201,7 @@ class _JointExposure:
         start_index, end_index = best[lengths[best[:, 0], best[:, 1]].argmin()]
         return starts[start_index], ends[end_index]
 
-    def compute_costs(self, start: FloatArray, ends: FloatArray) -> FloatArray:
+    def compute_exposures(self, start: FloatArray, ends: FloatArray) -> FloatArray:
         """Return the costs (G,) of the ends (G, n) for one start."""
         return np.asarray(
             sum(
@@ -210,7 +210,7 @@ class _JointExposure:
             )
         )
 
-    def unwind_goal(self, start: FloatArray, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def choose_goal_revolutions(self, start: FloatArray, goal: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the joints at the goal, with the best number of revolutions, and the unsafe length of each."""
         ends, unsafe_lengths = zip(
             *(self._choose_direction(joint, start[joint : joint + 1], goal[joint : joint + 1]) for joint in range(self.arm.n)),
@@ -230,13 +230,15 @@ def _refine_goal(exposures: _JointExposure, self_motion: SelfMotion, start: Floa
         if component.closed
     ]
     segments = np.concatenate(pieces)
-    segment_costs = np.minimum(exposures.compute_costs(start, segments[:, 0]), exposures.compute_costs(start, segments[:, 1]))
+    segment_costs = np.minimum(
+        exposures.compute_exposures(start, segments[:, 0]), exposures.compute_exposures(start, segments[:, 1])
+    )
     best_segments = segments[np.argsort(segment_costs, kind="stable")[:_REFINED_NODES]]
     fractions = np.linspace(0, 1, _POINTS_PER_SEGMENT + 1)[:, None, None]
     interpolated = (best_segments[:, 0] + fractions * (best_segments[:, 1] - best_segments[:, 0])).reshape(
         -1, self_motion.arm.n
     )
     poses = np.broadcast_to(self_motion.pose, (len(interpolated), 4, 4))
-    corrected_q, is_on_pose, _ = make_tracer(self_motion.arm, self_motion.task).correct(interpolated, poses)
+    corrected_q, is_on_pose, _ = make_tracer(self_motion.arm, self_motion.task).project_onto_poses(interpolated, poses)
     inside = is_on_pose & ((corrected_q >= self_motion.arm.lower) & (corrected_q <= self_motion.arm.upper)).all(axis=1)
-    return exposures.choose_pair(start[None], np.concatenate([goal[None], corrected_q[inside]]))[1]
+    return exposures.choose_start_and_goal(start[None], np.concatenate([goal[None], corrected_q[inside]]))[1]

@@ -26,7 +26,7 @@ from holdfast.response.lock_survival.conditions import compute_task_jacobian
 from holdfast.response.lock_survival.dynamic_program import BestPathTable, SearchBounds, advance_tables, smooth_motion
 from holdfast.response.lock_survival.given_motion import with_baselines
 from holdfast.response.lock_survival.grid import CurveNodes, make_nodes
-from holdfast.response.lock_survival.lock_evaluation import PATH_TOLERANCE, evaluate_locks, is_off_path
+from holdfast.response.lock_survival.lock_evaluation import PATH_TOLERANCE, find_survived_locks, is_off_path
 from holdfast.response.lock_survival.planning import LockSurvival
 from holdfast.response.lock_survival.problem import Mode, SurvivalProblem, make_problem
 from holdfast.response.lock_survival.rates import FailureRates, RatesLike
@@ -130,7 +130,7 @@ def plan_motion(
         seed=seed,
         starts=starts,
     )
-    q_start = None if start is None else _place_start(problem, start)
+    q_start = None if start is None else _project_start_to_path(problem, start)
     best = (
         _CurveSearch(problem, q_start).find_best_motion(problem)
         if problem.redundancy == 1
@@ -176,7 +176,7 @@ class _CurveSearch:
         max_steps = np.array([joint.velocity for joint in arm.joints]) * float(np.diff(problem.time).max())
         self._total_weight = float(weights.sum()) * problem.rates.total
         nearby_gains = [
-            weight * lock_table.maximize_nearby_rates(pose_nodes, problem.rates.each)
+            weight * lock_table.maximize_survived_rates(pose_nodes, problem.rates.each)
             for weight, lock_table, pose_nodes in zip(weights, self._lock_tables, self._nodes, strict=True)
         ]
         self._path_tables, bound_table = (
@@ -226,11 +226,11 @@ class _CurveSearch:
             smooth = smooth_motion(
                 follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
             )
-            result = LockSurvival.for_motion(requested, smooth, survives=evaluate_locks(requested, smooth), found=bounds)
+            result = LockSurvival.for_motion(requested, smooth, survives=find_survived_locks(requested, smooth), found=bounds)
             if (
                 result.survival < expected_survival - _PROBABILITY_TOLERANCE or result.speed > 1 + _PROBABILITY_TOLERANCE
             ):  # smoothing may have cost something
-                unsmoothed = LockSurvival.for_motion(requested, q, survives=evaluate_locks(requested, q), found=bounds)
+                unsmoothed = LockSurvival.for_motion(requested, q, survives=find_survived_locks(requested, q), found=bounds)
                 result = max(result, unsmoothed, key=_rank_result)
             results.append(result)
         return max(results, key=_rank_result)  # of equals the first
@@ -275,7 +275,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     if not problem.conditions.left_to_arm:
         return best
     return LockSurvival.for_motion(
-        problem, best.q, survives=evaluate_locks(problem, best.q), found=best.found
+        problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found
     )  # maybe a narrower one's
 
 
@@ -323,7 +323,7 @@ def _leaves_one_redundancy(problem: SurvivalProblem, q: FloatArray, fixed_joints
     return bool(singular_values[-1] > _RANK_TOLERANCE * singular_values[0])
 
 
-def _place_start(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:
+def _project_start_to_path(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:
     """Return the start (n,) brought to the first pose."""
     arm, first_pose = problem.arm, problem.lock.poses[:1]
     q = arm.check_configurations(start)
@@ -341,7 +341,7 @@ def _place_start(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:
     violation = problem.conditions.find_violation(q[None])
     if violation is not None:
         raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
-    on_pose: FloatArray = problem.lock.tracer.correct(q[None], first_pose)[0][0]
+    on_pose: FloatArray = problem.lock.tracer.project_onto_poses(q[None], first_pose)[0][0]
     return on_pose
 
 

@@ -36,14 +36,16 @@ class LockTable:
     survives: BoolArray
     switch_fractions: FloatArray
 
-    def look_up(self, nodes: CurveNodes, nodes_behind: IndexArray, fractions: FloatArray, joints: IndexArray) -> BoolArray:
+    def survives_between_nodes(
+        self, nodes: CurveNodes, nodes_behind: IndexArray, fractions: FloatArray, joints: IndexArray
+    ) -> BoolArray:
         """Return (N,) the survival for joint (N,) between the nodes, located by :meth:`CurveNodes.locate`."""
         decisive_nodes = np.where(
             fractions < self.switch_fractions[nodes_behind, joints], nodes_behind, nodes.following[nodes_behind]
         )
         return np.asarray(self.survives[decisive_nodes, joints])
 
-    def maximize_nearby_rates(self, nodes: CurveNodes, rates: FloatArray) -> FloatArray:
+    def maximize_survived_rates(self, nodes: CurveNodes, rates: FloatArray) -> FloatArray:
         """Return (P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbors."""
         survives_here, survives_next = self.survives, self.survives[nodes.following]
         is_known = np.isfinite(self.switch_fractions)
@@ -64,7 +66,7 @@ class LockTable:
             nodes.previous == np.arange(len(survives_here)), best_ahead, np.maximum(best_ahead, best_behind[nodes.previous])
         )
 
-    def safe_fraction(self, node: int, neighbor: int, *, is_ahead: bool) -> float:
+    def lossless_move_fraction(self, node: int, neighbor: int, *, is_ahead: bool) -> float:
         """Return how far a node may move towards its neighbor, ahead or behind, without a loss: 0 to 1, rounded down."""
         is_lost = self.survives[node] & ~self.survives[neighbor]
         switches = self.switch_fractions[node if is_ahead else neighbor, is_lost]
@@ -81,7 +83,7 @@ def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> li
     n = follower.arm.n
     sizes = [len(pose_nodes.q) for pose_nodes in nodes[:-1]]
     all_q = np.concatenate([pose_nodes.q for pose_nodes in nodes[:-1]])
-    landed, reached = follower.step_all_joints(all_q, np.repeat(np.arange(len(sizes)), sizes))
+    landed, reached = follower.step_with_each_lock(all_q, np.repeat(np.arange(len(sizes)), sizes))
     offsets = np.cumsum([0, *sizes])
     table = [_make_final_table(nodes[-1], n)]
     for pose in track("poses", range(len(nodes) - 2, -1, -1)):
@@ -91,7 +93,7 @@ def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> li
         survives[node_indices, joints] = _evaluate_steps(
             follower, nodes, table, pose + 1, landed[rows][node_indices, joints], joints
         )
-        table.append(LockTable(survives, _locate_switches(follower, nodes, table, pose, survives)))
+        table.append(LockTable(survives, _locate_survival_changes(follower, nodes, table, pose, survives)))
     return table[::-1]
 
 
@@ -101,7 +103,7 @@ def _make_final_table(nodes: CurveNodes, n: int) -> LockTable:
     return LockTable(np.ones(shape, dtype=bool), np.ones(shape))
 
 
-def _locate_switches(
+def _locate_survival_changes(
     follower: LockedFollower, nodes: list[CurveNodes], table: list[LockTable], pose: int, survives: BoolArray
 ) -> FloatArray:
     """Return (P, n) the fraction between nodes at which the survival at pose t changes; the table is known back to t + 1."""
@@ -117,7 +119,7 @@ def _locate_switches(
             np.repeat(joints, _PARTS_PER_SEGMENT - 1),
         )
         q = pose_nodes.q[repeated_nodes] + fractions.reshape(-1, 1) * pose_nodes.pieces[repeated_nodes]
-        q, is_on_pose, _ = follower.tracer.correct(q, np.broadcast_to(follower.poses[pose], (len(q), 4, 4)))
+        q, is_on_pose, _ = follower.tracer.project_onto_poses(q, np.broadcast_to(follower.poses[pose], (len(q), 4, 4)))
         q, has_arrived = follower.step(q, repeated_joints, pose)
         has_arrived &= is_on_pose
         verdict = np.zeros(len(q), dtype=bool)
@@ -139,8 +141,8 @@ def _evaluate_steps(
     active = np.arange(len(q))
     last_pose = len(nodes) - 1
     while active.size and pose < last_pose:
-        nodes_behind, fractions, is_on_curve = nodes[pose].locate(q)
-        survives[active[is_on_curve]] = table[last_pose - pose].look_up(
+        nodes_behind, fractions, is_on_curve = nodes[pose].locate_on_curves(q)
+        survives[active[is_on_curve]] = table[last_pose - pose].survives_between_nodes(
             nodes[pose], nodes_behind[is_on_curve], fractions[is_on_curve], joints[is_on_curve]
         )
         active, q, joints = active[~is_on_curve], q[~is_on_curve], joints[~is_on_curve]
@@ -162,12 +164,12 @@ def compute_detour_tables(nodes: list[CurveNodes], self_motions: list[SelfMotion
     """
     survives = [
         are_in_ranges(pose_nodes.arm, pose_nodes.q, ranges)
-        for pose_nodes, ranges in zip(nodes, compute_common_ranges(self_motions), strict=True)
+        for pose_nodes, ranges in zip(nodes, compute_remaining_path_ranges(self_motions), strict=True)
     ]
     return [LockTable(pose_survives, np.full(pose_survives.shape, np.nan)) for pose_survives in survives]
 
 
-def compute_common_ranges(self_motions: list[SelfMotion]) -> list[list[Spans]]:
+def compute_remaining_path_ranges(self_motions: list[SelfMotion]) -> list[list[Spans]]:
     """Return for every pose and joint its values common to all poses from there on; of unlimited joints in 0 to 2 pi."""
     arm = self_motions[0].arm
     is_unlimited = joint_space.is_unlimited(arm)
@@ -183,7 +185,7 @@ def compute_common_ranges(self_motions: list[SelfMotion]) -> list[list[Spans]]:
 def are_in_ranges(arm: Arm, q: FloatArray, ranges: list[Spans]) -> BoolArray:
     """Return (N, n) True for joints of q (N, n) within their ranges."""
     inside = np.zeros(q.shape, dtype=bool)
-    for joint, values in enumerate(joint_space.fold_joints(arm, q).T):
+    for joint, values in enumerate(joint_space.wrap_joints_to_positive(arm, q).T):
         for lower, upper in ranges[joint]:
             inside[:, joint] |= (values >= lower - _RANGE_TOLERANCE) & (values <= upper + _RANGE_TOLERANCE)
     return inside
@@ -228,7 +230,7 @@ def follow_motion_locks(follower: LockedFollower, q: FloatArray, requested: Bool
     return survives
 
 
-def follow_changing_locks(followers: Sequence[LockedFollower], q: FloatArray, requested: BoolArray) -> BoolArray:
+def find_switching_survived_locks(followers: Sequence[LockedFollower], q: FloatArray, requested: BoolArray) -> BoolArray:
     """Return (T, n) True where a redundant arm survives a lock, with other joints fixed, those of another follower, at every
     pose.
 
@@ -250,13 +252,13 @@ def follow_changing_locks(followers: Sequence[LockedFollower], q: FloatArray, re
             row_parts.append(selected[has_arrived])
         configurations, rows = np.concatenate(landed), np.concatenate(row_parts)
         lock_poses, joints = lock_poses[rows], joints[rows]
-        selected = select_spread(configurations, lock_poses * q.shape[1] + joints)
+        selected = select_farthest_by_owner(configurations, lock_poses * q.shape[1] + joints)
         configurations, lock_poses, joints = configurations[selected], lock_poses[selected], joints[selected]
     survives[lock_poses, joints] = True
     return survives
 
 
-def select_spread(q: FloatArray, owners: IndexArray) -> IndexArray:
+def select_farthest_by_owner(q: FloatArray, owners: IndexArray) -> IndexArray:
     """Return the indices of q (N, n) to retain: of each owner (N,) the first and then the few farthest from those retained."""
     _, first_indices, groups = np.unique(owners, return_index=True, return_inverse=True)
     retained, distances = [first_indices], np.full(len(q), np.inf)

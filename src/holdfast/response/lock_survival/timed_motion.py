@@ -52,7 +52,7 @@ def make_trajectory(problem: SurvivalProblem, q: FloatArray) -> Trajectory:
     poses = problem.path.pose(times)
     rates = np.gradient(joints, times, axis=0, edge_order=2)
     joint_speeds = np.linalg.norm(rates, axis=1)
-    position, rotation = solver(arm, task).task_errors(joints, poses)
+    position, rotation = solver(arm, task).position_and_rotation_errors(joints, poses)
     objective = relative_manipulability(arm, task)
     clearance, margin = problem.conditions.required_clearance or (None, 0.0)
     ones = np.ones(len(times))

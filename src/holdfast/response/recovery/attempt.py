@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 from holdfast.model.collision.exact.certainty import describe_unknown_shape
-from holdfast.response.recovery.completion import complete_recovery
+from holdfast.response.recovery.completion import verify_and_time_recovery
 from holdfast.response.recovery.continuation import (
     RestOfPath,
-    add_motion,
-    continue_unfinished_path,
+    add_motion_with_deviation,
     follow_rest_of_path,
+    follow_to_furthest_point,
+    follow_with_relaxed_rows,
     refine_waypoints,
-    relax_fewest_rows,
 )
-from holdfast.response.recovery.goals import find_goal_configurations, find_rows_to_relax, name_blocking_pair
+from holdfast.response.recovery.goals import find_goal_configurations, find_relaxed_goals, name_blocking_pair
 from holdfast.response.recovery.ladder_graph import shorten_along_poses
 from holdfast.response.recovery.problem import (
     LOCK_TOLERANCE,
@@ -34,7 +34,7 @@ from holdfast.response.recovery.proofs.reach import (
     prove_unreachable,
     proves_no_solution,
 )
-from holdfast.response.recovery.proofs.separation import prove_separated
+from holdfast.response.recovery.proofs.separation import prove_goal_disconnected
 from holdfast.response.recovery.recovery import Leg, ProofKind, Recovery, RecoveryOutcome
 from holdfast.response.recovery.routes import Route, find_route
 from holdfast.response.recovery.space import FreeSpace, JointMetric
@@ -102,7 +102,7 @@ class RecoveryAttempt:
     _stopped_at: str = field(default="", init=False)
 
     @property
-    def _first_search_count(self) -> int:
+    def _search_count_before_proof(self) -> int:
         """Number of searches before a proof is tried."""
         return max(1, self.search_count // 4)  # of 385 routes found in six searches, the first search found all
 
@@ -111,7 +111,7 @@ class RecoveryAttempt:
         q_current = q_start
         rest: RestOfPath | None = None
         if path is not None:
-            rest = self._finish_path(q_current, path)
+            rest = self._plan_rest_of_path(q_current, path)
             q_current = self._motions[-1][-1] if self._motions else q_start
             self.recovery = replace(self.recovery, rest=rest)
         recovery = self.recovery if target is None else self._move_to_goal(q_current, target)
@@ -127,9 +127,9 @@ class RecoveryAttempt:
         recovery = replace(recovery, q=q, legs=tuple(self._legs), stopped=self._stopped_at)
         if not len(q):
             return recovery
-        return complete_recovery(recovery, self.space, self.solver.rows, target, path, self.timing_limits)
+        return verify_and_time_recovery(recovery, self.space, self.solver.rows, target, path, self.timing_limits)
 
-    def _note_time_over(self, step_name: str) -> None:
+    def _record_timeout_step(self, step_name: str) -> None:
         """Record the step during which the time limit was reached."""
         if self.space.is_time_over and not self._stopped_at:
             self._stopped_at = step_name
@@ -142,12 +142,12 @@ class RecoveryAttempt:
         )
         self._motions.append(q if not self._motions else q[1:])
 
-    def _finish_path(self, q_current: FloatArray, path: Path) -> RestOfPath:
+    def _plan_rest_of_path(self, q_current: FloatArray, path: Path) -> RestOfPath:
         """Follow the path if possible; return the first motion that can be reached, the shortest first."""
         rest, motions = follow_rest_of_path(
             self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
         )
-        self._note_time_over("following the tool path")
+        self._record_timeout_step("following the tool path")
         if not rest.finished:
             rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
@@ -158,28 +158,30 @@ class RecoveryAttempt:
                 first_lost is None or name_blocking_pair(self.solver, self.space, first_poses, q_current, self.recovery.seed)
             ):
                 self.recovery = replace(self.recovery, unknown=f"{rest.why}; {shape_doubt}")
-            rest, motions = relax_fewest_rows(rest, self.solver, self.space, path, q_current, self.rng)
-            self._note_time_over("looking for rows of the tool path to give up")
+            rest, motions = follow_with_relaxed_rows(rest, self.solver, self.space, path, q_current, self.rng)
+            self._record_timeout_step("looking for rows of the tool path to give up")
         if not motions:
             return rest
-        joined_rest = self._join_path(q_current, path, rest, motions)
+        joined_rest = self._connect_start_to_path(q_current, path, rest, motions)
         if not joined_rest.cut_off or rest.given_up is not None:
             return joined_rest
         rest, motions = self._extend_path(joined_rest, path, q_current)
-        return self._join_path(q_current, path, rest, motions) if motions else rest
+        return self._connect_start_to_path(q_current, path, rest, motions) if motions else rest
 
     def _extend_path(self, rest: RestOfPath, path: Path, q_current: FloatArray) -> tuple[RestOfPath, list[FloatArray]]:
         """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
-        return continue_unfinished_path(
+        return follow_to_furthest_point(
             rest, self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
         )
 
-    def _join_path(self, q_current: FloatArray, path: Path, rest: RestOfPath, motions: list[FloatArray]) -> RestOfPath:
+    def _connect_start_to_path(
+        self, q_current: FloatArray, path: Path, rest: RestOfPath, motions: list[FloatArray]
+    ) -> RestOfPath:
         """Join the first of the motions along the path that can be reached and is near the path everywhere."""
         route, proof = self._find_route_or_proof(
             q_current, np.stack([candidate[0] for candidate in motions]), path.pose(rest.share[:1])
         )
-        self._note_time_over("looking for a route to the tool path")
+        self._record_timeout_step("looking for a route to the tool path")
         if route is None:
             if proof is not None and not self.recovery.proof_kind:
                 reason = f"at the beginning of the tool path: {proof[0]}"
@@ -191,8 +193,8 @@ class RecoveryAttempt:
         if rest.given_up is None:
             refinement = refine_waypoints(rest, self.solver, self.space, path, motion)
             if refinement is None and len(motions) > 1 and not self.space.is_time_over:
-                return self._join_path(q_current, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
-            rest, motion = refinement or (add_motion(rest, self.solver, path, motion), motion)
+                return self._connect_start_to_path(q_current, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
+            rest, motion = refinement or (add_motion_with_deviation(rest, self.solver, path, motion), motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
         if route.length > LOCK_TOLERANCE:
             self._add_leg("to the path", route.q, route.lower_bound, route.straight)
@@ -202,7 +204,9 @@ class RecoveryAttempt:
         return replace(rest, q=motion)
 
     def _search_route(self, q_current: FloatArray, goals: FloatArray, repeat_count: int = 0) -> Route | None:
-        search_count, max_failures = (repeat_count, None) if repeat_count else (self.search_count, self._first_search_count)
+        search_count, max_failures = (
+            (repeat_count, None) if repeat_count else (self.search_count, self._search_count_before_proof)
+        )
         return find_route(self.space, self.metric, q_current, goals, search_count, self.rng, max_failures=max_failures)
 
     def _find_route_or_proof(
@@ -214,11 +218,11 @@ class RecoveryAttempt:
         route = self._search_route(q_current, goals)
         if route is not None:
             return route, None
-        proof = prove_separated(
+        proof = prove_goal_disconnected(
             self.recovery, self.solver.rows, self.space, start=q_current, known_goals=goals, poses=poses, q_goal=q_goal
         )
-        if proof is None and self.space.manifold is None and self.search_count > self._first_search_count:
-            route = self._search_route(q_current, goals, self.search_count - self._first_search_count)
+        if proof is None and self.space.manifold is None and self.search_count > self._search_count_before_proof:
+            route = self._search_route(q_current, goals, self.search_count - self._search_count_before_proof)
         return route, proof
 
     def _move_to_goal(self, q_start: FloatArray, target: RecoveryGoal) -> Recovery:
@@ -226,13 +230,13 @@ class RecoveryAttempt:
         q_goals = np.zeros((0, self.recovery.arm.n)) if target.q is None else target.q[None]
         result: Recovery | UndecidedGoal
         result = UndecidedGoal(recovery=self.recovery, q_start=q_start, target=target, configurations=q_goals)
-        for stage in (self._find_goals, self._find_route_to_goals, self._prove_unreachable):
+        for stage in (self._find_goal_configurations, self._find_route_to_goals, self._prove_unreachable):
             result = stage(result)
             if isinstance(result, Recovery):
                 return result
-        return self._relax_rows(result)
+        return self._plan_with_relaxed_rows(result)
 
-    def _find_goals(self, goal: UndecidedGoal) -> Recovery | UndecidedGoal:
+    def _find_goal_configurations(self, goal: UndecidedGoal) -> Recovery | UndecidedGoal:
         """Find configurations of the goal; decide a goal that violates a tool constraint, or that may be in contact."""
         recovery, target, space = goal.recovery, goal.target, self.space
         rows = self.solver.rows if target.q is None else None
@@ -253,7 +257,7 @@ class RecoveryAttempt:
         if not len(goal.configurations):
             q, pose_indices, proofs = enumerate_collision_free(recovery, self.solver, space, target.poses)
             goal = replace(goal, configurations=q, pose_indices=pose_indices, box_proofs=tuple(proofs))
-        self._note_time_over("looking for configurations of the goal")
+        self._record_timeout_step("looking for configurations of the goal")
         recovery = replace(recovery, found=len(goal.configurations))
         if target.mismatched_locks is None:
             return replace(goal, recovery=recovery)
@@ -271,7 +275,7 @@ class RecoveryAttempt:
             self._add_leg("to the goal", route.q, route.lower_bound, route.straight)
             pose = target.poses[goal.pose_indices[route.goal]]
             return replace(recovery, ending=goal.success, goal_pose=pose, reason="; ".join(goal.reasons))
-        self._note_time_over("looking for a route to the goal")
+        self._record_timeout_step("looking for a route to the goal")
         if separation is not None and target.mismatched_locks is None:
             decided = replace(recovery, proof=separation[0], reason=separation[0], proved_within=separation[1])
             return replace(decided, proof_kind="disconnected", ending=RecoveryOutcome.PROVED_DISCONNECTED)
@@ -312,17 +316,17 @@ class RecoveryAttempt:
             recovery = replace(recovery, unknown=f"{reason}; a proof would have to cover the whole cone, and there is none")
         return replace(goal, recovery=recovery, reasons=(*goal.reasons, reason))
 
-    def _relax_rows(self, goal: UndecidedGoal) -> Recovery:
+    def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:
         """Find a motion to the goal with the fewest relaxed rows; without one, report that the goal is not reached."""
         recovery, locks = goal.recovery, goal.target.mismatched_locks
         offers = [
             (choice, pose)
             for pose in goal.target.poses
-            for choice in find_rows_to_relax(self.solver, self.space, self.metric, pose, goal.q_start, self.rng)
+            for choice in find_relaxed_goals(self.solver, self.space, self.metric, pose, goal.q_start, self.rng)
         ]
         offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = tuple(choice.relaxed_rows for choice, _ in offers)
-        self._note_time_over("looking for rows to give up")
+        self._record_timeout_step("looking for rows to give up")
         for choice, pose in offers:
             route = self._search_route(goal.q_start, choice.q)
             if route is None:

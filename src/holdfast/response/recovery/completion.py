@@ -14,13 +14,13 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import TaskRows
 from holdfast.response.recovery.timing.motion import TimedMotion, time_motion
 from holdfast.response.recovery.verification import Verification, verify_waypoints
-from holdfast.response.recovery.waypoints import FIRST_COLUMNS, compute_first_column
+from holdfast.response.recovery.waypoints import FIRST_COLUMNS, time_or_length_column
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
 
-def complete_recovery(
+def verify_and_time_recovery(
     recovery: Recovery,
     space: FreeSpace,
     rows: TaskRows,
@@ -64,7 +64,7 @@ def complete_recovery(
     verified = verify_motion(recovery.q, path_samples)
     if timing_limits is None:
         return replace(recovery, verified=verified)
-    column_name, column_values = compute_first_column(space.arm, recovery.q)
+    column_name, column_values = time_or_length_column(space.arm, recovery.q)
     for cautious in (False, True):  # a corner whose rounding other code refuses is not rounded
         timed_result = time_motion(
             space,
@@ -78,14 +78,14 @@ def complete_recovery(
             stop_at_corners=cautious,
         )
         timed_verification = verify_motion(
-            timed_result.q, _select_path_samples(timed_result), (timed_result.time, timed_result.accelerations)
+            timed_result.q, _locate_tool_path_samples(timed_result), (timed_result.time, timed_result.accelerations)
         )
         if timed_verification.ok:
             break
     return replace(recovery, timed=timed_result, verified=verified.merge_timed(timed_verification))
 
 
-def _select_path_samples(timed: TimedMotion) -> tuple[FloatArray, slice] | None:
+def _locate_tool_path_samples(timed: TimedMotion) -> tuple[FloatArray, slice] | None:
     """Return the fractions of the tool path of the samples that lie on it, and their slice; None if there are fewer
     than two.
     """

@@ -12,10 +12,10 @@ from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.response.recovery.goals import RelaxedRows, find_goal_configurations, project_onto_constraints, solve_pose
-from holdfast.response.recovery.ladder_graph import MAX_JOINT_STEP, continue_path, search_ladder_graph
+from holdfast.response.recovery.ladder_graph import MAX_JOINT_STEP, follow_path_furthest, search_ladder_graph
 from holdfast.response.recovery.routes import find_reachable_goals
 from holdfast.response.recovery.space import FreeSpace, JointMetric
-from holdfast.response.recovery.task_rows import RowSolver, list_subsets, rank_relaxed_rows
+from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
 from holdfast.response.recovery.timing.motion import PATH_TOLERANCE
 
 if TYPE_CHECKING:
@@ -128,17 +128,17 @@ def follow_rest_of_path(
         starts=len(first_configurations),
     )
     rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations)
-    if not motions and _retry_unreached(solver, space, poses, rest.found, q_start, start_count, rng):
+    if not motions and _all_reached_on_retry(solver, space, poses, rest.found, q_start, start_count, rng):
         if space.free.sum() > solver.rows.m:
             graph = search_ladder_graph(solver, space, metric, poses, first_configurations, q_start, start_count, rng)
             furthest = max(rest.furthest, float(fractions[graph.last_sample]))
             rest, motions = replace(rest, furthest=furthest, graph=graph.configuration_count), graph.motions
         if not motions:
             rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations, _REFINEMENT_FACTOR)
-    return (add_motion(rest, solver, path, motions[0]) if motions else rest), motions
+    return (add_motion_with_deviation(rest, solver, path, motions[0]) if motions else rest), motions
 
 
-def continue_unfinished_path(
+def follow_to_furthest_point(
     rest: RestOfPath,
     solver: RowSolver,
     space: FreeSpace,
@@ -167,14 +167,14 @@ def continue_unfinished_path(
     if not len(first_configurations):
         return replace(rest, cut_off=True), []
     stride = float(np.diff(rest.share).max())
-    continuation = continue_path(solver, space, metric, path, first_configurations, stride=stride, rng=rng)
+    continuation = follow_path_furthest(solver, space, metric, path, first_configurations, max_path_step=stride, rng=rng)
     furthest, graph_size = float(continuation.fractions[-1]), max(rest.graph, continuation.configuration_count)
     rest = replace(rest, furthest=furthest, begin=continuation.q[0], graph=graph_size, cut_off=False)
     rest = replace(rest, found=rest.found | (rest.share <= furthest))
     if furthest < 1:
         return rest, []
     rest = replace(rest, share=continuation.fractions, found=np.ones(len(continuation.fractions), dtype=bool))
-    return add_motion(rest, solver, path, continuation.q), [continuation.q]
+    return add_motion_with_deviation(rest, solver, path, continuation.q), [continuation.q]
 
 
 def _follow_samples(
@@ -201,25 +201,25 @@ def _follow_samples(
     return rest, _sort_by_length(metric, [q[:, index] for index in complete])
 
 
-def relax_fewest_rows(
+def follow_with_relaxed_rows(
     rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: FloatArray, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow the path with as few rows relaxed as possible; also return the motion (S, n) if there is one."""
     poses = path.pose(rest.share)
     for size in range(1, solver.rows.m):
         row_sets = [] if space.is_time_over else list_subsets(solver.rows.m, size, [])
-        solution = _find_best_row_set(solver, space, poses, q_start, row_sets, rng) if row_sets else None
+        solution = _find_best_relaxation(solver, space, poses, q_start, row_sets, rng) if row_sets else None
         if solution:
             relaxed_rows, motion = solution
             row_mask = np.ones(solver.rows.m)
             row_mask[list(relaxed_rows)] = 0.0
             relaxed_rows = tuple(np.flatnonzero(solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
             if not relaxed_rows:  # a row that is met all the way is not given up
-                return add_motion(rest, solver, path, motion), [motion]
+                return add_motion_with_deviation(rest, solver, path, motion), [motion]
             row_errors = np.abs(solver.compute_errors(motion, poses)).max(axis=0)[list(relaxed_rows)]
             names, units = ([labels[i] for i in relaxed_rows] for labels in (solver.rows.names, solver.rows.units))
             relaxed = RelaxedRows(tuple(names), tuple(row_errors.tolist()), tuple(units))
-            return replace(add_motion(rest, solver, path, motion, row_mask), given_up=relaxed), [motion]
+            return replace(add_motion_with_deviation(rest, solver, path, motion, row_mask), given_up=relaxed), [motion]
     return rest, []
 
 
@@ -231,7 +231,7 @@ def _sample_fractions(path: Path) -> FloatArray:
     return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))
 
 
-def _retry_unreached(
+def _all_reached_on_retry(
     solver: RowSolver,
     space: FreeSpace,
     poses: FloatArray,
@@ -240,7 +240,9 @@ def _retry_unreached(
     start_count: int,
     rng: np.random.Generator,
 ) -> bool:
-    """Search longer for each pose without a configuration, up to the first pose for which none is found again."""
+    """Search longer for each pose without a configuration, up to the first pose without success; return True if every pose has
+    one.
+    """
     for sample in np.flatnonzero(~is_reached):
         is_reached[sample] = not space.is_time_over and _is_reachable(solver, space, poses[sample], q_start, rng, start_count)
         if not is_reached[sample]:
@@ -272,7 +274,7 @@ def _track_poses(
             break
         before = q[sample - 1, active]
         targets = np.repeat(poses[sample][None], len(active), axis=0)
-        after = solver.solve_relaxed(before, targets, row_masks[active], space.free)
+        after = solver.solve_required_rows(before, targets, row_masks[active], space.free)
         is_jump = np.abs(after - before).max(axis=1) > MAX_JOINT_STEP
         if is_jump.any():  # rows that are given up must not pull the others onto another branch
             after[is_jump] = solver.solve(before[is_jump], targets[is_jump], row_masks[active][is_jump], space.free)
@@ -291,7 +293,7 @@ def _sort_by_length(metric: JointMetric, motions: list[FloatArray]) -> list[Floa
     return sorted(motions, key=lambda q: float(metric.cumulative_length(q)[-1]))
 
 
-def _find_best_row_set(
+def _find_best_relaxation(
     solver: RowSolver,
     space: FreeSpace,
     poses: FloatArray,
@@ -308,7 +310,7 @@ def _find_best_row_set(
     for row_mask, index in zip(row_masks, set_indices, strict=True):
         row_mask[list(row_sets[index])] = 0.0
     targets = np.repeat(poses[:1], len(set_indices), axis=0)
-    first_configurations = solver.solve_relaxed(
+    first_configurations = solver.solve_required_rows(
         np.tile(initial_configurations, (len(row_sets), 1)), targets, row_masks, space.free
     )
     first_configurations = project_onto_constraints(solver, space, first_configurations, targets, row_masks)
@@ -320,14 +322,16 @@ def _find_best_row_set(
         return None
     motion_errors = [float(np.linalg.norm(solver.compute_errors(q[:, index], poses), axis=1).max()) for index in complete]
     sort_keys = [
-        (*rank_relaxed_rows(solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
+        (*relaxed_rows_sort_key(solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
         for index, motion_error in zip(complete, motion_errors, strict=True)
     ]
     best = complete[min(range(len(sort_keys)), key=sort_keys.__getitem__)]
     return row_sets[set_indices[is_valid][best]], q[:, best]
 
 
-def add_motion(rest: RestOfPath, solver: RowSolver, path: Path, q: FloatArray, mask: FloatArray | float = 1.0) -> RestOfPath:
+def add_motion_with_deviation(
+    rest: RestOfPath, solver: RowSolver, path: Path, q: FloatArray, mask: FloatArray | float = 1.0
+) -> RestOfPath:
     """Return the result with the motion q (S, n) and its deviation between waypoints, of the rows whose ``mask`` is 1."""
     middle_poses = path.pose((rest.share[1:] + rest.share[:-1]) / 2)
     deviation = np.abs(solver.compute_errors((q[1:] + q[:-1]) / 2, middle_poses) * mask).max()
@@ -353,7 +357,7 @@ def refine_waypoints(
         ).reshape(*inner_fractions.shape, -1)
         segments = np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
         if not segments.size:
-            return replace(add_motion(replace(rest, share=fractions, found=is_reached), solver, path, q), q=q), q
+            return replace(add_motion_with_deviation(replace(rest, share=fractions, found=is_reached), solver, path, q), q=q), q
         middle_fractions, midpoints = (fractions[segments] + fractions[segments + 1]) / 2, (q[segments] + q[segments + 1]) / 2
         poses, row_masks = path.pose(middle_fractions), np.ones((len(segments), solver.rows.m))
         new_waypoints = project_onto_constraints(

@@ -11,7 +11,7 @@ from holdfast.core.progress import track
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.solvers.descent import minimise_constrained
 from holdfast.response.recovery.space import FreeSpace, JointMetric
-from holdfast.response.recovery.task_rows import RowSolver, list_subsets, rank_relaxed_rows
+from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
 
 _MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest ones
 _SELF_MOTION_STEPS = 25
@@ -157,7 +157,7 @@ def _remove_duplicates(q: FloatArray) -> FloatArray:
     return q[retained]
 
 
-def find_rows_to_relax(
+def find_relaxed_goals(
     solver: RowSolver, space: FreeSpace, metric: JointMetric, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator
 ) -> list[RelaxedGoal]:
     """Return every minimal set found of rows to relax so that a pose is met: fewest rows first, orientations before positions.
@@ -177,7 +177,9 @@ def find_rows_to_relax(
         for row_set, dropped_rows in zip(row_masks, row_sets, strict=True):
             row_set[list(dropped_rows)] = 0.0
         poses = np.repeat(pose[None], len(set_indices), axis=0)
-        q = solver.solve_relaxed(np.tile(initial_configurations, (len(row_sets), 1)), poses, row_masks[set_indices], space.free)
+        q = solver.solve_required_rows(
+            np.tile(initial_configurations, (len(row_sets), 1)), poses, row_masks[set_indices], space.free
+        )
         q = project_onto_constraints(solver, space, q, poses, row_masks[set_indices])
         is_valid = _are_valid(solver, space, q, poses, row_masks[set_indices])
         pose_errors = np.linalg.norm(solver.compute_errors(q, poses), axis=1)
@@ -185,7 +187,7 @@ def find_rows_to_relax(
             indices = np.flatnonzero(is_valid & (set_indices == set_index))
             indices = indices[np.argsort(pose_errors[indices], kind="stable")]
             if indices.size:
-                for fewer_rows, solutions in _reduce_row_set(solver, space, pose, q[indices], dropped_rows).items():
+                for fewer_rows, solutions in _reduce_relaxed_rows(solver, space, pose, q[indices], dropped_rows).items():
                     configurations[fewer_rows] = np.concatenate([configurations.get(fewer_rows, solutions[:0]), solutions])
         configurations = {
             row_set: q
@@ -197,12 +199,12 @@ def find_rows_to_relax(
         for dropped_rows, q in configurations.items()
     ]
     relaxed_goals.sort(
-        key=lambda entry: (*rank_relaxed_rows(rows, entry[0]), float(np.linalg.norm(entry[1].relaxed_rows.misses)))
+        key=lambda entry: (*relaxed_rows_sort_key(rows, entry[0]), float(np.linalg.norm(entry[1].relaxed_rows.misses)))
     )
     return [row_set for _, row_set in relaxed_goals]
 
 
-def _reduce_row_set(
+def _reduce_relaxed_rows(
     solver: RowSolver, space: FreeSpace, pose: FloatArray, q: FloatArray, dropped_rows: tuple[int, ...]
 ) -> dict[tuple[int, ...], FloatArray]:
     """Return configurations by the rows that they violate, from some (N, n) that meet all rows except the relaxed ones.

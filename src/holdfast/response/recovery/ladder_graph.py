@@ -70,7 +70,7 @@ def search_ladder_graph(
         ]
     )
     first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
-    selected = _select_widest_spread(first_configurations, metric.measure_length(first_configurations - q_start))
+    selected = _select_farthest_points(first_configurations, metric.measure_length(first_configurations - q_start))
     layers, sources = [first_configurations[selected]], [np.arange(len(selected))]
     costs = metric.measure_length(layers[0] - q_start)
     for pose in track("layers", list(poses[1:])):
@@ -80,14 +80,14 @@ def search_ladder_graph(
         perturbed[len(before) :] += (
             rng.normal(0.0, _PERTURBATION_STD, (_COPIES_PER_CONFIGURATION * len(before), before.shape[1])) * space.free
         )
-        after, is_valid = _solve_poses(solver, space, perturbed, np.repeat(pose[None], len(source), axis=0), before[source])
+        after, is_valid = _step_to_poses(solver, space, perturbed, np.repeat(pose[None], len(source), axis=0), before[source])
         source, after = source[is_valid], after[is_valid]
         total_costs = costs[source] + metric.measure_length(after - before[source])
-        selected = _select_widest_spread(
+        selected = _select_farthest_points(
             after, total_costs, 2 * _MAX_LAYER_CONFIGURATIONS
         )  # what is not kept anyway need not be proved clear
         selected = selected[space.are_segments_valid(before[source[selected]], after[selected])]
-        selected = selected[_select_widest_spread(after[selected], total_costs[selected])]
+        selected = selected[_select_farthest_points(after[selected], total_costs[selected])]
         source, after, total_costs = source[selected], after[selected], total_costs[selected]
         if not len(after) or space.is_time_over:
             break
@@ -122,14 +122,14 @@ class PathContinuation:
     configuration_count: int
 
 
-def continue_path(
+def follow_path_furthest(
     solver: RowSolver,
     space: FreeSpace,
     metric: JointMetric,
     path: Path,
     first_configurations: FloatArray,
     *,
-    stride: float,
+    max_path_step: float,
     rng: np.random.Generator,
 ) -> PathContinuation:
     """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
@@ -143,13 +143,13 @@ def continue_path(
         metric: By which motions are short.
         path: The path.
         first_configurations: (R, n) configurations of its beginning, at least one, rad and m.
-        stride: Largest step, a share of the path.
+        max_path_step: Largest step, a share of the path.
         rng: For the spreading.
     """
     copies = _COPIES_PER_CONFIGURATION if space.free.sum() > solver.rows.m else 0
-    selected = _select_widest_spread(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
+    selected = _select_farthest_points(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
     layers, sources, fractions = [first_configurations[selected]], [selected], [0.0]
-    costs, step, spread_count, last_spread = np.zeros(len(selected)), stride, 0, 0.0
+    costs, step, spread_count, last_spread = np.zeros(len(selected)), max_path_step, 0, 0.0
     while fractions[-1] < 1 and not space.is_time_over and len(layers) < _MAX_LAYERS:
         fraction = min(fractions[-1] + step, 1.0)
         after, source, total_costs = _compute_next_layer(
@@ -160,7 +160,7 @@ def continue_path(
             if step == _SELF_MOTION_PATH_STEP:
                 step = MIN_PATH_STEP
                 continue
-            step = min(2 * step, stride)
+            step = min(2 * step, max_path_step)
             if fraction - last_spread > 4 * MIN_PATH_STEP:
                 spread_count, last_spread = 0, fraction
         elif step > MIN_PATH_STEP:
@@ -191,24 +191,24 @@ def _compute_next_layer(
     perturbed = before[source]
     perturbed[len(before) :] += rng.normal(0.0, _PERTURBATION_STD, (copies * len(before), before.shape[1])) * space.free
     poses = np.repeat(pose[None], len(source), axis=0)
-    after, is_valid = _solve_poses(solver, space, perturbed, poses, before[source])
+    after, is_valid = _step_to_poses(solver, space, perturbed, poses, before[source])
     source, after = source[is_valid], after[is_valid]
-    selected = _select_widest_spread(
+    selected = _select_farthest_points(
         after, costs[source] + metric.measure_length(after - before[source]), 2 * _MAX_CONTINUED_CONFIGURATIONS
     )
     source, after = source[selected], after[selected]
     # On another branch the middle is not where the straight line has it.
-    middle, is_near = _solve_poses(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
+    middle, is_near = _step_to_poses(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
     midpoint_errors = np.abs(middle - (before[source] + after) / 2).max(axis=1)
     is_near &= midpoint_errors <= _MIDPOINT_TOLERANCE * np.abs(after - before[source]).max(axis=1) + 10 * _DUPLICATE_TOLERANCE
     is_near[is_near] = space.are_segments_valid(before[source[is_near]], after[is_near])
     source, after = source[is_near], after[is_near]
     total_costs = costs[source] + metric.measure_length(after - before[source])
-    selected = _select_widest_spread(after, total_costs, _MAX_CONTINUED_CONFIGURATIONS)
+    selected = _select_farthest_points(after, total_costs, _MAX_CONTINUED_CONFIGURATIONS)
     return after[selected], source[selected], total_costs[selected]
 
 
-def _solve_poses(
+def _step_to_poses(
     solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, before: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
     """Solve poses (N, 4, 4) from q (N, n); also return which solutions meet their pose and are one step from ``before``."""
@@ -219,7 +219,7 @@ def _solve_poses(
     )
 
 
-def _select_widest_spread(q: FloatArray, costs: FloatArray, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> IndexArray:
+def _select_farthest_points(q: FloatArray, costs: FloatArray, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> IndexArray:
     """Return the indices of the cheapest of configurations (N, n), then repeatedly of the one farthest from all selected."""
     if not len(q):
         return np.zeros(0, dtype=np.int64)
@@ -244,7 +244,7 @@ def shorten_along_poses(
             indices = np.arange(parity, len(q), 2)
             next_indices = np.minimum(indices + 1, len(q) - 1)
             targets = np.where((indices < len(q) - 1)[:, None], (q[indices - 1] + q[next_indices]) / 2, q[indices - 1])
-            trial, is_better = _solve_poses(solver, space, targets, poses[indices], q[indices - 1])
+            trial, is_better = _step_to_poses(solver, space, targets, poses[indices], q[indices - 1])
             is_better &= np.abs(trial - q[next_indices]).max(axis=1) <= MAX_JOINT_STEP
             old_lengths = metric.measure_length(q[indices] - q[indices - 1]) + metric.measure_length(
                 q[next_indices] - q[indices]

@@ -18,7 +18,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task, plane_normal
 from holdfast.model.collision.clearance import Clearance
-from holdfast.model.collision.exact.certainty import describe_unknown_shape, find_certain_contacts
+from holdfast.model.collision.exact.certainty import describe_unknown_shape, name_certain_contacts
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.goals import RelaxedRows
 from holdfast.response.recovery.recovery import RecoveryOutcome
@@ -49,7 +49,7 @@ class RecoveryGoal:
     mismatched_locks: RelaxedRows | None = None
 
 
-def check_numbers(
+def check_recovery_options(
     counts: Mapping[str, tuple[int, int]],
     *,
     time_limit: float | None,
@@ -186,7 +186,7 @@ def parse_goal(
     if (
         clearance is not None
         and float(clearance.margin_left(q)) < margin
-        and find_certain_contacts(clearance, q[None], margin)[0]
+        and name_certain_contacts(clearance, q[None], margin)[0]
     ):
         raise InputError(
             f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
@@ -261,7 +261,7 @@ def find_start_problem(
                 f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}",
             )
     if clearance is not None and clearance.pair_names and float(clearance.margin_left(q_start)) < margin:
-        pair = find_certain_contacts(clearance, q_start[None], margin)[0]
+        pair = name_certain_contacts(clearance, q_start[None], margin)[0]
         if not pair:
             return StartProblem(
                 RecoveryOutcome.START_TOO_CLOSE, describe_doubtful_contact(clearance, q_start, margin), certain=False

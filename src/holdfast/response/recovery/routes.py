@@ -90,7 +90,7 @@ def find_route(
             break  # along rows that are kept a search takes long, and the bound hardly tells how much shorter a way could be
         if space.manifold is None and failure_count == max_failures:
             break
-        connection = _connect_by_trees(space, metric, start, goals[closer_goals], rng)
+        connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
         closed_in.append(space.closed_in)
         if all(closed_in[-2:]) and len(closed_in) > 1:
             return None
@@ -183,7 +183,7 @@ class _RouteTree:
         return np.concatenate(pieces), root
 
 
-def _connect_by_trees(
+def _search_bidirectional_trees(
     space: FreeSpace, metric: JointMetric, start: FloatArray, goals: FloatArray, rng: np.random.Generator
 ) -> tuple[FloatArray, int] | None:
     """Return a route from start (n,) to one of the goals (G, n) and the index of the goal, or None after the last round."""
@@ -206,7 +206,7 @@ def _connect_by_trees(
                 space.closed_in = "start" if from_start else "goal"
                 break
         new_nodes = growing_tree.add_paths(extensions, nearest_nodes)
-        meeting_nodes = _grow_until_meeting(space, metric, growing_tree, other_tree, new_nodes, max_step)
+        meeting_nodes = _grow_tree_to_nodes(space, metric, growing_tree, other_tree, new_nodes, max_step)
         if meeting_nodes is not None:
             return _join_branches(space, start_tree, goal_tree, meeting_nodes if from_start else meeting_nodes[::-1])
         from_start = not from_start
@@ -228,7 +228,7 @@ def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -
     return np.asarray(differences * np.minimum(1.0, max_step / np.maximum(lengths, 1e-12))[:, None])
 
 
-def _grow_until_meeting(
+def _grow_tree_to_nodes(
     space: FreeSpace, metric: JointMetric, growing_tree: _RouteTree, other_tree: _RouteTree, new_nodes: Indices, max_step: float
 ) -> tuple[int, int] | None:
     """Grow the other tree towards new nodes step by step, and return the two nodes where the trees meet."""
@@ -265,7 +265,7 @@ def _join_branches(
 def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Shorten the path q (K, n) by straight segments between random points of it, until that no longer helps."""
     if space.manifold is not None and space.manifold.has_equalities:
-        return _remove_waypoints(space, _shorten_constrained(space, metric, q, rng))
+        return _remove_waypoints(space, _shorten_on_constraints(space, metric, q, rng))
     idle_rounds = 0
     while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
         lengths = metric.cumulative_length(q)
@@ -287,7 +287,7 @@ def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.r
     return _remove_waypoints(space, q)
 
 
-def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
+def _shorten_on_constraints(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Shorten a path on which constraints hold exactly, by extensions along them from waypoint to waypoint."""
     idle_rounds = 0
     while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
@@ -308,9 +308,9 @@ def _shorten_constrained(space: FreeSpace, metric: JointMetric, q: FloatArray, r
     return q
 
 
-def _interpolate(q: FloatArray, lengths: FloatArray, s: FloatArray) -> FloatArray:
+def _interpolate(q: FloatArray, lengths: FloatArray, sample_lengths: FloatArray) -> FloatArray:
     """Return points (N, n) of the path q (K, n) with cumulative lengths (K,) at lengths s (N,)."""
-    return np.stack([np.interp(s, lengths, column) for column in q.T], axis=1)
+    return np.stack([np.interp(sample_lengths, lengths, column) for column in q.T], axis=1)
 
 
 def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:

@@ -23,13 +23,13 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 from holdfast.model.collision.exact.exact_clearance import with_exact_distances
 from holdfast.model.failure_modes import Locked, degraded_at
 from holdfast.response.recovery.attempt import RecoveryAttempt
-from holdfast.response.recovery.problem import check_numbers, choose_task, find_start_problem, parse_goal
+from holdfast.response.recovery.problem import check_recovery_options, choose_task, find_start_problem, parse_goal
 from holdfast.response.recovery.proofs.reach import Tolerance
 from holdfast.response.recovery.recovery import Recovery, RecoveryOutcome
 from holdfast.response.recovery.space import FreeSpace, JointMetric, MetricName
 from holdfast.response.recovery.task_rows import make_row_solver
 from holdfast.response.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
-from holdfast.response.recovery.workspace_after_failure import remaining_workspace
+from holdfast.response.recovery.workspace_after_failure import estimate_remaining_workspace
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -128,7 +128,7 @@ def recover(
     if not single:
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
     counts = {"samples": (samples, 0), "starts": (starts, 1), "tries": (tries, 0), "seed": (seed, 0)}
-    check_numbers(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
+    check_recovery_options(counts, time_limit=time_limit, tolerance=tolerance, period=period, margin=margin)
     q_start = q[0]
     degraded = degraded_at(arm, locked, q_start)
     if degraded is None:
@@ -177,7 +177,9 @@ def recover(
         goal_pose=None if target is None else target.poses[0],
     )
     if samples:
-        recovery = replace(recovery, left=remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed))
+        recovery = replace(
+            recovery, left=estimate_remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed)
+        )
 
     def run_attempt(attempt_clearance: Clearance | None) -> Recovery:
         request = replace(recovery, clearance=attempt_clearance)

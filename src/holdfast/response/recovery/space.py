@@ -14,7 +14,7 @@ from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 
@@ -111,7 +111,7 @@ class FreeSpace:
         self._deadline = np.inf
         self.closed_in: Literal["", "start", "goal"] = ""
         self.clearance = clearance if clearance is not None and clearance.pair_names else None
-        lower, upper = finite_limits(arm)
+        lower, upper = sampling_limits(arm)
         self.low = np.where(free, np.minimum(lower, around.min(axis=0)), around[0])
         self.high = np.where(free, np.maximum(upper, around.max(axis=0)), around[0])
         # Joints that turn may wind beyond the box, no bound below depends on their values; slides may not.
@@ -145,7 +145,7 @@ class FreeSpace:
         if self.manifold is not None and is_valid.any():
             is_valid[is_valid] = self.manifold.is_satisfied(q[is_valid])
         if self.clearance is not None and is_valid.any():
-            is_valid[is_valid] = self._constraint_margins(q[is_valid]).min(axis=1) >= 0
+            is_valid[is_valid] = self._clearance_margins(q[is_valid]).min(axis=1) >= 0
         return is_valid
 
     def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
@@ -170,8 +170,8 @@ class FreeSpace:
         segments = np.arange(len(a))
         start_fractions, end_fractions = np.zeros(len(a)), np.ones(len(a))
         first_margins, last_margins = (
-            self._constraint_margins(a) - deviation_changes,
-            self._constraint_margins(b) - deviation_changes,
+            self._clearance_margins(a) - deviation_changes,
+            self._clearance_margins(b) - deviation_changes,
         )
         is_valid &= (first_margins.min(axis=1) >= 0) & (last_margins.min(axis=1) >= 0)
         while True:
@@ -187,7 +187,7 @@ class FreeSpace:
             )
             middle = (start_fractions + end_fractions) / 2
             middle_margins = (
-                self._constraint_margins(a[segments] + middle[:, None] * (b - a)[segments]) - deviation_changes[segments]
+                self._clearance_margins(a[segments] + middle[:, None] * (b - a)[segments]) - deviation_changes[segments]
             )
             is_valid[segments[middle_margins.min(axis=1) < 0]] = False
             segments = np.concatenate([segments, segments])
@@ -221,7 +221,7 @@ class FreeSpace:
             active, remaining, distances = active[is_unfinished], remaining[is_unfinished], distances[is_unfinished]
             if not active.size or self.is_time_over:
                 break
-            step_fractions = self.manifold.step_fraction(remaining)
+            step_fractions = self.manifold.safe_motion_fraction(remaining)
             steps = remaining * step_fractions[:, None]
             is_last_step = (step_fractions == 1) & is_valid_target[active]
             candidates = np.where(is_last_step[:, None], targets[active], self.manifold.project(current[active] + steps))
@@ -237,7 +237,7 @@ class FreeSpace:
             active = active[indices[~is_last_step[indices]]]
         return [np.array(points) if points else start[:0] for points in pieces], has_arrived
 
-    def _constraint_margins(self, q: FloatArray) -> FloatArray:
+    def _clearance_margins(self, q: FloatArray) -> FloatArray:
         """Return (N, P) the distance of every pair beyond the required one, m."""
         assert self.clearance is not None
         return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)

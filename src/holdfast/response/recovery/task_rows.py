@@ -16,9 +16,9 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
-from holdfast.kinematics.solvers.inverse_kinematics import damped_step, pose_error
+from holdfast.kinematics.solvers.inverse_kinematics import damped_step_and_residual, pose_error
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -99,7 +99,7 @@ def _log_jacobian(phi: SX) -> SX:
     return ca.SX.eye(3) + cross / 2 + factor * (cross @ cross)
 
 
-def _compute_tilt(axis: SX, target_axis: SX, within: float) -> tuple[SX, SX]:
+def _tilt_excess_and_decrease(axis: SX, target_axis: SX, within: float) -> tuple[SX, SX]:
     """Return the angle between unit vectors (3,) beyond ``within`` (rad), and its decrease (1, 3) per angular velocity of axis.
 
     Both are 0 inside the cone. The solver aims at a cone that is narrower by its tolerance, so that what it takes as met is
@@ -122,29 +122,29 @@ class _TaskRowKernels:
         self.arm, self.rows = arm, rows
 
     @cached_property
-    def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
+    def _input_and_error_symbols(self) -> tuple[SX, SX, SX, SX, SX]:
         q, position, rotation = kinematics.joint_symbols(self.arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        return q, position, rotation, *self._build_error(q, position, rotation)
+        return q, position, rotation, *self._error_and_negative_jacobian(q, position, rotation)
 
     @cached_property
     @cached_kernel
     def solver_loop(self) -> Loop:
         arm = self.arm
-        q, position, rotation, error, jacobian = self._symbols
+        q, position, rotation, error, jacobian = self._input_and_error_symbols
         weights, free = ca.SX.sym("w", self.rows.m), ca.SX.sym("free", arm.n)
         lower, upper = ca.SX.sym("low", arm.n), ca.SX.sym("high", arm.n)
         weighted_jacobian = ca.horzcat(*[weights * jacobian[:, k] * free[k] for k in range(arm.n)])
-        next_state, residual = damped_step(arm, q, weights * error, weighted_jacobian, (lower, upper))
+        next_state, residual = damped_step_and_residual(arm, q, weights * error, weighted_jacobian, (lower, upper))
         inputs = [position, rotation, weights, free, lower, upper]
         return Loop("inverse kinematics of chosen rows", q, inputs, next_state=next_state, residual=residual)
 
     @cached_property
     @cached_kernel
     def error_kernel(self) -> Kernel:
-        q, position, rotation, error, _ = self._symbols
+        q, position, rotation, error, _ = self._input_and_error_symbols
         return Kernel("errors of the rows", [q, position, rotation], [ca.densify(error)])
 
-    def _build_error(self, q: SX, position: SX, rotation: SX) -> tuple[SX, SX]:
+    def _error_and_negative_jacobian(self, q: SX, position: SX, rotation: SX) -> tuple[SX, SX]:
         """Return the error (m,) of the rows and its negative derivative (m, n)."""
         rows, chain = self.rows, kinematics.kinematic_chain(self.arm, q)
         jacobian = kinematics.chain_jacobian(self.arm, chain, chain.position)
@@ -170,13 +170,13 @@ class _TaskRowKernels:
         error, error_jacobian = matrix @ ca.vertcat(*errors), matrix @ ca.vertcat(*jacobians)
         if rows.within is None:
             return error, error_jacobian
-        excess_angle, decrease = _compute_tilt(chain.rotation[:, 2], rotation[:, 2], rows.within)
+        excess_angle, decrease = _tilt_excess_and_decrease(chain.rotation[:, 2], rotation[:, 2], rows.within)
         return ca.vertcat(error, excess_angle), ca.vertcat(error_jacobian, decrease @ angular_jacobian)
 
     @cached_property
     @cached_kernel
     def jacobian_kernel(self) -> Kernel:
-        q, position, rotation, _, jacobian = self._symbols
+        q, position, rotation, _, jacobian = self._input_and_error_symbols
         return Kernel("slopes of the rows", [q, position, rotation], [ca.densify(-jacobian)])
 
 
@@ -242,7 +242,7 @@ class RowSolver:
         """Return (N, m) True for rows whose error at q (N, n) exceeds the tolerance."""
         return np.asarray(~(np.abs(self.compute_errors(q, poses) / self._scale) <= self._tolerance))
 
-    def solve_relaxed(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, free: BoolArray) -> FloatArray:
+    def solve_required_rows(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, free: BoolArray) -> FloatArray:
         """Solve from q (N, n) the rows with a mask (N, m) above 0, with the least errors of the other rows."""
         if (row_masks == 0).any():
             q = self.solve(q, poses, np.where(row_masks > 0, 1.0, _RELAXED_ROW_WEIGHT), free)
@@ -250,7 +250,7 @@ class RowSolver:
 
     def sample_configurations(self, count: int, q_locked: FloatArray, free: BoolArray, rng: np.random.Generator) -> FloatArray:
         """Sample configurations (count, n) uniformly within the limits; joints that are not free are as in ``q_locked``."""
-        lower, upper = finite_limits(self.arm)
+        lower, upper = sampling_limits(self.arm)
         return np.where(free, rng.uniform(lower, upper, (count, self.arm.n)), q_locked)
 
 
@@ -273,12 +273,16 @@ def make_row_solver(arm: Arm, task: Task, within: float | None = None) -> RowSol
     return RowSolver(_compile_kernels(arm, matrix, rows.names, rows.linear, rows.angular, within), arm)
 
 
-def list_subsets(m: int, size: int, without: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
-    """Return the sets of ``size`` of m rows that contain none of the sets ``without``."""
-    return [subset for subset in combinations(range(m), size) if not any(set(excluded) <= set(subset) for excluded in without)]
+def list_subsets(m: int, size: int, excluded_subsets: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Return the sets of ``size`` of m rows that contain none of the sets ``excluded_subsets``."""
+    return [
+        subset
+        for subset in combinations(range(m), size)
+        if not any(set(excluded) <= set(subset) for excluded in excluded_subsets)
+    ]
 
 
-def rank_relaxed_rows(rows: TaskRows, dropped_rows: tuple[int, ...]) -> tuple[int, int, int]:
+def relaxed_rows_sort_key(rows: TaskRows, dropped_rows: tuple[int, ...]) -> tuple[int, int, int]:
     """Return the sort key of a set of relaxed rows: few first, then rotations, of these the rotation about the
     tool's z axis.
     """

@@ -14,7 +14,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.failure_modes import Degraded
-from holdfast.response.recovery.waypoints import FIRST_COLUMNS, check_waypoints, compute_first_column, subdivide_path
+from holdfast.response.recovery.waypoints import FIRST_COLUMNS, check_waypoints, subdivide_path, time_or_length_column
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -110,7 +110,7 @@ def verify_waypoints(
     length_scale = max(arm.length_unit, 1.0)
     if np.abs(q[0] - q_start).max() > 1e-6:
         faults.append("the motion does not begin where the arm is")
-    name, times = compute_first_column(degraded.limited, q)
+    name, times = time_or_length_column(degraded.limited, q)
     replay = check_waypoints(
         arm,
         q,

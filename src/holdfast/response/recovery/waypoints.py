@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import open_replacement
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import require_real_numbers
-from holdfast.kinematics.paths.joint_table import JointTable, joint_columns, motion_columns, read_joint_table
+from holdfast.kinematics.paths.joint_table import JointTable, joint_columns, motion_column_names, read_joint_table
 from holdfast.kinematics.tool_constraints.labels import KeepLike, anchor_constraints
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
@@ -36,7 +36,7 @@ _MAX_JOINT_STEP = 2e-3  # rad and m between configurations looked at
 _CHUNK_ROWS = 100_000
 
 
-def compute_first_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
+def time_or_length_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
     """Return the name and values (K,) of the first column for waypoints (K, n)."""
     joint_steps = np.abs(np.diff(q, axis=0))
     max_speeds = np.array([joint.velocity for joint in arm.joints])
@@ -54,10 +54,10 @@ def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
         StoreError: The file cannot be written.
     """
     file = Path(path)
-    column_name, values = compute_first_column(arm, q)
+    column_name, values = time_or_length_column(arm, q)
     with open_replacement(file, "waypoints") as stream:
         writer = csv.writer(stream)
-        writer.writerow(map(escape_cell, [column_name, *joint_columns(arm)]))
+        writer.writerow(map(escape_formula, [column_name, *joint_columns(arm)]))
         writer.writerows([[repr(float(value)) for value in row] for row in np.column_stack([values, q])])
     return file
 
@@ -68,7 +68,7 @@ def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
     Raises:
         InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
     """
-    return _read_table(arm, path).read_columns(joint_columns(arm))
+    return _read_table(arm, path).select_columns(joint_columns(arm))
 
 
 def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
@@ -78,11 +78,11 @@ def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
         InputError: As for :func:`read_waypoints`.
     """
     table = _read_table(arm, path)
-    return table.read_columns(FIRST_COLUMNS[:1])[:, 0] if FIRST_COLUMNS[0] in table.header else None
+    return table.select_columns(FIRST_COLUMNS[:1])[:, 0] if FIRST_COLUMNS[0] in table.header else None
 
 
 def _read_table(arm: Arm, path: str | Path) -> JointTable:
-    table, known_columns = read_joint_table(arm, Path(path), "waypoints", FIRST_COLUMNS[0]), motion_columns(arm)
+    table, known_columns = read_joint_table(arm, Path(path), "waypoints", FIRST_COLUMNS[0]), motion_column_names(arm)
     unknown_columns = [
         name for name in table.header if name not in FIRST_COLUMNS and not any(name in names for names in known_columns)
     ]
@@ -210,13 +210,13 @@ def check_waypoints(
     least_clearance = least_margin = None
     closest = ""
     if checked_clearance is not None:
-        least_clearance, least_margin, closest = _find_closest(checked_clearance, fine_steps)
+        least_clearance, least_margin, closest = _find_least_clearance(checked_clearance, fine_steps)
         exact_clearance = with_exact_distances(checked_clearance, margin) if least_margin < margin else None
         if exact_clearance is not None:
-            least_clearance, least_margin, closest = _find_closest(exact_clearance, fine_steps)
+            least_clearance, least_margin, closest = _find_least_clearance(exact_clearance, fine_steps)
     poses = arm.forward_kinematics(waypoints)
     constraints = anchor_constraints(keep, poses[0])
-    too_fast, too_hard = _check_pace(arm, degraded, waypoints, time, accelerations)
+    too_fast, too_hard = _joints_exceeding_limits(arm, degraded, waypoints, time, accelerations)
     return WaypointCheck(
         too_fast=too_fast,
         too_hard=too_hard,
@@ -236,7 +236,7 @@ def check_waypoints(
     )
 
 
-def _check_pace(
+def _joints_exceeding_limits(
     arm: Arm, degraded: Degraded | None, q: FloatArray, time: ArrayLike | None, accelerations: AccelerationsLike | None
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the joints that are too fast and those that accelerate too hard, by name, with means that some instant attains."""
@@ -270,7 +270,7 @@ def _check_pace(
     }
 
 
-def _find_closest(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:
+def _find_least_clearance(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:
     """Return the least clearance and margin of configurations (N, n), m, and the pair with the least margin."""
     parts = [q[first : first + _CHUNK_ROWS] for first in range(0, len(q), _CHUNK_ROWS)]
     margins = np.concatenate([clearance.margin_left(part) for part in parts])

@@ -60,7 +60,7 @@ class RemainingWorkspace(Result):
         ]
 
 
-def remaining_workspace(
+def estimate_remaining_workspace(
     solver: RowSolver,
     degraded: Degraded,
     clearance: Clearance | None,
@@ -95,10 +95,10 @@ def remaining_workspace(
             poses = arm.forward_kinematics(sampled_rows)
         else:
             poses, weights = region.poses(sampled_rows), region.weights(sampled_rows)
-        healthy = _find_reached(solver, poses, q_locked, np.ones(arm.n, dtype=bool), clearance, margin, rng)
+        healthy = _find_reached_poses(solver, poses, q_locked, np.ones(arm.n, dtype=bool), clearance, margin, rng)
         name = region.name
     locked = healthy.copy()
-    locked[healthy] = _find_reached(failed_solver, poses[healthy], q_locked, is_free, clearance, margin, rng)
+    locked[healthy] = _find_reached_poses(failed_solver, poses[healthy], q_locked, is_free, clearance, margin, rng)
     return RemainingWorkspace(
         left=_estimate_fraction(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
         of_region=None if region is None else _estimate_fraction(weights, locked, heaviest),
@@ -113,13 +113,13 @@ def remaining_workspace(
     )
 
 
-def _estimate_fraction(weights: FloatArray, is_hit: BoolArray, heaviest: float) -> Interval:
+def _estimate_fraction(weights: FloatArray, is_hit: BoolArray, max_weight: float) -> Interval:
     if (weights == weights[0]).all():
         return Interval.from_counts(int(is_hit.sum()), len(is_hit))
-    weight_sums = WeightSums(largest=heaviest)
+    weight_sums = WeightSums(largest=max_weight)
     weight_sums.add(weights)
     fraction = min(float(weights[is_hit].sum() / weight_sums.weight), 1.0)
-    return Interval.of_share(fraction, weight_sums.effective)
+    return Interval.of_share(fraction, weight_sums.effective_size)
 
 
 def _sample_healthy(
@@ -146,7 +146,7 @@ def _sample_region(region: Region, samples: int, seed: int) -> FloatArray:
     return np.concatenate(blocks)[:samples]
 
 
-def _find_reached(
+def _find_reached_poses(
     solver: RowSolver,
     poses: FloatArray,
     q_locked: FloatArray,

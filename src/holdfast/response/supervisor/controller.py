@@ -23,8 +23,8 @@ from holdfast.response.supervisor.interfaces import Brakes, FaultMonitor
 from holdfast.response.supervisor.joint_motion import JointMotion
 from holdfast.response.supervisor.masked_law import PROGRESS_TIMEOUT_S, MaskedLaw
 from holdfast.response.supervisor.plan import ACCELERATION_LIMIT, RouteFollower
-from holdfast.response.supervisor.replanning import TrialRoute, plan_posture_change, plan_target_route, plan_trial_route
-from holdfast.response.supervisor.run import Action, React, What
+from holdfast.response.supervisor.replanning import TrialRoute, plan_intermediate_motion, plan_target_route, plan_trial_route
+from holdfast.response.supervisor.run import Action, ActionKind, React
 from holdfast.response.supervisor.states import (
     Alarmed,
     Attempt,
@@ -198,11 +198,11 @@ class Controller:
             return
         supervision = self.supervision.state
         if isinstance(supervision, Braked):
-            self._resume(supervision.joint, "arm settled")
+            self._resume_monitoring(supervision.joint, "arm settled")
             return
         if isinstance(supervision, Alarmed) and time > supervision.contact_end:
             self._log_action(time, "resume", "no joint was named")
-            self._resume(supervision.slowed_joint, "contact over")
+            self._resume_monitoring(supervision.slowed_joint, "contact over")
             return
         if not verdict.alarm:
             return
@@ -269,7 +269,7 @@ class Controller:
     def _answer_slow_joint(self, alarm: Alarmed, time: float, verdict: FaultVerdict, joint: str, gravity: float) -> None:
         if alarm.slowed_joint == joint:
             if time > alarm.start_time + thresholds.VERDICT_DEADLINE_S:
-                self._resume(joint, "verdict final")
+                self._resume_monitoring(joint, "verdict final")
             return
         remaining_torque = (1 - verdict.loss) * self.condition.max_efforts[self.arm.joint_index(joint)]  # may be NaN
         if remaining_torque < thresholds.GRAVITY_SAFETY_FACTOR * abs(gravity):
@@ -290,7 +290,7 @@ class Controller:
         self._brake_and_wait(time, joint, why)
         self.supervision.enter(Braked(joint), "joint braked")
 
-    def _resume(self, joint: str | None, event: str) -> None:
+    def _resume_monitoring(self, joint: str | None, event: str) -> None:
         """Resume monitoring without a joint, or with all joints for None, at the pace that the failures allow."""
         assert self._watch is not None
         if joint is None:
@@ -313,7 +313,7 @@ class Controller:
 
     # ---- actions -----------------------------------------------------------------------------------------------------
 
-    def _log_action(self, time: float, what: What, why: str, *, joint: str | None = None) -> None:
+    def _log_action(self, time: float, what: ActionKind, why: str, *, joint: str | None = None) -> None:
         self.actions.append(Action(time, what, why, joint=joint))
 
     def _stop(self, time: float, why: str) -> None:
@@ -356,7 +356,7 @@ class Controller:
         while law.attempts:
             attempt = law.attempts.pop(0)
             if attempt == "detour":
-                route = plan_posture_change(self.law, q, failures, max_speeds=self.condition.max_speeds)
+                route = plan_intermediate_motion(self.law, q, failures, max_speeds=self.condition.max_speeds)
             else:
                 route = self._plan_route(time, q, failures)
             if not isinstance(route, str):
@@ -391,7 +391,7 @@ class Controller:
         """Release the brake of a joint for a slow route that moves the joint too."""
         joint, supervision = self.arm.joint_names[trial.joint], self.supervision.state
         if isinstance(supervision, Braked) and supervision.joint == joint:  # else an older verdict would brake it again
-            self._resume(joint, "arm settled")
+            self._resume_monitoring(joint, "arm settled")
         self.trial.enter(OnTrial(trial.joint, verdict_time=time), "brake released")
         self.law.mask[trial.joint] = 1.0
         self._pace.target = self._pace.allowed = thresholds.TRIAL_PACE

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.laws.c_functions import CFunction, fill_template, write_c_comment, write_c_functions
+from holdfast.control.laws.c_functions import CFunction, fill_template, generate_c_functions, write_c_comment
 from holdfast.control.laws.export import check_name, holdfast_version
 from holdfast.control.laws.law import Law
 from holdfast.core.files.output import write_files
@@ -21,7 +21,7 @@ from holdfast.core.result import Result
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.c_backend import c_number
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.response.diagnosis import decision
 from holdfast.response.diagnosis.bounds import Bounds
 from holdfast.response.diagnosis.export import ExportedMonitor
@@ -124,7 +124,7 @@ def _masked_law_source(law: Law) -> str:
     q, v, mask = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m), ca.SX.sym("mask", law.arm.n)
     j = law.jacobian(q) @ ca.diag(mask)
     function = CFunction({"q": q, "v": v, "mask": mask}, {"j": [j.T], "scaled": [law.scale_velocity(v)]})
-    return f"{write_c_functions({'seen': function})}\n{law.inverse_in_c()}"
+    return f"{generate_c_functions({'seen': function})}\n{law.inverse_in_c()}"
 
 
 def _template_values(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
@@ -158,7 +158,7 @@ def _template_values(law: Law, bounds: Bounds, name: str) -> dict[str, str]:
         "NEAR": masked_law.LIMIT_TOLERANCE,
         "LEAK": REFERENCE_LEAK_PER_S,
     }
-    home = arm.states.get("home", np.mean(finite_limits(arm), axis=0))
+    home = arm.states.get("home", np.mean(sampling_limits(arm), axis=0))
     return {
         "NAME": name,
         "GUARD": name.upper(),

@@ -14,7 +14,7 @@ from holdfast.control.laws.law import Law
 from holdfast.control.physics.body import Body
 from holdfast.control.physics.drives import Drives
 from holdfast.control.physics.plant import MAX_PHYSICAL_SPEED
-from holdfast.control.physics.servos import Servos, reference_leads
+from holdfast.control.physics.servos import Servos, max_reference_offsets
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
@@ -28,7 +28,7 @@ from holdfast.response.faults.fault_model import FaultModel
 from holdfast.response.faults.injector import FaultInjector
 from holdfast.response.supervisor.controller import Controller
 from holdfast.response.supervisor.masked_law import MaskedLaw
-from holdfast.response.supervisor.run import Ended, FaultRun, React
+from holdfast.response.supervisor.run import FaultRun, FaultRunOutcome, React
 
 CONTROL_RATE_HZ = 1000.0  # control cycles without a monitor
 DEFAULT_TIME_LIMIT_S = 12.0
@@ -186,20 +186,20 @@ class _SimulatedRobot:
         self.mujoco.mj_forward(self.model, self.data)
         self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
         self.injector.reset(episode)
-        self.rng, self.dt, self.every = (
+        self.rng, self.dt, self.cycles_per_pose = (
             np.random.default_rng([2, seed]),
             1 / servos.rate,
             round(servos.rate / POSE_RATE_HZ) or 1,
         )
         effort = np.array([joint.effort for joint in law.arm.joints])
         self.drives = Drives(stiffness, damping, effort=effort, period=self.dt)
-        self.reference, self.lead, self._pose = start.copy(), reference_leads(law.arm, stiffness), pose
+        self.reference, self.max_reference_lead, self._pose = start.copy(), max_reference_offsets(law.arm, stiffness), pose
         self.gravity_of = law.arm._gravity_torque_kernel.single_row()
         self.began: dict[FaultEvent, float] = {}
         self.rows: list[tuple[FloatArray, ...]] = []
         self.gravity = self.gravity_of(start)
 
-    def sense(self, cycle: int) -> tuple[FloatArray, FloatArray | None]:
+    def measure_joints_and_pose(self, cycle: int) -> tuple[FloatArray, FloatArray | None]:
         """Return the measured joint positions in a cycle and the measured tool pose, None without a sample."""
         self.injector.before_step(cycle * self.dt)
         for event, position in self.injector.places.items():
@@ -208,25 +208,27 @@ class _SimulatedRobot:
         q_measured = self.injector.read_sensors(true, reference=self.reference) + self.rng.normal(
             0, self.body.joint, self.arm.n
         )
-        self.drives.sense(q_measured, true)
+        self.drives.update_rate_error(q_measured, true)
         self.v = self.data.qvel + self.drives.rate_error
-        if not self._pose or cycle % self.every:
+        if not self._pose or cycle % self.cycles_per_pose:
             return q_measured, None
         return q_measured, self.body.measure_poses(self.arm.forward_kinematics(true[None]), self.rng)[0]
 
-    def move(self, q: FloatArray, rates: FloatArray, mask: FloatArray) -> FloatArray:
+    def advance_cycle(self, q: FloatArray, rates: FloatArray, mask: FloatArray) -> FloatArray:
         """Advance one cycle with commanded rates, the joints assumed at q (n,), and return the recorded motor torques (n,)."""
-        reference = np.minimum(np.maximum(self.reference + self.dt * rates, q - self.lead), q + self.lead)
+        reference = np.minimum(
+            np.maximum(self.reference + self.dt * rates, q - self.max_reference_lead), q + self.max_reference_lead
+        )
         inside = np.clip(reference, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
         self.reference = np.where(mask > 0, inside, q)
         self.gravity = self.gravity_of(q)
         velocity = self.data.qvel
-        command = self.drives.compute_command(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
+        command = self.drives.compute_motor_controls(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
         self.data.ctrl[:] = command
         self.injector.before_step(self.injector.time)
         before = self.data.qpos.copy()
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
-        torque = self.drives.compute_torque(command, self.data.qpos - before)
+        torque = self.drives.compute_mean_torque(command, self.data.qpos - before)
         return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
 
     def record_cycle(
@@ -270,17 +272,17 @@ class _EndCounters:
 
 def _run_cycles(
     robot: _SimulatedRobot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float
-) -> Ended:
+) -> FaultRunOutcome:
     """Run the control cycles and return the outcome."""
     dt, ends, errors = robot.dt, _EndCounters(), (math.inf, math.inf)
     last_onset = max((event.onset for event in robot.injector.events), default=0.0)
     for cycle in track("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
         time, true = cycle * dt, robot.data.qpos.copy()
-        q_measured, pose = robot.sense(cycle)
-        if cycle % robot.every == 0:
+        q_measured, pose = robot.measure_joints_and_pose(cycle)
+        if cycle % robot.cycles_per_pose == 0:
             errors = law.target_errors(true)
             ends.at_target = (
-                ends.at_target + robot.every
+                ends.at_target + robot.cycles_per_pose
                 if errors[0] <= POSITION_TOLERANCE_M and errors[1] <= ORIENTATION_TOLERANCE_RAD
                 else 0
             )
@@ -291,7 +293,7 @@ def _run_cycles(
             controller.on_tool_pose(time, q_measured, pose)
         rates = controller.rates(time, q_measured)
         q = controller.trusted_positions(q_measured)
-        torque = robot.move(q, rates, law.mask)
+        torque = robot.advance_cycle(q, rates, law.mask)
         robot.record_cycle(true, q_measured, torque, pose, errors)
         if monitor is not None and not controller.is_stopped:
             verdict = monitor.step(q, robot.reference, torque, pose=pose)

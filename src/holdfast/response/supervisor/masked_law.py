@@ -12,9 +12,9 @@ from holdfast.control.laws.law import Law
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.kinematics.solvers.inverse_kinematics import task_error
+from holdfast.kinematics.solvers.inverse_kinematics import task_error_and_jacobian
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.task import target_poses
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.exact_clearance import with_exact_distances
@@ -38,7 +38,7 @@ def make_masked_kernel(law: Law) -> Kernel:
     arm, task = law.arm, law.task
     q, mask, pull = kinematics.joint_symbols(arm), ca.SX.sym("mask", arm.n), ca.SX.sym("pull", arm.n)
     position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-    error, _ = task_error(arm, task, q, position, rotation)
+    error, _ = task_error_and_jacobian(arm, task, q, position, rotation)
     jacobian, secondary_rates = law.jacobian(q) @ ca.diag(mask), mask * pull
     rates = mask * (
         law.inverse(jacobian, law.scale_velocity(law.command(error)) - jacobian @ secondary_rates) + secondary_rates
@@ -86,7 +86,7 @@ class MaskedLaw:
         poses, rows = target_poses(law.task, target)
         self.arm, arm, n = law.arm, law.arm, law.arm.n
         self.whole, self.clearance = law, clearance
-        self._apart = with_exact_distances(clearance) or clearance  # routes are proved with exact distances too
+        self._exact_clearance = with_exact_distances(clearance) or clearance  # routes are proved with exact distances too
         self.pose = np.eye(4)
         if rows is None:
             self.pose = np.asarray(poses[0])
@@ -94,8 +94,8 @@ class MaskedLaw:
             self.pose[:3, 3] = rows[0] @ law.task.rows[:, :3]
         self.mask, self.position_error, self.orientation_error = np.ones(n), np.inf, np.inf
         bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
-        self._middle = np.mean(finite_limits(arm), axis=0)
-        self._pull, self._rows = np.where(bounded, centring, 0.0), law.task.m
+        self._middle = np.mean(sampling_limits(arm), axis=0)
+        self._centring_gains, self._rows = np.where(bounded, centring, 0.0), law.task.m
         self._lower, self._upper = arm.lower + LIMIT_TOLERANCE, arm.upper - LIMIT_TOLERANCE
         self._kernel, self._gain = make_masked_kernel(law), law.gain
         self._run = self._kernel.single_row()
@@ -112,7 +112,7 @@ class MaskedLaw:
         row, inputs, outputs = self._row, self._inputs, self._outputs
         free = self.mask if mask is None else mask
         # Without redundancy there is no null space, and a damped law with the pull would miss its target.
-        pull = self._pull * (self._middle - q) if free.sum() > self._rows else 0.0
+        pull = self._centring_gains * (self._middle - q) if free.sum() > self._rows else 0.0
         row[inputs.q], row[inputs.mask], row[inputs.pull] = q, free, pull
         values = self._run(row)
         rates = values[outputs.rates].copy()
@@ -132,7 +132,7 @@ class MaskedLaw:
 
     def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return whether the arm keeps its clearance, (N,) for configurations (N, n), or a scalar for one configuration."""
-        return np.ones(q.shape[:-1], dtype=bool) if self._apart is None else self._apart.margin_left(q) >= 0
+        return np.ones(q.shape[:-1], dtype=bool) if self._exact_clearance is None else self._exact_clearance.margin_left(q) >= 0
 
     def predict_time_to_target(self, q: FloatArray, *, max_speeds: FloatArray) -> FloatArray:
         """Return the times (N,) in s at which the law would reach its target from configurations (N, n); infinite where it
@@ -145,7 +145,7 @@ class MaskedLaw:
         q, active, durations = q.copy(), np.arange(len(q)), np.full(len(q), np.inf)
         nearest, since = np.full(len(q), np.inf), np.zeros(len(q))
         for time in step * np.arange(round(PREDICTION_HORIZON_S / step)):
-            rates, errors = self._evaluate_batch(q[active])
+            rates, errors = self._rates_and_errors(q[active])
             nearer = errors < nearest[active] - MIN_PROGRESS
             nearest[active[nearer]], since[active[nearer]] = errors[nearer], time
             durations[active[errors < TARGET_TOLERANCE]] = time
@@ -159,12 +159,12 @@ class MaskedLaw:
             q[active] = np.clip(q[active] + step * rates / slower[:, None], self._lower, self._upper)
         return durations
 
-    def _evaluate_batch(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _rates_and_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return rates (N, n) as :meth:`rates` does, and the sum of position and orientation error (N,), m and rad."""
         free, position, rotation = np.tile(self.mask, (len(q), 1)), self.pose[:3, 3], self.pose[:3, :3]
         outputs = self._outputs
         while True:
-            pull = np.where(free.sum(axis=1, keepdims=True) > self._rows, self._pull * (self._middle - q), 0.0)
+            pull = np.where(free.sum(axis=1, keepdims=True) > self._rows, self._centring_gains * (self._middle - q), 0.0)
             values = self._kernel.rows(q, position, rotation, free, pull)
             rates = values[:, outputs.rates]
             errors = values[:, outputs.position_error] + values[:, outputs.orientation_error]

@@ -28,28 +28,28 @@ class RouteFollower:
     """
 
     def __init__(self, motion: TimedMotion, *, waypoints: int, max_tool_speed: float | None, max_speeds: FloatArray) -> None:
-        self.waypoints, self._motion, self._at = waypoints, motion, 0.0
+        self.waypoints, self._motion, self._motion_time = waypoints, motion, 0.0
         tool = (motion.arm.jacobian(motion.q)[:, :3] @ motion.qd[:, :, None])[..., 0]
         limit = np.inf if max_tool_speed is None else max_tool_speed
         pace = np.minimum(ROUTE_PACE, limit / np.maximum(np.linalg.norm(tool, axis=1), 1e-9))
         pace = np.minimum(pace, (max_speeds / np.maximum(np.abs(motion.qd), 1e-9)).min(axis=1))
-        self._slow = np.minimum(pace, np.r_[pace[1:], pace[-1]])  # from each row to the next
-        self.duration = float((motion.period / self._slow[:-1]).sum())
+        self._segment_paces = np.minimum(pace, np.r_[pace[1:], pace[-1]])  # from each row to the next
+        self.duration = float((motion.period / self._segment_paces[:-1]).sum())
 
     @property
     def is_finished(self) -> bool:
         """True once the end of the route is reached."""
-        return bool(self._at >= self._motion.time[-1])
+        return bool(self._motion_time >= self._motion.time[-1])
 
     def rates(self, q: FloatArray, *, pace: float, dt: float) -> FloatArray:
         """Return rates (n,) for the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at q
         (n,).
         """
         motion, last = self._motion, len(self._motion.q) - 1
-        x = min(self._at / motion.period, float(last)) if last else 0.0
+        x = min(self._motion_time / motion.period, float(last)) if last else 0.0
         sample = min(int(x), max(last - 1, 0))
-        rate = pace * float(self._slow[sample])
-        self._at += rate * dt
+        rate = pace * float(self._segment_paces[sample])
+        self._motion_time += rate * dt
         q_route, qd_route = (
             part[sample] + (x - sample) * (part[min(sample + 1, last)] - part[sample]) for part in (motion.q, motion.qd)
         )

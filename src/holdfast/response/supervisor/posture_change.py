@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.response.supervisor.masked_law import MaskedLaw
 
@@ -14,12 +14,12 @@ UNLIMITED_STEP_RAD = np.pi / 2  # motion of a joint without limits, in both dire
 _PATH_SEGMENTS = 16  # number of configurations that approximate the length of the tool path
 
 
-def candidate_postures(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
+def candidate_configurations(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
     """Return candidates (K, n) near q (n,), rad and m: unmasked joints nearer to their middle, or one of them there
     or beyond.
     """
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
-    middle = np.where(bounded, np.mean(finite_limits(arm), axis=0), q)
+    middle = np.where(bounded, np.mean(sampling_limits(arm), axis=0), q)
     candidates = [q + mask * depth * (middle - q) for depth in CENTRING_FRACTIONS]
     for joint in np.flatnonzero(mask):
         for value in (
@@ -31,7 +31,9 @@ def candidate_postures(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
     return np.array(candidates)
 
 
-def choose_posture(law: MaskedLaw, q: FloatArray, *, max_speeds: FloatArray, max_tool_speed: float | None) -> FloatArray | None:
+def choose_intermediate_configuration(
+    law: MaskedLaw, q: FloatArray, *, max_speeds: FloatArray, max_tool_speed: float | None
+) -> FloatArray | None:
     """Choose the intermediate configuration (n,) through which the target is reached soonest; None if none reaches it.
 
     Args:
@@ -41,7 +43,7 @@ def choose_posture(law: MaskedLaw, q: FloatArray, *, max_speeds: FloatArray, max
         max_tool_speed: Speed limit of the tool in m/s; None without one.
     """
     arm = law.arm
-    candidates = candidate_postures(arm, np.clip(q, arm.lower, arm.upper), law.mask)
+    candidates = candidate_configurations(arm, np.clip(q, arm.lower, arm.upper), law.mask)
     durations = (np.abs(candidates - q) / max_speeds).max(axis=1)
     if max_tool_speed is not None:
         between = q + np.linspace(0.0, 1.0, _PATH_SEGMENTS)[:, None, None] * (candidates - q)

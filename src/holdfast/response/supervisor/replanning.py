@@ -11,7 +11,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.supervisor.masked_law import MaskedLaw
 from holdfast.response.supervisor.plan import RouteFollower, plan_route
-from holdfast.response.supervisor.posture_change import choose_posture
+from holdfast.response.supervisor.posture_change import choose_intermediate_configuration
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,9 @@ class TrialRoute:
     route: RouteFollower
 
 
-def plan_posture_change(law: MaskedLaw, q: FloatArray, failures: Degraded, *, max_speeds: FloatArray) -> RouteFollower | str:
+def plan_intermediate_motion(
+    law: MaskedLaw, q: FloatArray, failures: Degraded, *, max_speeds: FloatArray
+) -> RouteFollower | str:
     """Plan a motion to an intermediate configuration from which the law converges, or return a phrase with the obstacle.
 
     Args:
@@ -40,7 +42,7 @@ def plan_posture_change(law: MaskedLaw, q: FloatArray, failures: Degraded, *, ma
         failures: Failures of the arm.
         max_speeds: (n,) largest joint rates, rad/s and m/s.
     """
-    posture = choose_posture(law, q, max_speeds=max_speeds, max_tool_speed=law.whole.speed_limit)
+    posture = choose_intermediate_configuration(law, q, max_speeds=max_speeds, max_tool_speed=law.whole.speed_limit)
     return "no other posture helps" if posture is None else plan_route(law, q, posture, failures, max_speeds=max_speeds)
 
 

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from holdfast.response.diagnosis.kinds import FaultVerdict
 
 React = Literal["none", "stop", "chain", "known"]
-Ended = Literal["reached", "stopped", "missed", "unstable"]
-What = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
+FaultRunOutcome = Literal["reached", "stopped", "missed", "unstable"]
+ActionKind = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
 
 _OUTCOME_PHRASES = {
     "reached": "the tool reached its target",
@@ -58,7 +58,7 @@ class Action:
     """
 
     time: float
-    what: What
+    what: ActionKind
     why: str
     _: KW_ONLY
     joint: str | None = None
@@ -106,7 +106,7 @@ class FaultRun(Result):
     actions: tuple[Action, ...]
     verdicts: tuple[FaultVerdict, ...]
     degraded: Degraded | None
-    outcome: Ended
+    outcome: FaultRunOutcome
     clearance: Clearance | None = None
     time: FloatArray
     q: FloatArray

@@ -140,9 +140,8 @@ class ThresholdAnswer:
         if self.is_worst_everywhere:
             worst_value = "0" if self.larger_is_better else "infinite"
             verdict = f"the worst-case {name} is {worst_value} at each {noun} reached{lost_text}."
-            return (
-                f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict} {self.explanation}".rstrip()
-            )
+            sentence = f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict}"
+            return f"{sentence} {self.low_probability_reason}".rstrip()
         bound = f"at {'least' if self.larger_is_better else 'most'} {format_as_given(self.threshold)}{self.unit_suffix}"
         if self.larger_is_better and self.index.bound is not None:
             bound += f" ({format_percent(self.threshold / self.index.bound)} of the largest possible value)"
@@ -155,7 +154,7 @@ class ThresholdAnswer:
             if self.probability.value
             else f"None of the {distribution.samples:,} {noun}s drawn"
         )
-        return f"{self.remaining_reach}{few_text} {kept_text}: {chance}{lost_text}. {self.explanation}"
+        return f"{self.remaining_reach}{few_text} {kept_text}: {chance}{lost_text}. {self.low_probability_reason}"
 
     @property
     def remaining_reach(self) -> str:
@@ -174,7 +173,7 @@ class ThresholdAnswer:
         return min(fractions.items(), key=lambda each: each[1])
 
     @property
-    def explanation(self) -> str:
+    def low_probability_reason(self) -> str:
         """Reason for a probability of nearly 0, from the joints or the structure, and the next informative numbers."""
         assessment, index, names = self.assessment, self.index, self.assessment.plan.arm.joint_names
         own_structure = self.task_structures[0]

@@ -26,7 +26,7 @@ from holdfast.studies.assessment import upgrade
 from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
 from holdfast.studies.assessment.plan import AssessmentPlan, Rows
 from holdfast.studies.assessment.rows import Collisions, describe_provenance
-from holdfast.studies.assessment.upgrade import RunSample, Upgrade, check_rates, select_sample
+from holdfast.studies.assessment.upgrade import RunSample, Upgrade, check_failure_rates, make_run_sample
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -174,9 +174,9 @@ class Assessment(Result):
                     f"this run did not look at a lock of '{names[lock]}'; assess again with after_lock=True or with "
                     f"it in locked"
                 )
-        return {names[lock]: self._compute_interval(float(self.survivors[lock]), confidence) for lock in chosen}
+        return {names[lock]: self._pose_fraction_interval(float(self.survivors[lock]), confidence) for lock in chosen}
 
-    def _compute_interval(self, hits: float, confidence: float) -> Interval:
+    def _pose_fraction_interval(self, hits: float, confidence: float) -> Interval:
         """Return the fraction of all poses with its interval, by weight if poses have weights."""
         distribution = self.distribution
         if distribution.has_weights:
@@ -197,7 +197,7 @@ class Assessment(Result):
         check_confidence(confidence)
         if self.clear is None:
             raise InputError("this run had no cell around the arm; assess again with cell=")
-        return self._compute_interval(self.clear, confidence)
+        return self._pose_fraction_interval(self.clear, confidence)
 
     @property
     def locks(self) -> dict[str, float | None]:
@@ -214,7 +214,7 @@ class Assessment(Result):
         Raises:
             InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
         """
-        weights = check_rates(self.arm, rates)
+        weights = check_failure_rates(self.arm, rates)
         failing = np.flatnonzero(weights)
         shares = np.array([self.survival(int(joint))[self.arm.joint_names[joint]].value for joint in failing])
         return float(shares @ weights[failing] / weights.sum())
@@ -255,8 +255,8 @@ class Assessment(Result):
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
         number, run_sample = self.arm.joint_index(joint), self._select_sample(optimised)
-        return upgrade.make_distribution_without(
-            self.index, run_sample, self._compute_values_without(number, run_sample, optimised)
+        return upgrade.make_sample_distribution(
+            self.index, run_sample, self._values_if_never_failing(number, run_sample, optimised)
         )
 
     @check_arguments
@@ -276,20 +276,20 @@ class Assessment(Result):
         minimum = self.default_threshold() if threshold is None else threshold
         run_sample = self._select_sample(optimised)
         return upgrade.rank_upgrades(
-            self.index, run_sample, lambda k: self._compute_values_without(k, run_sample, optimised), minimum, confidence
+            self.index, run_sample, lambda k: self._values_if_never_failing(k, run_sample, optimised), minimum, confidence
         )
 
     def _select_sample(self, optimised: bool) -> RunSample:
         self.distribution_of(optimised)  # says so where the run was not optimised
-        run_sample = select_sample(self.index, self.columns, optimised)
+        run_sample = make_run_sample(self.index, self.columns, optimised)
         return run_sample.first_poses if optimised else run_sample
 
-    def _compute_values_without(self, joint: int, run_sample: RunSample, optimised: bool) -> FloatArray:
+    def _values_if_never_failing(self, joint: int, run_sample: RunSample, optimised: bool) -> FloatArray:
         """Return the values (N,) of a sample if a joint, from 0, never failed; optimised values are computed once."""
         cached: dict[int, FloatArray] = self.__dict__.setdefault("_optimised_without", {})
         if optimised and joint not in cached:
-            cached[joint] = upgrade.optimise_value_without(self.plan, self.columns, joint, run_sample)
-        return cached[joint] if optimised else upgrade.compute_value_without(self.index, joint, run_sample)
+            cached[joint] = upgrade.optimise_index_excluding_joint(self.plan, self.columns, joint, run_sample)
+        return cached[joint] if optimised else upgrade.compute_index_excluding_joint(self.index, joint, run_sample)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
 

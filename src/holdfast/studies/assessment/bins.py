@@ -55,9 +55,9 @@ class IndexCounts:
         finite = values if is_finite.all() else values[is_finite]  # numpy picks rows, and counts them, with Python held
         lowest, highest = (float(finite.min()), float(finite.max())) if finite.size else (np.inf, -np.inf)
         facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), lowest, highest])
-        self.add_counts(np.bincount(bin_numbers.clip(0, last), minlength=last + 1), facts)
+        self.merge_counts(np.bincount(bin_numbers.clip(0, last), minlength=last + 1), facts)
 
-    def add_counts(self, bins: NDArray[Any], facts: FloatArray) -> None:
+    def merge_counts(self, bins: NDArray[Any], facts: FloatArray) -> None:
         """Add another part that was counted elsewhere."""
         self.bins += bins
         self.facts[:5] += facts[:5]
@@ -81,7 +81,7 @@ class IndexCounts:
         )
 
 
-def add_chunks(
+def merge_chunk_counts(
     index: Index, optimised: bool, chunks: Iterable[Mapping[str, NDArray[Any]]]
 ) -> list[tuple[IndexCounts, NDArray[np.int64]]]:
     """Add up chunks of counts: values and worst failures as found and, if ``optimised``, at the best configurations."""
@@ -89,6 +89,6 @@ def add_chunks(
     parts = [(IndexCounts(index), np.zeros(len(index.failures), dtype=np.int64)) for _ in prefixes]
     for rows in chunks:
         for prefix, (counts, worst_counts) in zip(prefixes, parts, strict=True):
-            counts.add_counts(rows[f"{prefix}bins"][0], rows[f"{prefix}facts"][0])
+            counts.merge_counts(rows[f"{prefix}bins"][0], rows[f"{prefix}facts"][0])
             worst_counts += rows[f"{prefix}worst_counts"][0]
     return parts

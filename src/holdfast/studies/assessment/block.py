@@ -9,7 +9,7 @@ from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.indices.index import IndexEvaluation, WorstCase
 from holdfast.kinematics.solvers.inverse_kinematics import Accept, solver
-from holdfast.kinematics.solvers.optimum import Ascent, default_starts, objective_ascent
+from holdfast.kinematics.solvers.optimum import Ascent, default_starts, get_cached_ascent
 from holdfast.studies.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, AssessmentPlan, Rows
 
 POSE_TOLERANCE = 1e-6  # of the pose, m and rad
@@ -27,7 +27,7 @@ def compile_plan(plan: AssessmentPlan) -> None:
 
 
 def _make_ascent(plan: AssessmentPlan) -> Ascent:
-    return objective_ascent(plan.index, None, plan.clearance, plan.margin)
+    return get_cached_ascent(plan.index, None, plan.clearance, plan.margin)
 
 
 def evaluate_block(plan: AssessmentPlan, samples: FloatArray, number: int) -> Rows:
@@ -94,12 +94,12 @@ def evaluate_block(plan: AssessmentPlan, samples: FloatArray, number: int) -> Ro
         rows |= clearance_rows
     q, usable = solutions.q, solutions.success
     if plan.cell is not None:
-        q, usable = _solve_collision_free(plan, poses, q, is_clear, solutions.success, number)
+        q, usable = _replace_colliding_configurations(plan, poses, q, is_clear, solutions.success, number)
         rows["clear"] = np.where(solutions.success, usable, -1).astype(np.int8)
     if plan.has_weights:
         rows["weight"] = plan.region.weights(samples)
     if plan.locks:
-        rows["survives"], rows["lock_angle"] = _test_survival(plan, poses, q, usable, number)
+        rows["survives"], rows["lock_angle"] = _test_reach_after_locks(plan, poses, q, usable, number)
     return rows
 
 
@@ -127,7 +127,7 @@ def _find_collision_partner(plan: AssessmentPlan, pair: NDArray[np.int64]) -> ND
     return np.where(pair < 0, -1, partner).astype(np.int16)
 
 
-def _make_acceptance_test(plan: AssessmentPlan) -> Accept | None:
+def _make_clearance_test(plan: AssessmentPlan) -> Accept | None:
     """Return the test of acceptable configurations if the arm must be free of collisions with a cell, or None."""
     clearance = plan.clearance
     if clearance is None or plan.cell is None:
@@ -135,16 +135,16 @@ def _make_acceptance_test(plan: AssessmentPlan) -> Accept | None:
     return lambda q: np.asarray(clearance.margin_left(q) >= plan.margin)
 
 
-def _solve_collision_free(
+def _replace_colliding_configurations(
     plan: AssessmentPlan, poses: FloatArray, q: FloatArray, is_clear: NDArray[np.bool_], reached: NDArray[np.bool_], number: int
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Return the configurations q (N, n) of the reached poses, replaced by collision-free ones where q is too close."""
     pose_solver, unclear = solver(plan.arm, plan.index.task), np.flatnonzero(reached & ~is_clear)
     obstacles = None if plan.clearance is None else plan.clearance.obstacles
     if obstacles is not None and plan.index.task.m == 6:
-        unclear = unclear[~obstacles.never_collision_free(poses[unclear], plan.margin)]
+        unclear = unclear[~obstacles.are_poses_always_colliding(poses[unclear], plan.margin)]
     seed = np.random.SeedSequence(plan.seed, spawn_key=(4, number))
-    tolerance, accept = pose_solver.scale_tolerance(POSE_TOLERANCE), _make_acceptance_test(plan)
+    tolerance, accept = pose_solver.scale_tolerance(POSE_TOLERANCE), _make_clearance_test(plan)
     solutions = pose_solver.solve(poses[unclear], seed, CLEAR_RESTARTS, tolerance, accept=accept, steps=CLEAR_STEPS)
     q, collision_free = q.copy(), reached & is_clear
     q[unclear], collision_free[unclear] = solutions.q, solutions.success
@@ -157,7 +157,7 @@ def evaluate_worst_cases(plan: AssessmentPlan, configurations: FloatArray) -> Ro
     return {"status": worst.status, "index": worst.value, "worst": _find_worst_failures(worst)}
 
 
-def _test_survival(
+def _test_reach_after_locks(
     plan: AssessmentPlan, poses: FloatArray, q: FloatArray, reached: NDArray[np.bool_], number: int
 ) -> tuple[NDArray[np.int8], FloatArray]:
     """Return for each reached pose and each requested joint whether the pose is still reached after a lock, and the locked
@@ -181,14 +181,14 @@ def _test_survival(
     requested = np.array(list(plan.locks))
     locked = np.tile(requested, reached_rows.size)
     pose_solver = solver(plan.arm, plan.index.task)
-    survives = pose_solver.reaches_locked(
+    survives = pose_solver.is_reachable_with_lock(
         poses[np.repeat(reached_rows, requested.size)],
         locked,
         angles[:, requested].ravel(),
         start_seed,
         LOCK_RESTARTS,
         POSE_TOLERANCE,
-        _make_acceptance_test(plan),
+        _make_clearance_test(plan),
     )
     result[np.ix_(reached_rows, requested)] = survives.reshape(-1, requested.size)
     lock_values[np.ix_(reached_rows, requested)] = angles[:, requested]

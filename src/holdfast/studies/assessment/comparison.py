@@ -17,7 +17,7 @@ from holdfast.core.files.sealed import read_sealed
 from holdfast.core.formatting import format_interval
 from holdfast.core.probability.intervals import Interval
 from holdfast.core.result import Result
-from holdfast.core.sweeps.folder import is_plain_name
+from holdfast.core.sweeps.folder import is_valid_folder_name
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.failure_modes import failure_sets
@@ -72,7 +72,7 @@ class Comparison(Result):
             "redundancy": assessment.arm.n - task.m,
             "poses": assessment.distribution.samples,
         }
-        row |= _make_interval_entries("reached", _compute_reached_interval(assessment))
+        row |= _make_interval_entries("reached", _reached_fraction_interval(assessment))
         for optimised, prefix in ((False, ""), (True, "optimised_")):
             is_computed = not optimised or assessment.optimised is not None
             row |= _make_interval_entries(f"{prefix}probability", self.interval(assessment, optimised) if is_computed else None)
@@ -217,7 +217,7 @@ class Comparison(Result):
         """
         target = Path(folder)
         for name in self.names:
-            if not is_plain_name(name):
+            if not is_valid_folder_name(name):
                 raise InputError(f"candidate '{name}' is not the name of a folder; give names without / and \\")
         for name, run in zip(self.names, self.assessments, strict=True):
             run.save(target / name, self.threshold)
@@ -300,7 +300,7 @@ def load_comparison(path: str | Path, threshold: float | None = None) -> Compari
         ]
     except (OSError, ValueError, KeyError, TypeError, InputError) as error:
         raise StoreError(damage_message) from error
-    if not all(is_plain_name(name) and (tool is None or isinstance(tool, str)) for name, tool in candidates):
+    if not all(is_valid_folder_name(name) and (tool is None or isinstance(tool, str)) for name, tool in candidates):
         raise StoreError(damage_message)
     runs = [load(folder / name) for name, _ in candidates]
     return compare_assessments(runs, [name for name, _ in candidates], threshold, tools=[tool for _, tool in candidates])
@@ -346,7 +346,7 @@ def _describe_failures(assessment: Assessment) -> str:
     return ", ".join(assessment.index.failure_names)
 
 
-def _compute_reached_interval(assessment: Assessment) -> Interval:
+def _reached_fraction_interval(assessment: Assessment) -> Interval:
     distribution = assessment.distribution
     return (
         Interval.of_share(1 - distribution.unreached_share, distribution.effective())

@@ -16,7 +16,7 @@ from holdfast.core.errors import HoldfastError, InputError, StoreError
 from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.core.sweeps.store import Column, Store
 from holdfast.kinematics.indices.index import Index, by_name
-from holdfast.kinematics.indices.own_file import check_digest, plan_entries
+from holdfast.kinematics.indices.own_file import check_function_digest, plan_entries
 from holdfast.kinematics.regions.region import Region, Sampling
 from holdfast.kinematics.solvers.optimum import default_starts
 from holdfast.model.arm.model import Arm
@@ -185,7 +185,7 @@ class AssessmentPlan:
             raise InputError("its fingerprint is not that of its arm, so its rows may be those of another arm")
         task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, failures=[list(failed) for failed in data["failures"]])
-        check_digest(index, data)
+        check_function_digest(index, data)
         region = Region.from_dict(data["region"])
         clearance_entry = data.get("clearance")
         return cls(

@@ -149,7 +149,7 @@ class IndexStatistics:
 
     def finish(self) -> Distribution:
         """Return the distribution of everything added."""
-        return self._collector.finish()
+        return self._collector.make_distribution()
 
 
 @dataclass(frozen=True)

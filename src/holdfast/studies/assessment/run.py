@@ -22,7 +22,7 @@ from holdfast.model.arm.task import Task, as_task
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike
 from holdfast.studies.assessment.assessment import Assessment
-from holdfast.studies.assessment.bins import add_chunks
+from holdfast.studies.assessment.bins import merge_chunk_counts
 from holdfast.studies.assessment.block import compile_plan
 from holdfast.studies.assessment.plan import AssessmentPlan, Rows, make_plan
 from holdfast.studies.assessment.rows import (
@@ -190,7 +190,7 @@ def _load_counted(store: Store) -> Assessment:
     if reading.path_exists(parent / STUDY_FILE):
         rows_by_cell = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
     one_pose_plan = AssessmentPlan.from_store(store, 1, rows=False)
-    parts = add_chunks(
+    parts = merge_chunk_counts(
         one_pose_plan.index, one_pose_plan.optimise, (store.read_checked(chunk) for chunk in store.committed_chunks)
     )
     samples = int(parts[0][0].facts[:2].sum())

@@ -119,13 +119,13 @@ def _find_weak_joints(arm: Arm, task: Task, q: FloatArray, by_failure: FloatArra
             manipulability_left=float(fractions[joint]),
             best=best,
             bound=bound,
-            axis_distance=_measure_axis_distance(arm, int(joint)),
+            axis_distance=_measure_concurrency_error(arm, int(joint)),
         )
         for joint in np.flatnonzero(fractions <= WEAK_FRACTION)
     )
 
 
-def _measure_axis_distance(arm: Arm, joint: int) -> float | None:
+def _measure_concurrency_error(arm: Arm, joint: int) -> float | None:
     """Measure how far the three axes before and the three after a joint are from meeting in a point each, in metres."""
     groups = [range(joint - 3, joint), range(joint + 1, joint + 4)]
     if joint < 3 or joint + 3 >= arm.n or arm.prismatic[[number for group in groups for number in group]].any():

@@ -77,7 +77,7 @@ class RunSample:
         return replace(self, **{name: column[:MAX_REOPTIMISED_POSES] for name, column in values.items() if column is not None})
 
 
-def select_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> RunSample:
+def make_run_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> RunSample:
     """Return the sample of a run from its columns.
 
     At the best configurations the values after each failure are not stored but computed again, which costs less than reading.
@@ -101,13 +101,13 @@ def select_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> 
     return RunSample(computed, reached, q, value, by_failure, worst, weight)
 
 
-def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> FloatArray:
+def compute_index_excluding_joint(index: Index, joint: int, run_sample: RunSample) -> FloatArray:
     """Compute the worst case (N,) over the failures that do not include a joint, from 0; NaN where no pose is reached.
 
     Raises:
         InputError: No such failure is left.
     """
-    remaining = _find_failures_without(index, joint)
+    remaining = _failures_excluding_joint(index, joint)
     if not remaining:
         raise InputError(
             f"every failure considered is one of '{index.arm.joint_names[joint]}', so nothing could fail; assess with "
@@ -117,13 +117,16 @@ def compute_value_without(index: Index, joint: int, run_sample: RunSample) -> Fl
     return np.asarray(values.min(axis=1) if index.better == "larger" else values.max(axis=1))
 
 
-def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample) -> FloatArray:
-    """Compute the values of :func:`compute_value_without`, at configurations optimised again for the remaining failures.
+def optimise_index_excluding_joint(
+    plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample
+) -> FloatArray:
+    """Compute the values of :func:`compute_index_excluding_joint`, at configurations optimised again for the remaining
+    failures.
 
     The configuration optimised for all failures is the first start, so the value is never worse than there.
     """
-    value = compute_value_without(plan.index, joint, run_sample)
-    remaining = _find_failures_without(plan.index, joint)
+    value = compute_index_excluding_joint(plan.index, joint, run_sample)
+    remaining = _failures_excluding_joint(plan.index, joint)
     numbers = run_sample.number[run_sample.reached]
     if len(remaining) == len(plan.index.failures) or not numbers.size:
         return value
@@ -145,7 +148,7 @@ def optimise_value_without(plan: AssessmentPlan, columns: Mapping[str, Any], joi
     return value
 
 
-def make_distribution_without(index: Index, run_sample: RunSample, value: FloatArray) -> Distribution:
+def make_sample_distribution(index: Index, run_sample: RunSample, value: FloatArray) -> Distribution:
     """Build the distribution of values (N,) of the sampled poses."""
     reached, unreached = (
         (None, ())
@@ -159,13 +162,17 @@ def make_distribution_without(index: Index, run_sample: RunSample, value: FloatA
 
 
 def rank_upgrades(
-    index: Index, run_sample: RunSample, values_without: Callable[[int], FloatArray], threshold: float, confidence: float
+    index: Index,
+    run_sample: RunSample,
+    values_excluding_joint: Callable[[int], FloatArray],
+    threshold: float,
+    confidence: float,
 ) -> list[Upgrade]:
     """Compute :meth:`Assessment.upgrades` from the values (N,) that remain without each joint."""
     if not np.isfinite(threshold):
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
     larger_is_better = index.better == "larger"
-    distribution = make_distribution_without(index, run_sample, run_sample.value)
+    distribution = make_sample_distribution(index, run_sample, run_sample.value)
     probability = distribution.interval(at_least=threshold) if larger_is_better else distribution.interval(at_most=threshold)
 
     def meets_threshold(value: FloatArray) -> NDArray[np.bool_]:
@@ -173,10 +180,10 @@ def rank_upgrades(
 
     gains = []
     for joint, name in enumerate(index.arm.joint_names):
-        remaining = _find_failures_without(index, joint)
+        remaining = _failures_excluding_joint(index, joint)
         if not remaining or len(remaining) == len(index.failures):
             continue  # nothing would be left to fail, or nothing would change
-        gained = ~meets_threshold(run_sample.value) & meets_threshold(values_without(joint))
+        gained = ~meets_threshold(run_sample.value) & meets_threshold(values_excluding_joint(joint))
         if run_sample.weight is None:
             gain = Interval.from_counts(int(gained.sum()), distribution.samples, confidence)
         else:
@@ -199,12 +206,12 @@ def rank_upgrades(
     return sorted(gains, key=lambda entry: -entry.gain)
 
 
-def _find_failures_without(index: Index, joint: int) -> list[int]:
+def _failures_excluding_joint(index: Index, joint: int) -> list[int]:
     """Return the positions of the failures that do not include a joint, from 0."""
     return [position for position, failed in enumerate(index.failures) if joint not in failed]
 
 
-def check_rates(arm: Arm, rates: Mapping[Any, float]) -> FloatArray:
+def check_failure_rates(arm: Arm, rates: Mapping[Any, float]) -> FloatArray:
     """Return the failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
     weights = np.zeros(arm.n)
     for joint, rate in rates.items():

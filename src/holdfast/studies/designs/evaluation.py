@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.kernels.compiled import expect_rows
-from holdfast.kinematics.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAST_STEPS, best_per_owner, default_starts
-from holdfast.model.arm.configurations import make_limits_finite
+from holdfast.kernels.compiled import expect_row_count
+from holdfast.kinematics.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAST_STEPS, default_starts, largest_per_group
+from holdfast.model.arm.configurations import replace_infinite_limits
 from holdfast.studies.designs.family import Family
 
 Index = NDArray[np.intp]
@@ -105,7 +105,7 @@ class Evaluator:
         """
         fresh = self.starts // _START_DIVISOR if fresh is None else fresh
         for steps, kernel in ((_IK_ROWS, "inverse"), (_ASCENT_ROWS, "ascent")):
-            with expect_rows(len(values) * len(self.poses) * steps):
+            with expect_row_count(len(values) * len(self.poses) * steps):
                 getattr(self.family, kernel)
         if near is not None:
             return self._search_near(values, near, fresh)
@@ -171,7 +171,7 @@ class Evaluator:
             )
             rows, q = np.concatenate([rows, retry_rows]), np.concatenate([q, retry_q])
         rows, q, value = self._maximise_index(values, rows, q)
-        best_rows = best_per_owner(rows, value, _KEPT_CONFIGURATIONS)
+        best_rows = largest_per_group(rows, value, _KEPT_CONFIGURATIONS)
         rows, q, value = rows[best_rows], q[best_rows], value[best_rows]
         kept_q = np.full((design_count * pose_count, _KEPT_CONFIGURATIONS, n), np.nan)
         is_first = np.r_[True, rows[1:] != rows[:-1]] if rows.size else np.zeros(0, dtype=bool)
@@ -205,8 +205,8 @@ class Evaluator:
         return np.asarray(lower[design] + fractions * (upper - lower)[design])
 
     def finite_limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return limits (D, n) to sample between; see ``holdfast.model.arm.configurations.finite_limits``."""
-        return make_limits_finite(*self.family.limits(values), self.family.prismatic)
+        """Return limits (D, n) to sample between; see ``holdfast.model.arm.configurations.sampling_limits``."""
+        return replace_infinite_limits(*self.family.limits(values), self.family.prismatic)
 
     def _solve_inverse_kinematics(
         self, values: FloatArray, owner: Index, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
@@ -219,7 +219,7 @@ class Evaluator:
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
         run = self.family.inverse.run(np.clip(q, lower[design], upper[design]), parameters, self._tolerance**2, _IK_STEPS)
         error_sizes = np.sqrt(np.where(np.isnan(run.residual), np.inf, run.residual))
-        best_rows = best_per_owner(owner, -error_sizes, 1)
+        best_rows = largest_per_group(owner, -error_sizes, 1)
         best_rows = best_rows[error_sizes[best_rows] < pose_errors[owner[best_rows]]]
         nearest[owner[best_rows]], pose_errors[owner[best_rows]] = run.state[best_rows], error_sizes[best_rows]
         return owner[run.done], run.state[run.done]
@@ -231,7 +231,7 @@ class Evaluator:
         if not owner.size:
             return owner, q, np.empty(0)
         q, radius = self._ascend_index(values, owner, q, FIRST_STEPS, np.full(len(q), INITIAL_RADIUS))
-        best_rows = best_per_owner(owner, self.value(values, owner, q), 2 * _KEPT_CONFIGURATIONS)
+        best_rows = largest_per_group(owner, self.value(values, owner, q), 2 * _KEPT_CONFIGURATIONS)
         owner, q, radius = owner[best_rows], q[best_rows], radius[best_rows]
         q, _ = self._ascend_index(values, owner, q, LAST_STEPS, radius)
         design, pose = np.divmod(owner, len(self.poses))

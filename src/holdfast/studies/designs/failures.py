@@ -13,7 +13,7 @@ from holdfast.control.simulation.runs import RunOutcome
 from holdfast.control.simulation.system import scale_errors
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.solvers import joint_space
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.studies.designs.joints import LawOfDesigns
 
 # RUN_TIME_CONSTANTS and RUN_TOLERANCE: of a run, as in a convergence map
@@ -73,7 +73,7 @@ class FailureTrials:
     def __init__(self, law: LawOfDesigns, poses: FloatArray, count: int, seed: int) -> None:
         self.law, self.poses, self.count = law, poses, count
         self._solutions = SolutionSearch(law)
-        lower, upper = finite_limits(law.joints.arm)
+        lower, upper = sampling_limits(law.joints.arm)
         generator = np.random.default_rng(seed)
         self._guesses = generator.uniform(lower, upper, (len(poses), count * _STARTS_PER_CONFIGURATION, lower.size))
         self._starts = generator.uniform(lower, upper, (len(poses), count, lower.size, lower.size))

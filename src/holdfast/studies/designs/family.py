@@ -23,10 +23,10 @@ from holdfast.kernels.linalg import factor_householder
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kinematics.indices.index import Index, by_name
-from holdfast.kinematics.solvers.inverse_kinematics import damped_step, smooth_error, task_error
+from holdfast.kinematics.solvers.inverse_kinematics import damped_step_and_residual, sine_task_error, task_error_and_jacobian
 from holdfast.kinematics.solvers.optimum import ascent_step
 from holdfast.model.arm import kinematics
-from holdfast.model.arm.machine import Joint, snap_exact_values
+from holdfast.model.arm.machine import Joint, snap_rounding_noise
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, plane_normal
 from holdfast.model.failure_modes import FailureSpec
@@ -101,7 +101,7 @@ def _make_tool_transform(tool: FloatArray, open_symbols: dict[str, SX]) -> SX:
     position = [open_symbols.get(kind, float(tool[i, 3])) for i, kind in enumerate(TOOL_PARAMETERS[:3])]
     if not any(kind in open_symbols for kind in TOOL_PARAMETERS[3:]):
         rotation = ca.SX.eye(4)
-        rotation[:3, :3] = kinematics.constant_matrix(snap_exact_values(tool[:3, :3]))
+        rotation[:3, :3] = kinematics.constant_matrix(snap_rounding_noise(tool[:3, :3]))
         return _translation(*position) @ rotation
     numbers = dict(zip(TOOL_PARAMETERS[3:], Rotation.from_matrix(tool[:3, :3]).as_euler("xyz").tolist(), strict=True))
     roll, pitch, yaw = (open_symbols.get(kind, numbers[kind]) for kind in TOOL_PARAMETERS[3:])
@@ -113,7 +113,7 @@ def _rotation_about(axis: int, angle: float | SX) -> SX:
     if isinstance(angle, ca.SX):
         cosine, sine = ca.cos(angle), ca.sin(angle)
     else:
-        cosine, sine = snap_exact_values(np.array([np.cos(angle), np.sin(angle)])).tolist()
+        cosine, sine = snap_rounding_noise(np.array([np.cos(angle), np.sin(angle)])).tolist()
     second, third = (axis + 1) % 3, (axis + 2) % 3
     transform = ca.SX.eye(4)
     transform[second, second], transform[third, third], transform[third, second], transform[second, third] = (
@@ -216,8 +216,8 @@ class Family:
     def inverse(self) -> Loop:
         """Loop with state q and the parameters position (3), rotation (9), and design (k)."""
         q, position, rotation = self._pose_symbols
-        error, jacobian = task_error(self.arm, self.task, q, position, rotation)
-        step, residual = damped_step(self.arm, q, error, jacobian)
+        error, jacobian = task_error_and_jacobian(self.arm, self.task, q, position, rotation)
+        step, residual = damped_step_and_residual(self.arm, q, error, jacobian)
         return Loop("inverse kinematics of designs", q, [position, rotation, self.x], next_state=step, residual=residual)
 
     @cached_property
@@ -225,7 +225,7 @@ class Family:
     def errors(self) -> Kernel:
         """(q, p, r, x) to position error, m, and rotation error, rad."""
         q, position, rotation = self._pose_symbols
-        error, _ = task_error(self.arm, self.task, q, position, rotation)
+        error, _ = task_error_and_jacobian(self.arm, self.task, q, position, rotation)
         full_error = ca.SX(ca.DM(self.task.rows)).T @ error
         return Kernel(
             "task error of designs",
@@ -238,7 +238,7 @@ class Family:
     def misses(self) -> Kernel:
         """(q, p, r, x) to the error e (m,), ``J' e`` (n,) and ``d (e' e) / 2 / dx`` (k,): for poses out of reach."""
         q, position, rotation = self._pose_symbols
-        error, jacobian = task_error(self.arm, self.task, q, position, rotation)
+        error, jacobian = task_error_and_jacobian(self.arm, self.task, q, position, rotation)
         by_design = ca.gradient(ca.sumsqr(error) / 2, self.x)
         return Kernel("miss of designs", [q, position, rotation, self.x], [ca.vertcat(error, jacobian.T @ error, by_design)])
 
@@ -273,7 +273,7 @@ class Family:
         """
         q, position, rotation = self._pose_symbols
         _, scores, gradients = self._score_expressions
-        pose_error = smooth_error(self.arm, self.task, q, position, rotation)
+        pose_error = sine_task_error(self.arm, self.task, q, position, rotation)
         gradient_table = ca.vertcat(*[ca.horzcat(*row) for row in gradients])
         return Kernel(
             "conditions of designs",
@@ -288,7 +288,7 @@ class Family:
         q, position, rotation = self._pose_symbols
         _, scores, _ = self._score_expressions
         u, w = ca.SX.sym("u", len(scores)), ca.SX.sym("w", self.task.m)
-        lagrangian = ca.dot(u, ca.vertcat(*scores)) - ca.dot(w, smooth_error(self.arm, self.task, q, position, rotation))
+        lagrangian = ca.dot(u, ca.vertcat(*scores)) - ca.dot(w, sine_task_error(self.arm, self.task, q, position, rotation))
         score_symbol = ca.SX.sym("score")
         value = self.index.value_of_score(score_symbol)
         lowest = scores[0]

@@ -62,7 +62,10 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensit
     q = found.q.reshape(-1, evaluator.family.arm.n)[chosen].copy()
     reached = found.reached.reshape(-1)[chosen]
     value, gradient, exact = np.zeros(row_count), np.zeros((row_count, parameter_count)), np.zeros(row_count, dtype=bool)
-    for rows, solve in ((np.flatnonzero(reached), _solve_reached_poses), (np.flatnonzero(~reached), _solve_missed_poses)):
+    for rows, solve in (
+        (np.flatnonzero(reached), _differentiate_reached_poses),
+        (np.flatnonzero(~reached), _differentiate_missed_poses),
+    ):
         if rows.size:
             q[rows], value[rows], gradient[rows], exact[rows] = solve(evaluator, found.values, chosen[rows], q[rows])
     return Sensitivity(q=q, value=value, gradient=gradient, exact=exact)
@@ -82,7 +85,7 @@ def _compute_limit_gradient(evaluator: Evaluator, force: FloatArray) -> FloatArr
     return contribution
 
 
-def _solve_missed_poses(
+def _differentiate_missed_poses(
     evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     """Return minus the pose error and its gradient, at the nearest configuration, by Newton's method within the limits."""
@@ -135,7 +138,7 @@ def _solve_missed_poses(
     )
 
 
-def _solve_reached_poses(
+def _differentiate_reached_poses(
     evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
     family = evaluator.family

@@ -111,7 +111,7 @@ class PlanarStationarySets:
         )
 
     @cached_property
-    def _kernels(self) -> tuple[Kernel, Kernel]:
+    def _shape_and_slope_kernels(self) -> tuple[Kernel, Kernel]:
         """Jacobian and tool of (q, lengths), and the linearisation by q and by the error, for an error along a direction."""
         arm, moving = self._design_joints.whole, self._design_joints.moving.tolist()
         q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", 2)
@@ -149,20 +149,22 @@ class PlanarStationarySets:
 
     def _analyse_lock(self, shapes: _RestShapes, radii: FloatArray, angles: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return in-reach and stuck fractions and the clear flags (D, K) of one locked joint."""
-        clear = ~shapes.find_sink_rings(radii)
+        clear = ~shapes.have_ring_sinks(radii)
         in_reach, stuck = np.zeros((2, len(shapes.lengths), radii.size - 1))
         for index, (inner, outer) in enumerate(pairwise(radii.tolist())):
-            _, in_reach_at, stuck_at = self._find_stuck_angles(shapes, (inner + outer) / 2, angles)
+            _, in_reach_at, stuck_at = self._classify_lock_angles(shapes, (inner + outer) / 2, angles)
             in_reach[:, index], stuck[:, index] = in_reach_at.mean(axis=1), stuck_at.mean(axis=1)
             if shapes.joint == 0 and not self._damping:
                 for radius in (inner, outer):
                     locked = _make_lock_angles(angles)
-                    trapped = self._find_traps(shapes.lengths, radius, locked) & shapes.are_in_reach_first(radius, locked)
+                    trapped = self._has_singular_trap(shapes.lengths, radius, locked) & shapes.are_reachable_joint1_locked(
+                        radius, locked
+                    )
                     clear[:, index] &= ~trapped.any(axis=1)
             clear[:, index] &= ~stuck_at.any(axis=1)
         return in_reach, stuck, clear.astype(float)
 
-    def _find_stuck_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[FloatArray, BoolArray, BoolArray]:
+    def _classify_lock_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[FloatArray, BoolArray, BoolArray]:
         """Return the locked angles (A,), and (D, A) where targets at distance r are in reach, and where the arm can also get
         stuck.
         """
@@ -170,9 +172,9 @@ class PlanarStationarySets:
             in_reach = shapes.are_in_reach(r)
             return shapes.angle, in_reach, shapes.have_sinks(r).any(axis=(1, 2)) & in_reach
         locked = _make_lock_angles(angles)
-        in_reach, is_stuck = shapes.are_in_reach_first(r, locked), shapes.have_sinks_first(r, locked.size)
+        in_reach, is_stuck = shapes.are_reachable_joint1_locked(r, locked), shapes.have_sinks_joint1_locked(r, locked.size)
         if not self._damping:
-            is_stuck |= self._find_traps(shapes.lengths, r, locked)
+            is_stuck |= self._has_singular_trap(shapes.lengths, r, locked)
         return locked, in_reach, is_stuck & in_reach
 
     def analyse_distance(
@@ -191,11 +193,11 @@ class PlanarStationarySets:
             the arm can get stuck.
         """
         results = [
-            self._find_stuck_angles(_RestShapes.build(self, lengths[None], joint, angles), r, angles) for joint in range(3)
+            self._classify_lock_angles(_RestShapes.build(self, lengths[None], joint, angles), r, angles) for joint in range(3)
         ]
         return [(angle, in_reach[0], is_stuck[0]) for angle, in_reach, is_stuck in results]
 
-    def _find_traps(self, lengths: FloatArray, r: float, locked: FloatArray) -> BoolArray:
+    def _has_singular_trap(self, lengths: FloatArray, r: float, locked: FloatArray) -> BoolArray:
         """Return (D, A) whether a singular trap attracts the arm, with joint 1 at angles (A,) from the direction to
         the target.
         """
@@ -248,7 +250,7 @@ class _RestShapes:
 
     @classmethod
     def build(cls, planar_rest: PlanarStationarySets, lengths: FloatArray, joint: int, angles: int) -> _RestShapes:
-        shape_kernel, linear_kernel = planar_rest._kernels
+        shape_kernel, linear_kernel = planar_rest._shape_and_slope_kernels
         joints, count = planar_rest._design_joints, len(lengths)
         # The other half turn is the mirror image.
         angle = (np.arange(angles) + 0.5) / angles * np.pi
@@ -335,14 +337,14 @@ class _RestShapes:
         """Return (D, S) whether targets at distance r are in reach with joint 2 or 3 locked at the swept angles."""
         return np.asarray((self.lower[:, 0] <= r) & (r <= self.upper[:, 0]))
 
-    def are_in_reach_first(self, r: float, locked: FloatArray) -> BoolArray:
+    def are_reachable_joint1_locked(self, r: float, locked: FloatArray) -> BoolArray:
         """Return (D, A) whether targets at distance r are in reach with joint 1 locked at angles (A,) from the direction to the
         target.
         """
         distance = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
         return np.asarray((self.lower[:, 0, :1] <= distance) & (distance <= self.upper[:, 0, :1]))
 
-    def have_sinks_first(self, r: float, cells: int) -> BoolArray:
+    def have_sinks_joint1_locked(self, r: float, cells: int) -> BoolArray:
         """Return (D, cells) whether there is a sink, by the angle of joint 1 from the direction to a target at distance r."""
         offsets, has_sink = self._find_target_offsets(r), self.have_sinks(r)
         position = self.tool[:, :, None] + offsets[..., None] * self.direction[:, :, None]
@@ -362,7 +364,7 @@ class _RestShapes:
         covered: BoolArray = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(offsets), 5, cells).any(axis=1))
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
-    def find_sink_rings(self, radii: FloatArray) -> BoolArray:
+    def have_ring_sinks(self, radii: FloatArray) -> BoolArray:
         """Return (D, K) whether any target in a ring has a sink within its reach, by intervals of lambda, exact at
         each shape.
         """

@@ -48,7 +48,7 @@ class ReachEvaluator:
         lower, upper = limits
         q = (lower[:, None] + self._pool * (upper - lower)[:, None]).reshape(-1, n)
         designs = np.repeat(values, _START_COUNT, axis=0)
-        q = self._sweep_kernel.run(q, designs, _CONVERGED_CHANGE, _MAX_SWEEPS).state
+        q = self._joint_sweep_loop.run(q, designs, _CONVERGED_CHANGE, _MAX_SWEEPS).state
         outputs = self._distance_kernel.rows(q, designs)
         best = outputs[:, 0].reshape(design_count, _START_COUNT).argmax(axis=1) + np.arange(design_count) * _START_COUNT
         return outputs[best, 0], outputs[best, 1 : 1 + len(self._family.space.parameters)] + self._compute_limit_gradient(
@@ -91,7 +91,7 @@ class ReachEvaluator:
 
     @cached_property
     @cached_kernel
-    def _sweep_kernel(self) -> Loop:
+    def _joint_sweep_loop(self) -> Loop:
         arm = self._family.arm
         start_q = kinematics.joint_symbols(arm)
         q = ca.vertsplit(start_q)
@@ -124,7 +124,7 @@ class ReachEvaluator:
     @staticmethod
     def _choose_angle(current: SX, rotation: SX, cosine_part: SX, sine_part: SX, lower: SX, upper: SX) -> SX:
         """Return the best angle of a joint within its limits, if ``rotation`` is the best rotation from here without limits."""
-        if not kinematics.is_limited(lower) and not kinematics.is_limited(upper):
+        if not kinematics.is_limit_given(lower) and not kinematics.is_limit_given(upper):
             return current + rotation
 
         def compute_gain(angle: SX) -> SX:
@@ -133,12 +133,12 @@ class ReachEvaluator:
         best, best_gain = current, compute_gain(current)
         full_turn = 2 * np.pi
         for angle in (lower, upper, current + rotation, current + rotation + full_turn, current + rotation - full_turn):
-            if not kinematics.is_limited(angle):
+            if not kinematics.is_limit_given(angle):
                 continue
             inside = ca.SX(1)
-            if kinematics.is_limited(lower):
+            if kinematics.is_limit_given(lower):
                 inside = ca.logic_and(inside, angle >= lower)
-            if kinematics.is_limited(upper):
+            if kinematics.is_limit_given(upper):
                 inside = ca.logic_and(inside, angle <= upper)
             better = ca.logic_and(inside, compute_gain(angle) > best_gain)
             best, best_gain = ca.if_else(better, angle, best), ca.if_else(better, compute_gain(angle), best_gain)

@@ -274,7 +274,7 @@ class _DesignSearch:
         self._first_values = values
 
     @property
-    def _neighbours(self) -> Evaluated | None:
+    def _neighbour_results(self) -> Evaluated | None:
         """Designs from which others begin; computed again after resuming from a folder, which stores no configurations."""
         if self._first_evaluated is None and self._first_values is not None:
             self._first_evaluated = self.evaluator(self._first_values)
@@ -282,12 +282,12 @@ class _DesignSearch:
 
     def evaluate_designs(self, values: FloatArray) -> Parts:
         """Return the measures of designs."""
-        evaluated = self.evaluator(values, self._neighbours)
+        evaluated = self.evaluator(values, self._neighbour_results)
         if self._first_values is None:
             self._first_evaluated = evaluated
-        return self._summarise(evaluated)
+        return self._compute_measures(evaluated)
 
-    def _summarise(self, evaluated: Evaluated) -> Parts:
+    def _compute_measures(self, evaluated: Evaluated) -> Parts:
         extended = evaluated.signed_index
         weights = np.ones(extended.shape[1]) if self._weights is None else self._weights
         return {
@@ -303,7 +303,7 @@ class _DesignSearch:
 
         space = self.family.space
         width = space.upper - space.lower
-        trail: list[Evaluated] = [self.evaluator(start[None], self._neighbours)]
+        trail: list[Evaluated] = [self.evaluator(start[None], self._neighbour_results)]
         point_cache: dict[bytes, tuple[float, FloatArray, float, FloatArray]] = {}
         trials: list[tuple[float, float, FloatArray]] = []
 
@@ -351,8 +351,8 @@ class _DesignSearch:
 
     def evaluate_thoroughly(self, values: FloatArray) -> Parts:
         """Return the measures of designs, each searched from as many random starts as :func:`holdfast.optimise` uses."""
-        neighbours = self.evaluator(values, self._neighbours)
-        return self._summarise(self.evaluator(values, neighbours, self.evaluator.starts))
+        neighbours = self.evaluator(values, self._neighbour_results)
+        return self._compute_measures(self.evaluator(values, neighbours, self.evaluator.starts))
 
     def evaluate_held_out(self, values: FloatArray, count: int) -> Parts:
         """Evaluate designs on held-out poses, from random starts alone: index (D, P), reached (D, P), and weights

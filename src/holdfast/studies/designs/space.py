@@ -119,7 +119,7 @@ class DesignSpace:
                     f"{parameter.text(parameter.lower)} to "
                     f"{parameter.text(parameter.upper)}; widen them, so that the arm can be compared with what is found"
                 )
-        self._check_limits()
+        self._check_limits_cannot_cross()
 
     def _add_unit(self, parameter: DesignParameter) -> DesignParameter:
         """Return the parameter with its unit, after checking that the arm has it."""
@@ -141,7 +141,7 @@ class DesignSpace:
             )
         return replace(parameter, unit="m" if joint.prismatic else "rad")
 
-    def _check_limits(self) -> None:
+    def _check_limits_cannot_cross(self) -> None:
         lower, upper = self.arm.lower.copy(), self.arm.upper.copy()
         for parameter in self.parameters:
             if parameter.kind == "lower" and parameter.row is not None:
@@ -277,12 +277,12 @@ class DesignSpace:
             name=name or f"{self.arm.name}-design", gravity=self.arm.gravity, source=f"design of {self.arm.name}: {values_text}"
         )
         reshaped = {parameter.row for parameter in self.parameters if parameter.kind in ("a", "alpha", "d")}
-        bodies, payload = self._link_bodies
+        bodies, payload = self._links_in_table_frames
         links = tuple(None if index in reshaped else link for index, link in enumerate(bodies))
         return replace(new_arm, links=links).with_payload(payload)
 
     @cached_property
-    def _link_bodies(self) -> tuple[list[Link | None], Link | None]:
+    def _links_in_table_frames(self) -> tuple[list[Link | None], Link | None]:
         """Links of the baseline arm, each in the moving frame of its joint of the table, and the payload in the frame of the
         last row.
         """

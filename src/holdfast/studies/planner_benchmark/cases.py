@@ -16,7 +16,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.paths.path import Path, line, sequence
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint, upright
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, task_from_rows
 from holdfast.model.collision.clearance import Clearance
@@ -81,7 +81,7 @@ def sample_failure(arm: Arm, max_joints: int, rng: Rng) -> Degraded:
     The number is uniform; of each joint a lock, a range, a speed with probability 0.5, 0.3, 0.2. A lock is uniform within the
     limits, a range a fraction from 0.1 to 0.7 of them anywhere, a speed a fraction from 0.1 to 0.5.
     """
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     failures: dict[str, dict[str, Any]] = {kind: {} for kind in _FAILURE_KINDS}
     for index in rng.choice(arm.n, size=rng.integers(1, max_joints + 1), replace=False):
         kind = _FAILURE_KINDS[rng.choice(len(_FAILURE_KINDS), p=_KIND_PROBABILITIES)]
@@ -152,9 +152,9 @@ class NoValidSampleError(Exception):
     """Exception for a failure for which no valid configuration was found; another failure is sampled then."""
 
 
-def _limits_in_force(degraded: Degraded) -> tuple[FloatArray, FloatArray]:
+def _finite_degraded_limits(degraded: Degraded) -> tuple[FloatArray, FloatArray]:
     """Return the finite limits in force."""
-    lower, upper = finite_limits(degraded.limited)
+    lower, upper = sampling_limits(degraded.limited)
     is_movable = degraded.moves
     return np.where(is_movable, lower, degraded.lo), np.where(is_movable, upper, degraded.hi)
 
@@ -182,9 +182,9 @@ def _retry_failures(
 def _make_reach_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
     """Make a case whose goal is the pose of a collision-free configuration of the degraded or of the healthy arm."""
     arm, degraded = sampler.arm, sample_failure(sampler.arm, 3, rng)
-    limits = _limits_in_force(degraded)
+    limits = _finite_degraded_limits(degraded)
     start = sampler.sample_configuration(*limits, rng)
-    goal_configuration = sampler.sample_configuration(*(finite_limits(arm) if "healthy" in task else limits), rng)
+    goal_configuration = sampler.sample_configuration(*(sampling_limits(arm) if "healthy" in task else limits), rng)
     return BenchmarkCase(
         task, degraded, start, rows=as_task(arm, task.rpartition("-")[2]), goal=arm.forward_kinematics(goal_configuration)
     )
@@ -196,7 +196,7 @@ def _make_line_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
     a drawer.
     """
     degraded = sample_failure(sampler.arm, 2, rng)
-    start = sampler.sample_configuration(*_limits_in_force(degraded), rng)
+    start = sampler.sample_configuration(*_finite_degraded_limits(degraded), rng)
     start_pose = sampler.arm.forward_kinematics(start)
     displacement = rng.normal(size=3)
     displacement = -0.25 * start_pose[:3, 2] if task == "drawer" else 0.3 * displacement / np.linalg.norm(displacement)
@@ -215,7 +215,7 @@ def _make_wipe_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
     it is free.
     """
     degraded = sample_failure(sampler.arm, 2, rng)
-    start = sampler.sample_configuration(*_limits_in_force(degraded), rng)
+    start = sampler.sample_configuration(*_finite_degraded_limits(degraded), rng)
     start_pose = sampler.arm.forward_kinematics(start)
     poses, x, y = [start_pose], 0.0, 0.0
     for lane_index in range(_LANE_COUNT):
@@ -231,7 +231,7 @@ def _make_wipe_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
 def _make_tray_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCase:
     """Make a case of a horizontal 0.3 m line with the tool straight down; rotation about the vertical is free."""
     degraded = sample_failure(sampler.arm, 2, rng)
-    start = sampler.sample_pointing_down(*_limits_in_force(degraded), rng)
+    start = sampler.sample_pointing_down(*_finite_degraded_limits(degraded), rng)
     start_pose = sampler.arm.forward_kinematics(start)
     angle = rng.uniform(0, 2 * np.pi)
     displacement = 0.3 * np.array([np.cos(angle), np.sin(angle), 0.0])
@@ -250,7 +250,7 @@ def _make_upright_case(sampler: CaseSampler, task: str, rng: Rng) -> BenchmarkCa
     on the path.
     """
     degraded = sample_failure(sampler.arm, 2, rng)
-    start, goal_configuration = (sampler.sample_pointing_down(*_limits_in_force(degraded), rng) for _ in range(2))
+    start, goal_configuration = (sampler.sample_pointing_down(*_finite_degraded_limits(degraded), rng) for _ in range(2))
     goal = sampler.arm.forward_kinematics(goal_configuration)
     constraint = upright(_MAX_TILT_RAD).anchor(sampler.arm.forward_kinematics(start))
     return BenchmarkCase(task, degraded, start, rows=as_task(sampler.arm, "pose"), goal=goal, keep=(constraint,))

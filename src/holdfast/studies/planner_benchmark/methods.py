@@ -12,7 +12,7 @@ import numpy as np
 from holdfast.core.errors import HoldfastError
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.paths.path import line
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.response.recovery.goals import find_goal_configurations
 from holdfast.response.recovery.recovery import Answer
@@ -126,7 +126,7 @@ def _approaches(case: BenchmarkCase, restarts: int, rng: Rng) -> Iterator[FloatA
     yield case.at[None]
     arm, is_movable = case.degraded.limited, case.degraded.moves
     solver = make_row_solver(arm, case.rows)
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     for _ in range(restarts - 1):
         q = np.where(is_movable, rng.uniform(lower, upper), case.at)[None]
         if case.path is not None:
@@ -139,7 +139,7 @@ def _follow_path(case: BenchmarkCase, approach: FloatArray) -> BenchmarkMotion |
     it is lost.
     """
     arm, is_movable = case.degraded.limited, case.degraded.moves
-    solver, lower, upper = make_row_solver(arm, case.rows), *finite_limits(arm)
+    solver, lower, upper = make_row_solver(arm, case.rows), *sampling_limits(arm)
     if case.path is not None:
         path = case.path
     else:

@@ -102,7 +102,7 @@ class FailActive(Result):
         if any(label.get("job") != SUITE_NAME for label in labels):
             raise StoreError(f"'{study.path}' is not a suite; give the folder that 'holdfast bench {SUITE_NAME} --out' wrote")
         proofs = {
-            (label["task"], label["around"]): _proved_cases(rows[index])
+            (label["task"], label["around"]): _proved_infeasible_cases(rows[index])
             for index, label in enumerate(labels)
             if label["method"] == "recover" and rows[index]
         }
@@ -135,7 +135,7 @@ def _read_rows(study: Study, cell: int) -> Rows:
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
 
 
-def _proved_cases(rows: Rows) -> set[int]:
+def _proved_infeasible_cases(rows: Rows) -> set[int]:
     return set(rows["case"][(rows["verdict"] == VERDICT_NAMES.index("proved infeasible")) & (rows["within"] == 1)].tolist())
 
 

@@ -59,7 +59,7 @@ def find_violation(case: BenchmarkCase, motion: BenchmarkMotion | None, clearanc
     poses = arm.forward_kinematics(q)
     if any(constraint.trouble(poses) for constraint in case.keep):
         return "kept"
-    if case.goal is not None and not _meets_rows(case, poses[-1:], case.goal[None])[0]:
+    if case.goal is not None and not _is_within_tolerance(case, poses[-1:], case.goal[None])[0]:
         return "goal"
     if case.path is not None:
         if (
@@ -72,14 +72,14 @@ def find_violation(case: BenchmarkCase, motion: BenchmarkMotion | None, clearanc
         target_poses = case.path.pose(
             np.interp(waypoint_indices[on_path] - motion.first, np.arange(len(motion.share)), motion.share)
         )
-        if not _meets_rows(case, poses[on_path], target_poses).all():
+        if not _is_within_tolerance(case, poses[on_path], target_poses).all():
             return "path"
     if clearance is not None and not clearance.sign(q).all():
         return "contact"
     return ""
 
 
-def _meets_rows(case: BenchmarkCase, poses: FloatArray, target_poses: FloatArray) -> NDArray[np.bool_]:
+def _is_within_tolerance(case: BenchmarkCase, poses: FloatArray, target_poses: FloatArray) -> NDArray[np.bool_]:
     """Return (N,) True where every row of the task is within tolerance."""
     rotations, rows = poses[:, :3, :3], case.rows.rows
     error = np.concatenate(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.convergence.maps import NO_CONFIGURATION, average_fraction
-from holdfast.control.convergence.start_workspace import mean_intervals, mean_over
+from holdfast.control.convergence.start_workspace import mean_ignoring_nan, mean_intervals
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.errors import StoreError
 from holdfast.core.probability.distribution import Distribution
@@ -19,7 +19,7 @@ from holdfast.core.sweeps.store import Store
 from holdfast.core.sweeps.study import Study
 from holdfast.core.typing import FloatArray
 from holdfast.studies.assessment.answer import ZERO_INDEX
-from holdfast.studies.assessment.bins import add_chunks
+from holdfast.studies.assessment.bins import merge_chunk_counts
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.rows import AssessmentTally
 from holdfast.teleop.trials.recordings import End
@@ -115,7 +115,7 @@ def read_assessment(study: Study, cell: int) -> AssessedCell:
 
 
 def _read_counts(study: Study, cell: int, labels: dict[str, Any], plan: AssessmentPlan) -> AssessedCell:
-    parts = add_chunks(plan.index, plan.optimise, read_chunks(study, cell))
+    parts = merge_chunk_counts(plan.index, plan.optimise, read_chunks(study, cell))
     distributions = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
     return AssessedCell(
         labels,
@@ -196,7 +196,7 @@ def read_convergence(study: Study, cell: int) -> DrivenCell | None:
     return DrivenCell(labels, joints, runs, ends, reaches, fraction_by_motion, whole, in_reach_fraction, touched)
 
 
-def compare_laws(first_cell: DrivenCell, second_cell: DrivenCell) -> Difference | None:
+def compare_convergence_cells(first_cell: DrivenCell, second_cell: DrivenCell) -> Difference | None:
     """Return the gain of the second law over the first, on the same motions; None if there are none."""
     in_both = (
         ~np.isnan(first_cell.fraction_by_motion) & ~np.isnan(second_cell.fraction_by_motion)
@@ -234,7 +234,7 @@ def read_workspace(study: Study, cell: int) -> MeasureTable | None:
     for name in ("R100", "Ravg", "F100", "Favg"):
         column = np.concatenate([part[name][:, -1] for part in parts])
         lower, upper = mean_intervals(column[:, None], 0.95)[0]
-        values[name] = (float(mean_over(column[:, None], 0)[0]), float(lower), float(upper))
+        values[name] = (float(mean_ignoring_nan(column[:, None], 0)[0]), float(lower), float(upper))
     return MeasureTable(read_labels(study, cell), sum(len(part["lost"]) for part in parts), values)
 
 
@@ -291,6 +291,6 @@ def read_design_sweep(study: Study, cell: int) -> DesignSweep | None:
     return DesignSweep(read_labels(study, cell), store.plan, values, guaranteed, median, reached, reach, start)
 
 
-def measure_store(store: Store) -> int:
+def stored_size_bytes(store: Store) -> int:
     """Return the bytes of the committed chunks of a store."""
     return sum(entry.size for entry in store.entries.values())

@@ -28,9 +28,9 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files import reading
-from holdfast.core.files.yaml import Number, Strict, describe_error, parse_yaml, read_mapping
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error, parse_yaml, read_mapping
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY
-from holdfast.core.sweeps.folder import MAX_CHUNKS, MAX_ROWS, exceeds_limits
+from holdfast.core.sweeps.folder import MAX_CHUNKS, MAX_ROWS, has_too_many_rows
 from holdfast.core.sweeps.job import SweepCell
 from holdfast.model.arms.spec import ArmSpec
 
@@ -178,7 +178,7 @@ def read_study_file(path: str | Path) -> StudyFile:
     file = Path(path)
     try:
         text, model = _parse_file(file)
-        cells = tuple(_name_cells(_iterate_cells(model, file.parent)))
+        cells = tuple(_assign_unique_cell_names(_iterate_cells(model, file.parent)))
     except HoldfastError as error:
         raise InputError(f"study file '{file}': {error}") from error
     return StudyFile(model.name, model.seed, cells, text=text)
@@ -195,17 +195,17 @@ def _parse_file(file: Path) -> tuple[str, _StudyModel]:
     try:
         model = _StudyModel.model_validate(data)
     except ValidationError as error:
-        raise InputError(describe_error(error, _StudyModel, _ARM_TAGS)) from error
+        raise InputError(describe_validation_error(error, _StudyModel, _ARM_TAGS)) from error
     if not any((model.assess, model.convergence, model.workspace, model.bank)):
         raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
     return reading.read_text(file), model
 
 
-def _name_cells(cells: Iterator[SweepCell]) -> Iterator[SweepCell]:
+def _assign_unique_cell_names(cells: Iterator[SweepCell]) -> Iterator[SweepCell]:
     """Yield the cells with unique names that are valid folder names."""
     used_names: set[str] = set()
     for cell in cells:
-        if exceeds_limits(cell.rows, cell.chunk):
+        if has_too_many_rows(cell.rows, cell.chunk):
             raise InputError(
                 f"cell '{cell.name}' has {cell.rows} rows in chunks of {cell.chunk}; a cell may have at most "
                 f"{MAX_ROWS} rows and {MAX_CHUNKS} chunks, so give fewer rows or a larger chunk"

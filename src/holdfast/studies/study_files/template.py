@@ -90,7 +90,7 @@ def write(
         file: Where; it must not exist yet.
         arm: Built-in names, or arm files with their base, tip and what is held.
         poses: Samples of each cell.
-        chunk: Of them computed and committed together; :func:`choose_chunk` if None.
+        chunk: Of them computed and committed together; :func:`choose_chunk_size` if None.
         seed: Of everything random.
         indices: Of the assessments.
         laws: Of the maps of convergence; none if empty.
@@ -103,7 +103,7 @@ def write(
     from holdfast.studies.study_files.study_file import read_study_file
 
     path = Path(file)
-    chunk = choose_chunk(poses) if chunk is None else chunk
+    chunk = choose_chunk_size(poses) if chunk is None else chunk
     for option, number, minimum in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
         if number < minimum:
             raise InputError(f"{option} is {number}; it must be {minimum} or more")
@@ -145,7 +145,7 @@ def write(
     return path
 
 
-def choose_chunk(poses: int) -> int:
+def choose_chunk_size(poses: int) -> int:
     """Choose a number of samples to compute and commit together.
 
     A study of at most half a million samples has chunks of 500. A larger one has at most a thousand chunks of whole blocks,

@@ -19,7 +19,7 @@ from holdfast.teleop.analysis.correlations import Correlation, correlate
 from holdfast.teleop.analysis.groups import CellMeans, TaskGroups, group_by_difficulty
 from holdfast.teleop.analysis.mixed_model import fit_mixed_model
 from holdfast.teleop.analysis.observations import TrialTable
-from holdfast.teleop.analysis.remarks import write_notes
+from holdfast.teleop.analysis.remarks import compose_analysis_notes
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.analysis.variance import anova, describe_empty_cells
 from holdfast.teleop.trials.performance import RECORDED_MEASURES
@@ -104,9 +104,9 @@ def analyse(
     left_out: tuple[str, ...] = ()
     while True:
         operator_trials, computer_trials = (
-            _normalise_together(observed, matched_computer) if normalise == "together" else (observed, matched_computer)
+            _normalise_by_common_maxima(observed, matched_computer) if normalise == "together" else (observed, matched_computer)
         )
-        conditions = _list_failed_scenarios(operator_trials, reference)
+        conditions = _list_failed_arm_scenarios(operator_trials, reference)
         task_groups = _group_tasks(operator_trials, computer_trials, conditions[0], groups, difficulty)
         cells = CellMeans.from_trials(operator_trials, conditions, task_groups)
         if not (lacking_cells := cells.list_empty()) or missing == "mixed":
@@ -143,24 +143,26 @@ def analyse(
         "comparisons": tables.compare_laws(cells, confidence),
         "correlations": tables.tabulate_correlations(correlations),
         "tasks": tables.tabulate_tasks(operator_trials, computer_trials, conditions, task_groups),
-        "measures": tables.tabulate_measures(operator_trials, computer_trials),
+        "measures": tables.tabulate_measure_distributions(operator_trials, computer_trials),
         "failed": tables.compare_measures(operator_trials, conditions, confidence),
     }
     if len(healthy := operator_trials.find_conditions(failed=False)) > 1:
         tables_by_name["healthy"] = tables.compare_measures(
-            operator_trials, _list_healthy_scenarios(healthy, operator_trials, conditions[0]), confidence
+            operator_trials, _list_healthy_arm_scenarios(healthy, operator_trials, conditions[0]), confidence
         )
     tables_by_name |= {
-        "ends": tables.tabulate_ends(operator_trials, computer_trials),
+        "ends": tables.tabulate_trial_outcomes(operator_trials, computer_trials),
         "missing": operator_trials.list_missing(),
         "normalisers": tables.tabulate_normalisers(operator_trials, computer_trials),
     }
     if computer_trials is not None:
-        tables_by_name["gains"] = tables.tabulate_gains(tables_by_name["tasks"], operator_trials, conditions, task_groups)
+        tables_by_name["gains"] = tables.tabulate_improved_tasks(
+            tables_by_name["tasks"], operator_trials, conditions, task_groups
+        )
     tables_by_name |= sufficient.tabulate_sample_sizes(
         cells, law_anova, tables_by_name["comparisons"], limit, power, confidence, seed
     )
-    other_anova = _analyse_other_groups(operator_trials, computer_trials, conditions, task_groups)
+    other_anova = _analyse_by_other_difficulty(operator_trials, computer_trials, conditions, task_groups)
     if law_anova is not None and other_anova is not None:
         tables_by_name["anova_other_groups"] = other_anova
     return Analysis(
@@ -178,11 +180,13 @@ def analyse(
         limit=limit,
         power=power,
         confidence=confidence,
-        notes=tuple(write_notes(operator_trials, computer_trials, conditions, task_groups, cells, left_out, normalise)),
+        notes=tuple(
+            compose_analysis_notes(operator_trials, computer_trials, conditions, task_groups, cells, left_out, normalise)
+        ),
     )
 
 
-def _list_failed_scenarios(observed: TrialTable, reference: int | None) -> list[int]:
+def _list_failed_arm_scenarios(observed: TrialTable, reference: int | None) -> list[int]:
     """Return the positions of the scenarios with the failed arm, the reference first."""
     failed = observed.find_conditions(failed=True)
     if len(failed) < 2:
@@ -202,7 +206,7 @@ def _move_to_front(positions: list[int], first: int) -> list[int]:
     return [first, *(position for position in positions if position != first)]
 
 
-def _list_healthy_scenarios(healthy: list[int], observed: TrialTable, reference: int) -> list[int]:
+def _list_healthy_arm_scenarios(healthy: list[int], observed: TrialTable, reference: int) -> list[int]:
     """Return the positions of the scenarios with the healthy arm, the one with the reference's law first."""
     same_law = [position for position in healthy if observed.conditions[position].law == observed.conditions[reference].law]
     return _move_to_front(healthy, same_law[0] if same_law else healthy[0])
@@ -225,7 +229,7 @@ def _match_to_operators(computer: TrialTable, observed: TrialTable) -> TrialTabl
     )
 
 
-def _normalise_together(observed: TrialTable, computer: TrialTable | None) -> tuple[TrialTable, TrialTable | None]:
+def _normalise_by_common_maxima(observed: TrialTable, computer: TrialTable | None) -> tuple[TrialTable, TrialTable | None]:
     """Normalise the trials of operators and computer by the largest measures of both."""
     if computer is None:
         return observed, None
@@ -245,7 +249,7 @@ def _group_tasks(
     return group_by_difficulty(np.asarray(difficulty), group_count, difficulty_source)
 
 
-def _analyse_other_groups(
+def _analyse_by_other_difficulty(
     observed: TrialTable, computer: TrialTable | None, conditions: list[int], grouped: TaskGroups
 ) -> DataFrame | None:
     """Return the ANOVA with tasks grouped by the other source of difficulty; None without one, or with an empty cell."""

@@ -19,7 +19,7 @@ MAX_SUBJECTS = 10_000
 _MAX_BLOCK_VALUES = 2_000_000  # values resampled at once
 
 
-def t_power(dz: float, subjects: int, limit: float = 0.05) -> float:
+def t_test_power(dz: float, subjects: int, limit: float = 0.05) -> float:
     """Return the power of a two-sided paired t-test.
 
     Args:
@@ -36,7 +36,7 @@ def t_power(dz: float, subjects: int, limit: float = 0.05) -> float:
     return float(1 - stats.nct.cdf(critical_t, df, noncentrality) + np.nan_to_num(lower_tail))
 
 
-def f_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilon: float = 1.0) -> float:
+def f_test_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilon: float = 1.0) -> float:
     """Return the power of a within-subjects F test with noncentrality ``effect * subjects``.
 
     Args:
@@ -57,13 +57,13 @@ def f_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilo
 def subjects_for_t(dz: float, power: float = 0.8, limit: float = 0.05) -> int | None:
     """Return the smallest number of subjects with which a paired t-test has the power; None above 10,000."""
     _check_power(power, limit)
-    return None if not np.isfinite(dz) else _find_smallest_sample(lambda n: t_power(dz, n, limit), power)
+    return None if not np.isfinite(dz) else _find_smallest_sample(lambda n: t_test_power(dz, n, limit), power)
 
 
 def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float = 0.05, epsilon: float = 1.0) -> int | None:
     """Return the smallest number of subjects with which a within-subjects F test has the power; None above 10,000."""
     _check_power(power, limit)
-    return _find_smallest_sample(lambda n: f_power(effect, df, n, limit, epsilon), power)
+    return _find_smallest_sample(lambda n: f_test_power(effect, df, n, limit, epsilon), power)
 
 
 def estimate_power(values: FloatArray, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> FloatArray:

@@ -11,7 +11,7 @@ from holdfast.teleop.analysis.groups import CellMeans, TaskGroups
 from holdfast.teleop.analysis.observations import TrialTable
 
 
-def write_notes(
+def compose_analysis_notes(
     observed: TrialTable,
     computer: TrialTable | None,
     conditions: Sequence[int],

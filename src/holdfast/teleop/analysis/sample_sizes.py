@@ -74,8 +74,8 @@ def tabulate_sample_sizes(
                 {
                     "effect": effect.name,
                     "subjects": count,
-                    "power": of.f_power(per_subject, effect.df, count, limit, effect.gg),
-                    "power_for_least": of.f_power(least_effect, effect.df, count, limit, effect.gg),
+                    "power": of.f_test_power(per_subject, effect.df, count, limit, effect.gg),
+                    "power_for_least": of.f_test_power(least_effect, effect.df, count, limit, effect.gg),
                     "fraction_of_subsets": float(fractions[count][index]) if count <= subjects else float("nan"),
                 }
             )

@@ -208,7 +208,9 @@ def _divide_or_nan(numerator: float, denominator: float) -> float:
     )
 
 
-def tabulate_gains(task_table: DataFrame, observed: TrialTable, conditions: Sequence[int], grouped: TaskGroups) -> DataFrame:
+def tabulate_improved_tasks(
+    task_table: DataFrame, observed: TrialTable, conditions: Sequence[int], grouped: TaskGroups
+) -> DataFrame:
     """Return the numbers of tasks of each group in which another law than the reference did better, for operators and for the
     computer.
     """
@@ -242,7 +244,7 @@ def tabulate_gains(task_table: DataFrame, observed: TrialTable, conditions: Sequ
     return DataFrame(gain_rows)
 
 
-def tabulate_measures(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
+def tabulate_measure_distributions(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
     """Return the distribution of CPM and each measure in each scenario, over all trials that reached the target."""
     from pandas import DataFrame
 
@@ -282,7 +284,7 @@ def _select_values(observed: TrialTable, scenario: int, measure: int) -> FloatAr
     return chosen[np.isfinite(chosen)]
 
 
-def tabulate_ends(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
+def tabulate_trial_outcomes(observed: TrialTable, computer: TrialTable | None) -> DataFrame:
     """Count for each scenario the trials that reached the target and were rated, and the causes of a missing CPM."""
     from pandas import DataFrame
 

@@ -179,10 +179,10 @@ def anova(
     for name, error in zip(names, sums.errors.tolist(), strict=True):
         if error <= _ERROR_TOLERANCE * scale:
             raise InputError(f"the effect of {name} is the same in every subject: there is no error to test it against")
-    f_values, p_values = _fit_statsmodels(y)
+    f_values, p_values = _anova_by_statsmodels(y)
     effects = []
     for index, name in enumerate(names):
-        gg, hf = sphericity_epsilons(_project_on_contrasts(y, index))
+        gg, hf = sphericity_epsilons(_compute_effect_contrasts(y, index))
         sum_effect, sum_error = float(sums.effects[index]), float(sums.errors[index])
         corrected = [float(stats.f.sf(f_values[index], epsilon * df[index], epsilon * df_error[index])) for epsilon in (gg, hf)]
         effects.append(
@@ -220,7 +220,7 @@ def sphericity_epsilons(contrasts: FloatArray) -> tuple[float, float]:
     return gg, min(1.0, (n * contrast_count * gg - 2) / denominator) if denominator > 0 else 1.0
 
 
-def _project_on_contrasts(y: FloatArray, effect: int) -> FloatArray:
+def _compute_effect_contrasts(y: FloatArray, effect: int) -> FloatArray:
     """Return the orthonormal contrasts (n, df) of each subject for an effect: the first factor, the second, or both."""
     n, a, b = y.shape
     first_contrasts = _orthonormal_contrasts(a) if effect in (0, 2) else np.full((a, 1), 1 / np.sqrt(a))
@@ -235,7 +235,7 @@ def _orthonormal_contrasts(levels: int) -> FloatArray:
     return np.asarray(helmert(levels).T)
 
 
-def _fit_statsmodels(y: FloatArray) -> tuple[list[float], list[float]]:
+def _anova_by_statsmodels(y: FloatArray) -> tuple[list[float], list[float]]:
     from pandas import DataFrame
     from statsmodels.stats.anova import AnovaRM
 

@@ -90,9 +90,9 @@ def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> IndexArray:
         raise InputError(f"{count} tasks were asked for; the bank holds {eligible.size} that were completed in every scenario")
     cell_numbers, sizes = np.unique(cells.cell[eligible], return_counts=True)
     by_size = cell_numbers[np.lexsort((cell_numbers, -sizes))]
-    task_cells = _assign_cells(by_size, dict(zip(cell_numbers.tolist(), sizes.tolist(), strict=True)), count)
-    levels = _rank_in_levels(bank, eligible)
-    chosen = _choose_central_tasks(bank, cells, task_cells)
+    task_cells = _choose_task_cells(by_size, dict(zip(cell_numbers.tolist(), sizes.tolist(), strict=True)), count)
+    levels = _compute_measure_levels(bank, eligible)
+    chosen = _choose_tasks_near_centers(bank, cells, task_cells)
     members = {cell: np.flatnonzero(cells.cell == cell) for cell in cell_numbers.tolist()}
     target_count = count / _LEVEL_COUNT
     changed = True
@@ -110,7 +110,7 @@ def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> IndexArray:
     return chosen[np.argsort(bank.difficulty[chosen], kind="stable")]
 
 
-def _assign_cells(by_size: IndexArray, sizes: dict[int, int], count: int) -> list[int]:
+def _choose_task_cells(by_size: IndexArray, sizes: dict[int, int], count: int) -> list[int]:
     """Return the cell of each task to be chosen: each occupied cell once, then the fullest cells again up to ``count``."""
     task_cells: list[int] = []
     remaining = dict(sizes)
@@ -120,7 +120,7 @@ def _assign_cells(by_size: IndexArray, sizes: dict[int, int], count: int) -> lis
     return task_cells
 
 
-def _rank_in_levels(bank: TaskBank, eligible: IndexArray) -> NDArray[np.int64]:
+def _compute_measure_levels(bank: TaskBank, eligible: IndexArray) -> NDArray[np.int64]:
     """Return the level (N, 11), from 0, of each task in each measure of scenario 3."""
     values = bank.measures[bank.scenario_index("pseudoinverse", failed=True)]
     levels = np.zeros(values.shape, dtype=np.int64)
@@ -133,7 +133,7 @@ def _one_hot(levels: NDArray[np.int64]) -> FloatArray:
     return np.asarray(levels[..., None] == np.arange(_LEVEL_COUNT), dtype=np.float64)
 
 
-def _choose_central_tasks(bank: TaskBank, cells: Binning, task_cells: list[int]) -> IndexArray:
+def _choose_tasks_near_centers(bank: TaskBank, cells: Binning, task_cells: list[int]) -> IndexArray:
     columns = len(cells.difficulty) - 1
     centers = [0.5 * (edges[1:] + edges[:-1]) for edges in (cells.difficulty, cells.ratio)]
     widths = [max(edges[1] - edges[0], 1e-300) for edges in (cells.difficulty, cells.ratio)]

@@ -12,7 +12,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.solvers.inverse_kinematics import InverseKinematics, solver
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules, Operator, drive_trials
@@ -86,7 +86,7 @@ def _sample_joint_tasks(
     arm, task = inverse_kinematics.arm, inverse_kinematics.task
     draw_seed, search_seed = seed.spawn(2)
     generator = np.random.default_rng(draw_seed)
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     q0, target = np.empty((count, arm.n)), np.empty((count, task.m))
     x0 = np.empty((count, task.m))
     pending, tries, start_counts = np.arange(count), np.full(count, _MAX_TARGETS_PER_START), np.zeros(count, dtype=np.int64)
@@ -109,7 +109,7 @@ def _sample_joint_tasks(
         poses = np.tile(np.eye(4), (len(candidates), 1, 1))
         poses[:, :3, 3] = candidates @ task.rows[:, :3]
         angles = np.repeat(q0[pending, joint], direction_count)
-        reachable = inverse_kinematics.reaches_locked(
+        reachable = inverse_kinematics.is_reachable_with_lock(
             poses, np.full(len(candidates), joint), angles, search_seed, _IK_RESTARTS, _IK_TOLERANCE
         )
         reachable = reachable.reshape(-1, direction_count)

@@ -20,12 +20,12 @@ from holdfast.kernels.program import SX, Program
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.trials.plant import check_joystick_task, make_substep
+from holdfast.teleop.trials.plant import check_joystick_task, make_euler_substep
 
 _WARMUP_CYCLES = 300  # cycles of each law before the module is ready: engines compile what has run a while
 
 
-def number_laws(protocol: Protocol) -> list[int]:
+def number_scenario_laws(protocol: Protocol) -> list[int]:
     """Return for each scenario the number of its law in the module: laws with their options, each once, shuffled.
 
     So the numbers say nothing to who reads what page and server say to each other; the protocol's seed shuffles them.
@@ -39,7 +39,7 @@ def number_laws(protocol: Protocol) -> list[int]:
     return [codes[number] for number in scenario_laws]
 
 
-def print_arm_module(protocol: Protocol) -> str:
+def generate_arm_javascript(protocol: Protocol) -> str:
     """Print the arm under the protocol's laws as an ES module, which needs nothing else and allocates nothing.
 
     .. code-block:: javascript
@@ -49,7 +49,7 @@ def print_arm_module(protocol: Protocol) -> str:
         export function position(q, out);
         export function points(q, out);
 
-    All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`number_laws`. ``cycle`` writes what
+    All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`number_scenario_laws`. ``cycle`` writes what
     :meth:`holdfast.teleop.JoystickPlant.step_one` gives: the configuration after a whole control cycle, then the tool point's
     velocity at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire
     frame, three world coordinates each, m: the base (left out where the first joint sits at it), every joint, the tool point;
@@ -61,21 +61,23 @@ def print_arm_module(protocol: Protocol) -> str:
     Raises:
         TaskError: Rows that a stick cannot command.
     """
-    numbers = number_laws(protocol)
+    numbers = number_scenario_laws(protocol)
     check_joystick_task(protocol.rows)
     scenarios = [protocol.scenarios[numbers.index(number)] for number in range(max(numbers) + 1)]
-    return _print_module([scenario.make_law(protocol.arm, protocol.rows) for scenario in scenarios], protocol.substeps)
+    return _generate_javascript_module(
+        [scenario.make_law(protocol.arm, protocol.rows) for scenario in scenarios], protocol.substeps
+    )
 
 
 @cached_json
-def _print_module(laws: list[Law], substeps: int) -> str:
+def _generate_javascript_module(laws: list[Law], substeps: int) -> str:
     arm, task = laws[0].arm, laws[0].task
     q = kinematics.joint_symbols(arm)
     frame = _wire_frame_points(arm, q)
     position = ca.DM(task.rows[:, :3]) @ frame[:, -1]
     programs = []
     for number, law in enumerate(laws):
-        step = make_substep(law, substeps)
+        step = make_euler_substep(law, substeps)
         symbols = step.sx_in()
         programs.append(write_javascript(Program(f"sub-step, {law.slug}", symbols, step(*symbols)), f"law{number}"))
     programs.append(write_javascript(Program("position", [q], [position]), "place"))
@@ -96,7 +98,7 @@ def _wire_frame_points(arm: Arm, q: SX) -> SX:
     """Return (3, markers) positions in the world: the base, if the first joint sits elsewhere, every joint and the
     tool point.
     """
-    moving, fixed = kinematics.body_and_joint_frames(arm, kinematics.joint_motions(arm, q))
+    moving, fixed = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
     tool = kinematics.compose_frames(moving[-1], kinematics.split_transform(arm.tool))
     at_base = not np.any(arm.joints[0].origin[:3, 3])
     markers = [*([] if at_base else moving[:1]), *fixed, tool]

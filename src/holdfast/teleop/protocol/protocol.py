@@ -39,7 +39,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError, InputError, StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.output import replace_file
-from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error, read_mapping
 from holdfast.core.typing import IndexArray
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
@@ -217,7 +217,7 @@ class Protocol:
         file = Path(path)
         replace_file(file, self.to_yaml())
         if self.arm_file is not None and not reading.path_exists(arm_copy := file.parent / self.arm_spec):
-            with reading.guard_reading(f"'{self.arm_file}'", kind=StoreError):
+            with reading.guard_reading(f"'{self.arm_file}'", error_type=StoreError):
                 replace_file(arm_copy, reading.read_bytes(self.arm_file))
         return file
 
@@ -251,7 +251,7 @@ def _read_file(path: Path) -> Protocol:
         )
         return _build_protocol(document, path.parent)
     except ValidationError as error:
-        raise InputError(f"protocol '{path}': {describe_error(error, _ProtocolFile)}") from error
+        raise InputError(f"protocol '{path}': {describe_validation_error(error, _ProtocolFile)}") from error
     except HoldfastError as error:
         raise InputError(f"protocol '{path}': {error}") from error
 

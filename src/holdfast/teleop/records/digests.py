@@ -43,7 +43,7 @@ _ABOUT_QUERY = "SELECT key, value FROM about ORDER BY key"
 _SCHEMA_QUERY = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY type, name"
 
 
-def pack_values(values: Iterable[Any]) -> bytes:
+def encode_sqlite_values(values: Iterable[Any]) -> bytes:
     """Pack values of SQLite as bytes that no other values have: ``n``, ``i12;``, ``r`` and 8 bytes, ``t3:abc``, ``b2:..``."""
     parts = []
     for value in values:
@@ -66,11 +66,11 @@ def digest_bytes(*parts: bytes) -> bytes:
     return hashlib.sha256(b"".join(parts)).digest()
 
 
-def digest_cycles(before: bytes, rows: Iterable[Sequence[Any]]) -> bytes:
+def digest_cycles(previous_digest: bytes, rows: Iterable[Sequence[Any]]) -> bytes:
     """Return the running digest of a trial after some more cycles: ``k, time, velocity, q`` each."""
     for row in rows:
-        before = digest_bytes(before, pack_values(row))
-    return before
+        previous_digest = digest_bytes(previous_digest, encode_sqlite_values(row))
+    return previous_digest
 
 
 def digest_trial(database: sqlite3.Connection, trial: int) -> bytes | None:
@@ -79,7 +79,7 @@ def digest_trial(database: sqlite3.Connection, trial: int) -> bytes | None:
     return (
         None
         if start_row is None
-        else digest_cycles(digest_bytes(pack_values(start_row)), database.execute(CYCLES_QUERY, (trial,)))
+        else digest_cycles(digest_bytes(encode_sqlite_values(start_row)), database.execute(CYCLES_QUERY, (trial,)))
     )
 
 
@@ -87,26 +87,28 @@ def digest_content(database: sqlite3.Connection, kind: str, subject: str | None,
     """Return the digest of the stored content that a link of a chain covers; None if the content is missing."""
     if kind == "experiment":
         rows = [*database.execute(_ABOUT_QUERY).fetchall(), *database.execute(_SCHEMA_QUERY).fetchall()]
-        return digest_bytes(*(pack_values(row) for row in rows))
+        return digest_bytes(*(encode_sqlite_values(row) for row in rows))
     if kind == "trial":
         running = digest_trial(database, item or 0)
         return (
             None
             if running is None
-            else digest_bytes(running, pack_values(database.execute(TRIAL_END_QUERY, (item,)).fetchone()))
+            else digest_bytes(running, encode_sqlite_values(database.execute(TRIAL_END_QUERY, (item,)).fetchone()))
         )
     row = database.execute(_ROW_QUERIES[kind], (subject if kind == "subject" else item,)).fetchone()
-    return None if row is None else digest_bytes(pack_values(row))
+    return None if row is None else digest_bytes(encode_sqlite_values(row))
 
 
-def digest_link(before: bytes, number: int, subject: str | None, kind: str, item: int | None, content: bytes) -> bytes:
-    """Return the digest of a link of a chain; ``before`` is that of the preceding link, empty for the first."""
-    return digest_bytes(before, pack_values((number, subject, kind, item, content)))
+def digest_chain_link(
+    previous_digest: bytes, number: int, subject: str | None, kind: str, item: int | None, content: bytes
+) -> bytes:
+    """Return the digest of a link of a chain; ``previous_digest`` is that of the preceding link, empty for the first."""
+    return digest_bytes(previous_digest, encode_sqlite_values((number, subject, kind, item, content)))
 
 
 def digest_session(row: Sequence[Any]) -> bytes:
     """Return the digest of a page's session: ``subject, key, seq, bytes``."""
-    return digest_bytes(pack_values(row))
+    return digest_bytes(encode_sqlite_values(row))
 
 
 def digest_files(folder: Path, names: Iterable[str]) -> str:
@@ -175,7 +177,7 @@ class DigestChain:
             "SELECT digest FROM digests WHERE subject IS ? ORDER BY id DESC LIMIT 1", (subject,)
         ).fetchone()
         number = database.execute("SELECT COALESCE(MAX(id), 0) + 1 FROM digests").fetchone()[0]
-        digest = digest_link(b"" if last_digest is None else last_digest[0], number, subject, kind, item, content)
+        digest = digest_chain_link(b"" if last_digest is None else last_digest[0], number, subject, kind, item, content)
         database.execute("INSERT INTO digests VALUES (?, ?, ?, ?, ?, ?)", (number, subject, kind, item, content, digest))
 
     def update_session(self, subject: str) -> None:
@@ -190,7 +192,7 @@ class DigestChain:
         self.append_link("rating", subject, trial)
         self._db.execute("INSERT INTO under_way VALUES (?, ?)", (trial, digest_trial(self._db, trial)))
 
-    def append_cycles(self, trial: int, rows: Iterable[Sequence[Any]]) -> None:
+    def update_trial_digest(self, trial: int, rows: Iterable[Sequence[Any]]) -> None:
         """Update the running digest of a trial with its new cycles: ``k, time, velocity, q`` each."""
         before = self._read_running_digest(trial)
         if before is not None:
@@ -201,7 +203,7 @@ class DigestChain:
         running = self._read_running_digest(trial)
         content = None  # it began before there were digests
         if running is not None:
-            content = digest_bytes(running, pack_values(self._db.execute(TRIAL_END_QUERY, (trial,)).fetchone()))
+            content = digest_bytes(running, encode_sqlite_values(self._db.execute(TRIAL_END_QUERY, (trial,)).fetchone()))
             self._db.execute("DELETE FROM under_way WHERE trial = ?", (trial,))
         self.append_link("trial", subject, trial, content)
 

@@ -104,7 +104,7 @@ class TrialRecord:
     answers: Mapping[str, Any]
 
 
-def read_subject(row: tuple[Any, ...]) -> Subject:
+def parse_subject_row(row: tuple[Any, ...]) -> Subject:
     """Read a subject from the columns ``SUBJECT_COLUMNS``."""
     code, number, square_row, kind, state, since, answers, note = row
     return Subject(
@@ -119,7 +119,7 @@ def read_subject(row: tuple[Any, ...]) -> Subject:
     )
 
 
-def read_entry(row: tuple[Any, ...]) -> TrialRecord:
+def parse_trial_row(row: tuple[Any, ...]) -> TrialRecord:
     """Read a trial from the columns ``ENTRY_COLUMNS``."""
     number, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers = row
     trial_end = End.BROKEN_OFF if end is None else End(end)

@@ -62,7 +62,7 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
     """
     unfinished = folder / _UNFINISHED_FILE
     try:
-        if reading.path_exists(folder) and (not folder.is_dir() or _is_occupied(folder, protocol)):
+        if reading.path_exists(folder) and (not folder.is_dir() or _has_foreign_files(folder, protocol)):
             raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
         folder.mkdir(parents=True, exist_ok=True)
         (folder / _JOURNAL_FILE).unlink(missing_ok=True)
@@ -87,7 +87,7 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
         raise StoreError(f"cannot write to '{folder}': {error}; choose another folder") from error
 
 
-def _is_occupied(folder: Path, protocol: Protocol) -> bool:
+def _has_foreign_files(folder: Path, protocol: Protocol) -> bool:
     """Return whether a folder holds anything but the files of an experiment whose creation was interrupted."""
     names = {file.name for file in folder.iterdir()}
     return bool(names - {_UNFINISHED_FILE, _JOURNAL_FILE, PROTOCOL_FILE, protocol.arm_spec}) or bool(names) > (
@@ -183,7 +183,7 @@ def _make_damage_error(file: Path, cause: object) -> StoreError:
     return StoreError(f"'{file}' is damaged or not a file of records ({cause}); restore it from a copy")
 
 
-def identify_file(folder: Path) -> tuple[int, int] | None:
+def get_file_identity(folder: Path) -> tuple[int, int] | None:
     """Return the device and number of the records' file in a folder, None without one; a deleted file stays writable but is
     another.
     """

@@ -32,13 +32,13 @@ from holdfast.teleop.records.entries import (
     TrialKind,
     TrialRecord,
     pack_array,
-    read_entry,
-    read_subject,
+    parse_subject_row,
+    parse_trial_row,
 )
 from holdfast.teleop.records.file import (
     create_experiment,
     format_utc_now,
-    identify_file,
+    get_file_identity,
     list_protocol_files,
     lock_records_folder,
     open_experiment,
@@ -65,7 +65,7 @@ class Records:
     def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol, *, read_only: bool = False) -> None:
         self.folder, self._db, self.protocol, self.read_only = folder, connection, protocol, read_only
         self._chain = DigestChain(connection, folder, list_protocol_files(protocol))
-        self._depth, self._file_identity = 0, identify_file(folder)
+        self._depth, self._file_identity = 0, get_file_identity(folder)
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
@@ -176,11 +176,11 @@ class Records:
             raise InputError(
                 f"there is no subject {code}; there are {', '.join(subject.code for subject in self.subjects()) or 'none yet'}"
             )
-        return read_subject(row)
+        return parse_subject_row(row)
 
     def subjects(self) -> list[Subject]:
         """Return all subjects, in the order in which they were added."""
-        return [read_subject(row) for row in self._db.execute(f"SELECT {SUBJECT_COLUMNS} FROM subjects ORDER BY number")]
+        return [parse_subject_row(row) for row in self._db.execute(f"SELECT {SUBJECT_COLUMNS} FROM subjects ORDER BY number")]
 
     def set_state(self, code: str, state: SubjectState) -> None:
         """Set the state of a subject's session: completed, dropped, or open again.
@@ -358,7 +358,7 @@ class Records:
             if (np.diff(time, prepend=last_time) < 0).any():
                 raise InputError("the times of the cycles run backwards, or begin before the trial; nothing was recorded")
             self._db.executemany("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", rows)
-            self._chain.append_cycles(trial, [row[1:] for row in rows])
+            self._chain.update_trial_digest(trial, [row[1:] for row in rows])
 
     def finish_trial(self, trial: int, end: End, q_end: FloatArray) -> None:
         """Finish a trial with its end and the final configuration (n,) of the arm.
@@ -376,7 +376,7 @@ class Records:
             # The last row has no command: it is where the arm is at the end.
             row = (cycle_count, -1.0, pack_array(np.zeros(self.protocol.rows.m)), pack_array(q_end))
             self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, *row))
-            self._chain.append_cycles(trial, [row])
+            self._chain.update_trial_digest(trial, [row])
             self._chain.end_trial(trial, self._query_value("SELECT subject FROM trials WHERE id = ?", trial))
 
     def rate_trial(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
@@ -422,21 +422,21 @@ class Records:
         """Return the trials, of one subject or of one kind, in the order in which they began."""
         condition = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
         return [
-            read_entry(row)
+            parse_trial_row(row)
             for row in self._db.execute(f"SELECT {ENTRY_COLUMNS} FROM trials {condition} ORDER BY id", (subject, kind))
         ]
 
     def entry(self, trial: int) -> TrialRecord | None:
         """Return a trial by its number; None if there is no such trial."""
         row = self._db.execute(f"SELECT {ENTRY_COLUMNS} FROM trials WHERE id = ?", (trial,)).fetchone()
-        return None if row is None else read_entry(row)
+        return None if row is None else parse_trial_row(row)
 
     def latest_trial(self, subject: str) -> TrialRecord | None:
         """Return the trial that a subject began last; None if there is none."""
         row = self._db.execute(
             f"SELECT {ENTRY_COLUMNS} FROM trials WHERE subject = ? ORDER BY id DESC LIMIT 1", (subject,)
         ).fetchone()
-        return None if row is None else read_entry(row)
+        return None if row is None else parse_trial_row(row)
 
     def count_cycles(self, entry: TrialRecord) -> int:
         """Return the number of cycles of a trial."""
@@ -535,7 +535,7 @@ class Records:
         self._depth += 1
         try:
             yield
-            if self._depth == 1 and identify_file(self.folder) != self._file_identity:
+            if self._depth == 1 and get_file_identity(self.folder) != self._file_identity:
                 raise StoreError(f"the folder '{self.folder}' is not there any more, or is another one; nothing was recorded")
             self._db.execute(commit_statement)
         except BaseException:

@@ -19,7 +19,7 @@ from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.records.entries import Subject, SubjectKind, TrialKind, TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import select_valid_trials
-from holdfast.teleop.records.verification import refuse_damage
+from holdfast.teleop.records.verification import require_undamaged_records
 from holdfast.teleop.trials.driving import ComputerOperator, EndRules
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES, RECORDED_MEASURES, compute_measures
 from holdfast.teleop.trials.recordings import End, Trials
@@ -78,7 +78,7 @@ def trial_table(records: Records, kinds: Sequence[TrialKind] = (TrialKind.TRIAL,
     Raises:
         StoreError: The records are damaged: something in them does not match its digest.
     """
-    refuse_damage(records.folder)
+    require_undamaged_records(records.folder)
     entries = [
         entry
         for subject in records.subjects()
@@ -87,7 +87,9 @@ def trial_table(records: Records, kinds: Sequence[TrialKind] = (TrialKind.TRIAL,
     ]
     subjects = {subject.code: subject for subject in records.subjects()}
     return _build_trial_table(
-        records.protocol, records.read_trials(entries), [_collect_facts(subjects[entry.subject], entry) for entry in entries]
+        records.protocol,
+        records.read_trials(entries),
+        [_collect_trial_metadata(subjects[entry.subject], entry) for entry in entries],
     )
 
 
@@ -130,7 +132,7 @@ def run_computer_trials(protocol: Protocol) -> Trials:
     )
 
 
-def _collect_facts(subject: Subject, entry: TrialRecord) -> dict[str, Any]:
+def _collect_trial_metadata(subject: Subject, entry: TrialRecord) -> dict[str, Any]:
     return {
         "subject": subject.code,
         "kind": subject.kind.value,
@@ -145,10 +147,12 @@ def _collect_facts(subject: Subject, entry: TrialRecord) -> dict[str, Any]:
     }
 
 
-def _build_trial_table(protocol: Protocol, trials: Trials, facts: list[dict[str, Any]]) -> pd.DataFrame:
+def _build_trial_table(protocol: Protocol, trials: Trials, trial_metadata: list[dict[str, Any]]) -> pd.DataFrame:
     import pandas as pd
 
-    table = pd.DataFrame(facts, columns=[column for column in _TRIAL_COLUMNS if not facts or column in facts[0]])
+    table = pd.DataFrame(
+        trial_metadata, columns=[column for column in _TRIAL_COLUMNS if not trial_metadata or column in trial_metadata[0]]
+    )
     scenario, task = table["scenario"].to_numpy(dtype=np.int64), table["task"].to_numpy(dtype=np.int64)
     joint_names = (*protocol.arm.joint_names, "")
     table["task"], table["scenario"] = task + 1, scenario + 1
@@ -225,11 +229,11 @@ def cycle_table(records: Records) -> pd.DataFrame:
     Raises:
         StoreError: The records are damaged: something in them does not match its digest.
     """
-    refuse_damage(records.folder)
-    return _cycles(records)
+    require_undamaged_records(records.folder)
+    return _build_cycle_table(records)
 
 
-def _cycles(records: Records) -> pd.DataFrame:
+def _build_cycle_table(records: Records) -> pd.DataFrame:
     import pandas as pd
 
     protocol = records.protocol
@@ -238,14 +242,14 @@ def _cycles(records: Records) -> pd.DataFrame:
     rows = np.diff(recorded.first)
     table = pd.DataFrame(
         np.column_stack([recorded.time, recorded.velocity, recorded.q, protocol.plants[0].position(recorded.q)]),
-        columns=[*list(_CYCLE_COLUMNS)[2:], *_describe_vector_columns(protocol)],
+        columns=[*list(_CYCLE_COLUMNS)[2:], *_describe_cycle_columns(protocol)],
     )
     table.insert(0, "trial", np.repeat(np.array([e.id for e in entries], dtype=np.int64), rows))
     table.insert(1, "k", np.arange(len(recorded.q)) - np.repeat(recorded.first[:-1], rows))
     return table
 
 
-def _describe_vector_columns(protocol: Protocol) -> dict[str, tuple[str, str]]:
+def _describe_cycle_columns(protocol: Protocol) -> dict[str, tuple[str, str]]:
     arm, m = protocol.arm, protocol.rows.m
     units = ["m" if is_prismatic else "rad" for is_prismatic in arm.prismatic]
     return {
@@ -265,7 +269,7 @@ def describe_columns(protocol: Protocol) -> pd.DataFrame:
 
     rows = [("trials", name, *description) for name, description in _TRIAL_COLUMNS.items()]
     rows += [
-        ("cycles", name, *description) for name, description in {**_CYCLE_COLUMNS, **_describe_vector_columns(protocol)}.items()
+        ("cycles", name, *description) for name, description in {**_CYCLE_COLUMNS, **_describe_cycle_columns(protocol)}.items()
     ]
     return pd.DataFrame(rows, columns=["table", "column", "unit", "description"])
 
@@ -311,7 +315,7 @@ def export_tables(records: Records, folder: str | Path, parquet: bool = False) -
     ]
     tables = {
         "trials": trial_table(records, (TrialKind.TRAINING, TrialKind.TRIAL)),
-        "cycles": _cycles(records),
+        "cycles": _build_cycle_table(records),
         "subjects": pd.DataFrame(subjects),
         "events": pd.DataFrame(events),
     }

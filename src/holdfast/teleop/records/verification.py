@@ -94,7 +94,7 @@ def verify_records(folder: str | Path) -> VerificationReport:
 
 
 @contextmanager
-def open_or_name_damage(folder: Path) -> Iterator[Records]:
+def open_undamaged_records(folder: Path) -> Iterator[Records]:
     """Open the records; where damage makes them unreadable, the error message names the damage.
 
     Raises:
@@ -106,13 +106,13 @@ def open_or_name_damage(folder: Path) -> Iterator[Records]:
     except HoldfastError:
         raise
     except _OF_DAMAGE as error:
-        refuse_damage(folder)
+        require_undamaged_records(folder)
         raise StoreError(
             f"'{folder}' is damaged: it holds other data than records ({error}); restore it from a backup"
         ) from error
 
 
-def refuse_damage(folder: Path) -> None:
+def require_undamaged_records(folder: Path) -> None:
     """Compare everything that is stored with its digests before it is used.
 
     Raises:
@@ -138,7 +138,7 @@ class _DigestCheck:
     def run(self) -> None:
         """Fill in the report, trials first."""
         first_error: Exception | None = None
-        for check in (self._check_digests, self._check_file):
+        for check in (self._check_digests, self._check_sqlite_integrity):
             try:
                 check()
             except _OF_DAMAGE as error:
@@ -147,7 +147,7 @@ class _DigestCheck:
         if first_error is not None:
             raise first_error
 
-    def _check_file(self) -> None:
+    def _check_sqlite_integrity(self) -> None:
         for (line,) in self._db.execute("PRAGMA integrity_check(5)"):
             if line != "ok":
                 self._other_damage.append(f"the file {RECORDS_FILE}: {line}")
@@ -167,7 +167,7 @@ class _DigestCheck:
         for name, expected in json.loads(metadata["files"]).items():
             self._check_protocol_file(name, expected)
         covered = self._check_chains()
-        self._check_completeness(covered, last_without_digest)
+        self._find_undigested_items(covered, last_without_digest)
         self._check_running_trials()
         self._check_sessions()
         report.trials_without_digest = [
@@ -191,7 +191,7 @@ class _DigestCheck:
         previous: dict[str | None, bytes] = {}
         for number, subject, kind, item, content, digest in rows:
             name = _name_item(kind, subject, item)
-            if digests.digest_link(previous.get(subject, b""), number, subject, kind, item, content) != digest:
+            if digests.digest_chain_link(previous.get(subject, b""), number, subject, kind, item, content) != digest:
                 self._add_damage(kind, f"{name}: digest {number} does not follow from the one before it")
             previous[subject] = digest
             is_state = kind in _STATE_KINDS
@@ -205,7 +205,7 @@ class _DigestCheck:
         ).hex()
         return set(last_numbers)
 
-    def _check_completeness(self, covered: set[tuple[str, int | str | None]], last_without_digest: dict[str, int]) -> None:
+    def _find_undigested_items(self, covered: set[tuple[str, int | str | None]], last_without_digest: dict[str, int]) -> None:
         for kind, query in _ITEM_QUERIES.items():
             last_id = last_without_digest["events" if kind == "event" else "trials"]
             for number, subject, name in self._db.execute(query, (last_id,)):

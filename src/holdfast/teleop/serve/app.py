@@ -103,21 +103,23 @@ def make_app(options: ServerOptions, ready: Callable[[], None] | None = None) ->
         StoreError: The built page is missing, or the folder is neither empty nor an experiment.
         InputError: The texts cannot be used, or the experiment has another protocol.
     """
-    from holdfast.teleop.protocol.printed_arm import print_arm_module
+    from holdfast.teleop.protocol.printed_arm import generate_arm_javascript
 
     texts = read_texts(options.texts, options.english)
-    answers = _load_page_files(options.static)
+    answers = _load_page_handlers(options.static)
     # It has its route, which asks for the key.
     experimenter_page = answers.pop("/experimenter.html", None)
     protocol = open_or_create(
         options.folder, options.protocol
     )  # after all that may fail: a server that cannot run begins nothing
-    answers["/experiment.json"] = _answer_with(json.dumps(describe_experiment(protocol, texts, options.tlx)).encode(), ".json")
-    answers["/arm.js"] = _answer_with(print_arm_module(protocol).encode(), ".js")
+    answers["/experiment.json"] = _make_file_handler(
+        json.dumps(describe_experiment(protocol, texts, options.tlx)).encode(), ".json"
+    )
+    answers["/arm.js"] = _make_file_handler(generate_arm_javascript(protocol).encode(), ".js")
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        bounded.limit_loop_log(asyncio.get_running_loop())
+        bounded.limit_asyncio_log(asyncio.get_running_loop())
         control = Control(options.folder, asyncio.get_running_loop())
         app.state.control = control
         await control.begin()
@@ -157,7 +159,7 @@ def serve_experiment(
     with _open_listener(host, port) as listener:
         bound_port = listener.getsockname()[1]
         app = make_app(options, None if ready is None else lambda: ready(bound_port))
-        http, websocket = bounded.make_protocols(bounded.raise_file_limit() // 2)
+        http, websocket = bounded.make_bounded_protocols(bounded.raise_file_limit() // 2)
         config = uvicorn.Config(
             app,
             loop="asyncio",
@@ -203,7 +205,7 @@ def _open_listener(host: str, port: int) -> socket.socket:
     return listener
 
 
-def _load_page_files(folder: Path) -> dict[str, Callable[[Request], Response]]:
+def _load_page_handlers(folder: Path) -> dict[str, Callable[[Request], Response]]:
     """Return an answer for every built file by its exact path, so that no path of a URL reaches the file system."""
     if not (folder / _INDEX_PAGE).is_file():
         raise StoreError(
@@ -211,7 +213,7 @@ def _load_page_files(folder: Path) -> dict[str, Callable[[Request], Response]]:
             "or build it from the sources"
         )
     answers = {
-        f"/{file.name}": _answer_with(file.read_bytes(), file.suffix)
+        f"/{file.name}": _make_file_handler(file.read_bytes(), file.suffix)
         for file in sorted(folder.iterdir())
         if file.suffix in _CONTENT_TYPES
     }
@@ -219,5 +221,5 @@ def _load_page_files(folder: Path) -> dict[str, Callable[[Request], Response]]:
     return answers
 
 
-def _answer_with(content: bytes, suffix: str) -> Callable[[Request], Response]:
+def _make_file_handler(content: bytes, suffix: str) -> Callable[[Request], Response]:
     return lambda _: Response(content, headers={"content-type": _CONTENT_TYPES[suffix]})

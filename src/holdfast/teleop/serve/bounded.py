@@ -38,7 +38,7 @@ def raise_file_limit() -> int:
     return _MAX_OPEN_FILES if soft == resource.RLIM_INFINITY else soft
 
 
-def make_protocols(
+def make_bounded_protocols(
     max_silent: int, patience: tuple[float, float] = _PATIENCE_RANGE_S, max_unread: int = _MAX_UNREAD_PEERS
 ) -> tuple[type[asyncio.Protocol], type[asyncio.Protocol]]:
     """Return the HTTP and the WebSocket protocol of one server, in which no connection can hold memory or a file for ever.
@@ -167,7 +167,7 @@ class RateLimitedLogFilter(logging.Filter):
         return self._line_count <= self._lines
 
 
-def limit_loop_log(loop: asyncio.AbstractEventLoop) -> None:
+def limit_asyncio_log(loop: asyncio.AbstractEventLoop) -> None:
     """Limit the log lines of failures in asyncio too, such as no more files for a connection."""
     log_filter = RateLimitedLogFilter()
 

@@ -25,7 +25,7 @@ def describe_experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> 
         texts: That the page shows.
         tlx: Ask for the NASA task load index.
     """
-    from holdfast.teleop.protocol.printed_arm import number_laws  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # it knows how /arm.js counts them
 
     center, workspace_radius = compute_planar_workspace(protocol.arm, protocol.rows)
     training = protocol.training
@@ -44,7 +44,7 @@ def describe_experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> 
             "limit": training.limit,
             "most": training.most,
         },
-        "training_law": number_laws(protocol)[find_training_scenario(protocol)],
+        "training_law": number_scenario_laws(protocol)[find_training_scenario(protocol)],
         "reach": workspace_radius,
         "centre": center,
         "views": describe_views(protocol),

@@ -53,7 +53,7 @@ class Connection:
             for task in (reading, sending):
                 task.cancel()
             results = await asyncio.gather(reading, sending, return_exceptions=True)
-            self._control.leave_session(self)
+            self._control.release_session(self)
         for result in results:
             if isinstance(result, Exception):
                 raise result
@@ -63,23 +63,23 @@ class Connection:
     def send_reply(self, reply: Message | Exception) -> None:
         """Send the reply to a message, in the order of the messages; an exception means that it could not be written."""
         if isinstance(reply, Exception):
-            self.report_write_failure(counts=True)
+            self.report_write_failure(is_reply=True)
         else:
-            self._queue_message(reply, counts=True)
+            self._queue_message(reply, is_reply=True)
             self._is_closing = self._is_closing or isinstance(reply, Bye)
 
     def pause(self, paused: bool) -> None:
         """Send the page the message to wait, or to continue."""
         self._queue_message(Pause(paused=paused))
 
-    def report_write_failure(self, counts: bool = False) -> None:
+    def report_write_failure(self, is_reply: bool = False) -> None:
         """Report that the records cannot be written, and close; the page reconnects by itself."""
         if not self._is_closing:
             self._is_closing = True
-            self._queue_message(Unstored(), counts)
-        self._queue_message(None, counts)
+            self._queue_message(Unstored(), is_reply)
+        self._queue_message(None, is_reply)
 
-    def turn_away(self) -> None:
+    def close_silently(self) -> None:
         """Close without a message, because too many connections have not sent hello."""
         self._is_closing = True
         self._queue_message(None)
@@ -91,12 +91,12 @@ class Connection:
 
     # ---- inside ----------------------------------------------------------------------------------------------------
 
-    def _queue_message(self, message: Message | None, counts: bool = False) -> None:
-        self._outbox.append((message, counts))
+    def _queue_message(self, message: Message | None, is_reply: bool = False) -> None:
+        self._outbox.append((message, is_reply))
         self._outbox_filled.set()
 
     async def _read_messages(self) -> None:
-        with self._control.await_greeting(self):
+        with self._control.track_until_hello(self):
             await asyncio.wait_for(self._await_hello(), _GREETING_TIMEOUT_S)
         while True:
             text = await self._receive_text()
@@ -140,13 +140,13 @@ class Connection:
         self._control.writer.submit_job(lambda records: records.last_seq(code), send_refusal)
 
     async def _receive_text(self) -> str | bytes:
-        await asyncio.sleep(self._message_limiter.take_allowance())
+        await asyncio.sleep(self._message_limiter.reserve_and_get_wait())
         message = await self._socket.receive()
         if message["type"] == "websocket.disconnect":
             raise WebSocketDisconnect(message.get("code", 1006))
         text: str | bytes | None = message.get("text")
         text = message["bytes"] if text is None else text
-        await asyncio.sleep(self._byte_limiter.take_allowance(len(text)))
+        await asyncio.sleep(self._byte_limiter.reserve_and_get_wait(len(text)))
         return text
 
     async def _send_messages(self) -> None:

@@ -38,7 +38,7 @@ class _Page(Protocol):
     def send_reply(self, reply: Message | Exception) -> None: ...
     def pause(self, paused: bool) -> None: ...
     def report_write_failure(self) -> None: ...
-    def turn_away(self) -> None: ...
+    def close_silently(self) -> None: ...
     def bye(self, reason: str) -> None: ...
 
 
@@ -62,7 +62,7 @@ class Control:
 
     def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop) -> None:
         self.folder = folder
-        self.writer = RecordsThread(folder, loop, writes=True, on_fault=self._on_fault_change)
+        self.writer = RecordsThread(folder, loop, writes=True, on_fault=self._on_record_error_change)
         self.reader = RecordsThread(folder, loop, writes=False)
         self.live = StatusBroadcaster()
         self.protocol = self.writer.protocol
@@ -78,7 +78,7 @@ class Control:
         await asyncio.to_thread(training_tasks, self.protocol, 0)
         await self.reader.run_job(lambda records: records.protocol.plants)
         self._all_paused, self._paused = await self.reader.run_job(_read_pauses)
-        self.reader.submit_job(_find_differing, self._flag_differing)
+        self.reader.submit_job(_find_replay_differences, self._record_replay_differences)
 
     def close(self) -> None:
         """Write the changes in progress, and close the files."""
@@ -89,13 +89,13 @@ class Control:
     # ---- pages -----------------------------------------------------------------------------------------------------
 
     @contextmanager
-    def await_greeting(self, page: _Page) -> Iterator[None]:
+    def track_until_hello(self, page: _Page) -> Iterator[None]:
         """List a page among those that have not sent hello; above the limit, the oldest is turned away."""
         self._greeting_pages[page] = None
         if len(self._greeting_pages) > _MAX_GREETING_PAGES:
             oldest = next(iter(self._greeting_pages))
             del self._greeting_pages[oldest]
-            oldest.turn_away()
+            oldest.close_silently()
         try:
             yield
         finally:
@@ -127,7 +127,7 @@ class Control:
         welcome = await self.writer.run_job(
             lambda records: Station(records, code).make_welcome(entered.key, self.is_paused(code))
         )
-        self.notify_change()
+        self.mark_subjects_changed()
         return welcome
 
     def apply_message(self, page: _Page, message: Sequenced, size: int = 0) -> None:
@@ -142,31 +142,31 @@ class Control:
 
         self.writer.submit_job(lambda records: Station(records, code).apply_message(message, size), on_result)
 
-    def leave_session(self, page: _Page) -> None:
+    def release_session(self, page: _Page) -> None:
         """Release the session of a page whose connection is over."""
         if page.code is not None and self._pages.get(page.code) is page:
             del self._pages[page.code]
             self.live.forget_topic(page.code)
-            self.notify_change()
+            self.mark_subjects_changed()
 
-    def _on_fault_change(self, fault: str | None) -> None:
+    def _on_record_error_change(self, record_error: str | None) -> None:
         """Notify the pages when the records cannot be written, and refresh the experimenter's list on any change."""
-        if fault is not None:
+        if record_error is not None:
             for page in list(self._pages.values()):
                 page.report_write_failure()
-        self.notify_change()
+        self.mark_subjects_changed()
 
     def _publish_outcome(self, code: str, message: Sequenced, outcome: MessageOutcome) -> None:
         if outcome.reply.type != "ack":
             return
         if outcome.finished is not None:
             number = outcome.finished
-            self.reader.submit_job(lambda records: _find_differing(records, number), self._flag_differing)
+            self.reader.submit_job(lambda records: _find_replay_differences(records, number), self._record_replay_differences)
         if isinstance(message, Cycles):
             if self.live.is_watched and outcome.entry is not None:
                 self.live.publish(self._describe_cycle(message, outcome.entry), topic=code)
         else:
-            self.notify_change()
+            self.mark_subjects_changed()
 
     def _describe_cycle(self, message: Cycles, entry: TrialRecord) -> dict[str, Any]:
         healthy = [1] * len(entry.q0)
@@ -186,7 +186,7 @@ class Control:
             "healthy": healthy,
         }
 
-    def _flag_differing(self, differing: Any) -> None:
+    def _record_replay_differences(self, differing: Any) -> None:
         """Record an event for each trial whose replay differs from the page's record."""
         if isinstance(differing, Exception) or not differing:
             return
@@ -198,13 +198,13 @@ class Control:
                     if entry.id not in flagged:
                         records.add_event(DIFFERENCE_EVENT, entry.subject, entry.id, k=None, data=data)
 
-        self.writer.submit_job(record_events, lambda _: self.notify_change())
+        self.writer.submit_job(record_events, lambda _: self.mark_subjects_changed())
 
     # ---- the experimenter ------------------------------------------------------------------------------------------
 
-    def notify_change(self) -> None:
+    def mark_subjects_changed(self) -> None:
         """Mark the experimenter's list of subjects as changed."""
-        self.live.mark_stale()
+        self.live.mark_subjects_changed()
 
     def is_paused(self, code: str) -> bool:
         """Return whether a subject's session is paused."""
@@ -230,7 +230,7 @@ class Control:
         for code, page in self._pages.items():
             if subject in (None, code):
                 page.pause(self.is_paused(code))
-        self.notify_change()
+        self.mark_subjects_changed()
 
     async def set_note(self, subject: str, note: str) -> None:
         """Set the note about a subject, in place of an earlier one.
@@ -241,7 +241,7 @@ class Control:
         if len(note) > 10_000:
             raise InputError("a note has at most 10,000 characters")
         await self.writer.run_job(lambda records: records.set_note(subject, note))
-        self.notify_change()
+        self.mark_subjects_changed()
 
     async def drop_subject(self, subject: str) -> None:
         """End a subject's session for good; its records stay.
@@ -252,7 +252,7 @@ class Control:
         await self.writer.run_job(lambda records: records.set_state(subject, SubjectState.DROPPED))
         if (page := self._pages.get(subject)) is not None:
             page.bye(f"the session of {subject} was ended by the experimenter")
-        self.notify_change()
+        self.mark_subjects_changed()
 
     async def renew_key(self, subject: str) -> str:
         """Return a new key with which another page resumes a session; the earlier key is void.
@@ -269,7 +269,7 @@ class Control:
         key = await self.writer.run_job(give_key)
         if (page := self._pages.get(subject)) is not None:
             page.bye("the session has moved to another page")
-        self.notify_change()
+        self.mark_subjects_changed()
         return key
 
     async def describe_state(self) -> dict[str, Any]:
@@ -278,7 +278,9 @@ class Control:
 
     async def describe_subjects(self) -> list[dict[str, Any]]:
         """Describe the state of every subject's session for JSON."""
-        rows = await self.reader.run_job(lambda records: (records.subjects(), records.count_trials(), _count_flagged(records)))
+        rows = await self.reader.run_job(
+            lambda records: (records.subjects(), records.count_trials(), _count_replay_differences(records))
+        )
         subjects, progress, flagged = rows
         trial_count = len(self.protocol.tasks) * len(self.protocol.scenarios)
         return [
@@ -316,12 +318,12 @@ def _read_pauses(records: Records) -> tuple[bool, set[str]]:
     return all_paused, paused_subjects
 
 
-def _count_flagged(records: Records) -> dict[str, int]:
+def _count_replay_differences(records: Records) -> dict[str, int]:
     flagged = [event["subject"] for event in records.events(DIFFERENCE_EVENT)]
     return {code: flagged.count(code) for code in set(flagged)}
 
 
-def _find_differing(records: Records, number: int | None = None) -> list[tuple[TrialRecord, dict[str, Any]]]:
+def _find_replay_differences(records: Records, number: int | None = None) -> list[tuple[TrialRecord, dict[str, Any]]]:
     """Return the finished trials, all or one, whose replay with the Python kernel differs from the record."""
     candidates = records.entries() if number is None else [records.entry(number)]
     entries = [candidate for candidate in candidates if candidate is not None and candidate.ended is not None]

@@ -106,7 +106,7 @@ class _ExperimenterHandlers:
             "station": self._station_url(request),
             "scenarios": [scenario.label for scenario in control.protocol.scenarios],
             "joints": list(control.protocol.arm.joint_names),
-            "plan": await asyncio.to_thread(_describe_plan, control.protocol),
+            "plan": await asyncio.to_thread(_list_starts_and_targets, control.protocol),
         }
         return JSONResponse(constant | await control.describe_state())
 
@@ -173,7 +173,7 @@ class _ExperimenterHandlers:
         return str(request.base_url) + (f"?{urlencode(parameters)}" if parameters else "")
 
 
-def _describe_plan(protocol: Protocol) -> dict[str, Any]:
+def _list_starts_and_targets(protocol: Protocol) -> dict[str, Any]:
     """Describe the possible positions of arm and target as a station's plan, with the first subject's training."""
     tasks = {"training": training_tasks(protocol, 0), "trials": protocol.tasks}
     return {
@@ -208,7 +208,7 @@ async def stream_live(socket: WebSocket) -> None:
 
 async def _send_updates(socket: WebSocket) -> None:
     control = _get_control(socket)
-    control.notify_change()  # a list comes as soon as there is somebody who watches, that is, in the next line
+    control.mark_subjects_changed()  # a list comes as soon as there is somebody who watches, that is, in the next line
     async for message in control.live.stream_messages():
         await socket.send_text(json.dumps(message))
 

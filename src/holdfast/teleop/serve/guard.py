@@ -43,31 +43,31 @@ class Guard:
     key: str = field(default_factory=lambda: secrets.token_urlsafe(18))
     loopback: bool = True
 
-    def find_foreign_source(self, scope: Scope) -> str | None:
+    def explain_foreign_request(self, scope: Scope) -> str | None:
         """Return why a request does not come from this server's pages, a typed address, or a link; None if it does."""
         headers = Headers(scope=scope)
         origins = headers.getlist("origin")
-        host_fault = hosts.find_request_fault(
-            headers.getlist("host"), origins, lambda name: not self.loopback or hosts.is_loopback(name)
+        host_fault = hosts.request_rejection_reason(
+            headers.getlist("host"), origins, lambda name: not self.loopback or hosts.is_loopback_host(name)
         )
         if host_fault is not None:
             return host_fault
         is_read = scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
         follows_link = is_read and headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
-        if comes_from_other_page(scope) and not origins and not follows_link:
+        if is_cross_origin_request(scope) and not origins and not follows_link:
             return "the request comes from a page of another host"
         return None
 
-    def find_missing_secret(self, scope: Scope) -> str | None:
+    def name_missing_secret(self, scope: Scope) -> str | None:
         """Return which secret a request lacks; None if it shows what its path needs."""
         path = scope["path"]
         if any(path == prefix or path.startswith(prefix + "/") for prefix in _EXPERIMENTER_PATHS):
             return (
                 None
-                if self.is_experimenter(scope)
+                if self.has_experimenter_key(scope)
                 else "the experimenter's key is missing or wrong; it is in the URL printed at the start"
             )
-        if path in _STATION_PATHS and not (self.has_token(scope) or self.is_experimenter(scope)):
+        if path in _STATION_PATHS and not (self.has_token(scope) or self.has_experimenter_key(scope)):
             return "the token is missing or wrong; it is in the URL that the server printed at its start"
         return None
 
@@ -78,11 +78,11 @@ class Guard:
             for value in (_query_value(scope, "token"), _cookie_value(scope, _cookie_name(self.token)))
         )
 
-    def is_experimenter(self, scope: Scope) -> bool:
+    def has_experimenter_key(self, scope: Scope) -> bool:
         """Return whether the key is in the query; no cookie has it, because a subject may use the experimenter's browser."""
         return _equals_secret(_query_value(scope, "key"), self.key)
 
-    def shows_secret(self, scope: Scope) -> bool:
+    def has_secret_in_query(self, scope: Scope) -> bool:
         """Return whether the query has a token or a key, right or wrong; the cookie does not count, because its name depends on
         the token.
         """
@@ -95,7 +95,7 @@ class Guard:
         return f"{_cookie_name(self.token)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
 
 
-def comes_from_other_page(scope: Scope) -> bool:
+def is_cross_origin_request(scope: Scope) -> bool:
     """Return whether the browser states that a page of another server caused the request."""
     return Headers(scope=scope).get("sec-fetch-site", "none") not in ("same-origin", "none")
 
@@ -139,14 +139,14 @@ class FailedAttempts:
         """Count one more attempt from an address."""
         limiter = self._limiters.pop(address, None) or RateLimiter(_ATTEMPTS_PER_SECOND, _MAX_FAILED_ATTEMPTS, self._clock)
         self._limiters[address] = limiter
-        limiter.take_allowance()
+        limiter.reserve_and_get_wait()
         if len(self._limiters) > _MAX_ADDRESSES:
             del self._limiters[next(iter(self._limiters))]
 
-    def must_wait(self, address: str) -> bool:
+    def has_too_many_failures(self, address: str) -> bool:
         """Return whether an address has shown more wrong tokens and keys than it may."""
         limiter = self._limiters.get(address)
-        return limiter is not None and limiter.take_allowance(0) > 0
+        return limiter is not None and limiter.reserve_and_get_wait(0) > 0
 
 
 class GuardedApp:
@@ -161,12 +161,12 @@ class GuardedApp:
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        fault = self._guard.find_foreign_source(scope)
+        fault = self._guard.explain_foreign_request(scope)
         must_wait = False
         if fault is None:
-            fault = self._guard.find_missing_secret(scope)
+            fault = self._guard.name_missing_secret(scope)
             # A page of another server must not use up the attempts of the address whose browser shows that page.
-            if fault is not None and self._guard.shows_secret(scope) and not comes_from_other_page(scope):
+            if fault is not None and self._guard.has_secret_in_query(scope) and not is_cross_origin_request(scope):
                 must_wait = self._count_attempt(scope)
         if must_wait:
             fault = "too many wrong tokens or keys came from this address; wait"
@@ -197,7 +197,7 @@ class GuardedApp:
         """Count a wrong token or key, and return whether its address has shown too many."""
         client = scope.get("client")
         address = "" if client is None else client[0]
-        must_wait = self._attempts.must_wait(address)
+        must_wait = self._attempts.has_too_many_failures(address)
         if not must_wait:
             self._attempts.count_attempt(address)
         return must_wait
@@ -228,8 +228,8 @@ class RateLimiter:
         self._rate, self._burst, self._clock = rate, burst, clock
         self._allowance, self._updated_at = burst, clock()
 
-    def take_allowance(self, count: float = 1) -> float:
-        """Take one, or more, and return the seconds to wait for it."""
+    def reserve_and_get_wait(self, count: float = 1) -> float:
+        """Take ``count`` units of the allowance, and return the seconds to wait before they may be used."""
         now = self._clock()
         self._allowance = min(self._burst, self._allowance + (now - self._updated_at) * self._rate) - count
         self._updated_at = now

@@ -68,7 +68,7 @@ class StatusBroadcaster:
         """Forget a topic that does not return."""
         self._last_times.pop(topic, None)
 
-    def mark_stale(self) -> None:
+    def mark_subjects_changed(self) -> None:
         """Mark the list of subjects as changed."""
         self._stale.set()
 

@@ -63,7 +63,7 @@ def _write_report(folder: Path, out: Path, missing: str) -> None:
 _JOB_FUNCTIONS: dict[str, Callable[..., None]] = {"export": _export_archive, "report": _write_report}
 
 
-def _run_command_line(job: str, folder: str, out: str, *arguments: str) -> int:
+def _run_job_function(job: str, folder: str, out: str, *arguments: str) -> int:
     if hasattr(os, "nice"):
         os.nice(10)  # after the stations
     try:
@@ -75,4 +75,4 @@ def _run_command_line(job: str, folder: str, out: str, *arguments: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(_run_command_line(*sys.argv[1:]))
+    sys.exit(_run_job_function(*sys.argv[1:]))

@@ -267,11 +267,11 @@ def message_quota_bytes(protocol: Protocol) -> int:
 
 
 def _build_plan(records: Records, row: int, number: int) -> messages.Plan:
-    from holdfast.teleop.protocol.printed_arm import number_laws  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # it knows how /arm.js counts them
 
     protocol = records.protocol
     training = training_tasks(protocol, number)
-    laws = number_laws(protocol)
+    laws = number_scenario_laws(protocol)
     failed = protocol.scenarios[find_training_scenario(protocol)].failed
     order = protocol.session_order(row, number)
     tasks = protocol.tasks

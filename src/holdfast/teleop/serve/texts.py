@@ -28,7 +28,7 @@ from pydantic import Field, ValidationError, model_validator
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.output import replace_file
-from holdfast.core.files.yaml import Number, Strict, describe_error, read_mapping
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error, read_mapping
 from holdfast.teleop.serve.messages import Name
 
 ENGLISH_FILE = Path(__file__).with_name("texts") / "en.yaml"
@@ -155,7 +155,7 @@ def _load_file(path: Path) -> Texts:
                 raise InputError(f"{key}: {value!r} is not text; put it in quotes")
         document = _TextsFile.model_validate({"forms": data.get("forms")})
     except ValidationError as error:
-        raise InputError(f"texts '{path}': {describe_error(error, _TextsFile)}") from error
+        raise InputError(f"texts '{path}': {describe_validation_error(error, _TextsFile)}") from error
     except InputError as error:
         raise InputError(f"texts '{path}': {error}") from error
     names = [form.name for form in document.forms]

@@ -138,13 +138,13 @@ class RecordsThread:
                 results = [_call_job(job, records) for job, _ in jobs]
         # A full disk, a folder that was deleted, a lock that somebody else keeps: none of it happened.
         except (sqlite3.Error, StoreError) as error:
-            self._set_fault(str(error))
+            self._set_record_error(str(error))
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
         if self.fault is not None and records.changes > changes_before:
-            self._set_fault(None)
+            self._set_record_error(None)
         return results
 
-    def _set_fault(self, fault: str | None) -> None:
+    def _set_record_error(self, fault: str | None) -> None:
         """Set the fault, and report a change once, not for each message."""
         if (fault is None) != (self.fault is None):
             _log.error("the records can be written again" if fault is None else f"the records cannot be written: {fault}")

@@ -135,7 +135,7 @@ class SimulatedPeople(Operator):
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.command_velocity`."""
         self._seen_positions[cycle % len(self._seen_positions), rows] = x
-        self._update_wobble()
+        self._update_correlated_noise()
         seen_cycle = cycle - self._delay[rows]
         seen, earlier = (
             self._interpolate_seen_positions(rows, seen_cycle),
@@ -180,7 +180,7 @@ class SimulatedPeople(Operator):
             + fraction * self._seen_positions[(cycle_before + 1) % length, rows]
         )
 
-    def _update_wobble(self) -> None:
+    def _update_correlated_noise(self) -> None:
         """Update the correlated noise of unit variance, for all trials, whether they are over or not."""
         decay = float(np.exp(-1 / (self._rate * _NOISE_MEMORY_S)))
         innovation = self._generator.normal(size=self._wobble.shape)

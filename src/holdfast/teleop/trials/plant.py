@@ -110,7 +110,7 @@ def check_joystick_task(task: Task) -> None:
 
 
 @lru_cache(maxsize=16)
-def make_substep(law: Law, substeps: int = SUBSTEPS_PER_CYCLE) -> ca.Function:
+def make_euler_substep(law: Law, substeps: int = SUBSTEPS_PER_CYCLE) -> ca.Function:
     """Return one explicit Euler step of a control cycle as a symbolic function, which :class:`JoystickPlant` compiles and the
     page runs.
 
@@ -134,7 +134,7 @@ def make_substep(law: Law, substeps: int = SUBSTEPS_PER_CYCLE) -> ca.Function:
 @cached_json
 def _count_kernel_calls(law: Law, substeps: int) -> int:
     """Return the number of kernel calls in a cycle; sub-steps are unrolled into one call up to a size."""
-    max_substeps = max(1, _MAX_UNROLLED_OPERATIONS // int(make_substep(law, substeps).n_instructions()))
+    max_substeps = max(1, _MAX_UNROLLED_OPERATIONS // int(make_euler_substep(law, substeps).n_instructions()))
     return substeps // max(count for count in range(1, substeps + 1) if substeps % count == 0 and count <= max_substeps)
 
 
@@ -142,7 +142,7 @@ def _count_kernel_calls(law: Law, substeps: int) -> int:
 @cached_kernel
 def _build_cycle_kernel(law: Law, substeps: int, times: int) -> Kernel:
     """Build the kernel of ``times`` sub-steps of a cycle."""
-    step = make_substep(law, substeps)
+    step = make_euler_substep(law, substeps)
     q, v, healthy = step.sx_in()
     q_next, first_velocity = step(q, v, healthy)
     for _ in range(1, times):

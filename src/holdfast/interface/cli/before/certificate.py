@@ -60,10 +60,10 @@ def show(file: FileArgument) -> None:
     Example: holdfast certificate show reach.certificate
     """
     from holdfast.certificates import verifier
-    from holdfast.certificates.checks import find_in_folder
+    from holdfast.certificates.checks import find_certificate_file
 
     try:
-        document = verifier.load_certificate(find_in_folder(file))
+        document = verifier.load_certificate(find_certificate_file(file))
     except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
     volumes, arm = {state: _parse_fraction(volume) for state, volume in document["volumes"].items()}, document["source"]["name"]

@@ -24,7 +24,7 @@ from holdfast.interface.cli.certify_options import (
     RowsOption,
     SearchOptions,
     TargetBoxOptions,
-    read_intervals,
+    read_joint_intervals,
 )
 from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
 from holdfast.interface.cli.groups import ArmSourceOptions
@@ -68,8 +68,8 @@ def reach(
     claim = hf.certificates.reach_claim(
         model,
         **targets.claim_arguments(),
-        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
-        limits=read_intervals(model, "--limit", limit, degrees),
+        locked=None if lock is None else read_joint_intervals(model, "--lock", [lock], degrees),
+        limits=read_joint_intervals(model, "--limit", limit, degrees),
     )
     prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
@@ -98,8 +98,8 @@ def out_of_reach(
     claim = hf.certificates.out_of_reach_claim(
         model,
         **targets.claim_arguments(),
-        locked=None if lock is None else read_intervals(model, "--lock", [lock], degrees),
-        limits=read_intervals(model, "--limit", limit, degrees),
+        locked=None if lock is None else read_joint_intervals(model, "--lock", [lock], degrees),
+        limits=read_joint_intervals(model, "--limit", limit, degrees),
     )
     prove_claim(claim, search, written, halvings=halvings, seed=seed)
 
@@ -133,7 +133,7 @@ def tolerant(
     model = chain.resolve_arm(arm)
     texts = [*(_read_range_options(ranges) if ranges is not None else []), *(range_ or [])]
     claim_arguments = targets.claim_arguments() | {
-        "working_ranges": read_intervals(model, "--range", texts, degrees),
+        "working_ranges": read_joint_intervals(model, "--range", texts, degrees),
         "failures": read_failures(model, failures),
     }
     if find_ranges:

@@ -45,7 +45,7 @@ def path(
         raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
-        read_joint_table(model, motion, "motion", "time_s").read_columns(joint_columns(model)),
+        read_joint_table(model, motion, "motion", "time_s").select_columns(joint_columns(model)),
         failures=read_failures(model, failures),
         during=tuple(failure_times),
         tube=read_numbers("--tube", tube, "one number or two, m and rad,"),

@@ -60,7 +60,7 @@ def command(
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """
-    from holdfast.model.arm.task import task_of_path
+    from holdfast.model.arm.task import default_path_task
 
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
@@ -68,7 +68,7 @@ def command(
     model = placement.mount_arm(chain.resolve_arm(arm))
     timed = hf.paths.TimedPath.load(path, duration)
     check_path_units(model, timed.path, f"path '{path}'")
-    path_task = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
+    path_task = read_task(task or default_path_task(model, timed.path.oriented), arm, model)
     option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *option_and_text, path_task)  # the other way round already, if that is meant
     optimisation: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}

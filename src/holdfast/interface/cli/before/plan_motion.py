@@ -51,14 +51,14 @@ def command(
 
     Example: holdfast plan-motion panda line.yaml --out endured
     """
-    from holdfast.model.arm.task import task_of_path
+    from holdfast.model.arm.task import default_path_task
     from holdfast.response.lock_survival.given_motion import LEAST_NORM
 
     apart.check_consistency()
     model = chain.resolve_arm(arm)
     timed = hf.paths.TimedPath.load(path, duration)
     check_path_units(model, timed.path, f"path '{path}'")
-    rows = read_task(task or task_of_path(model, timed.path.oriented), arm, model)
+    rows = read_task(task or default_path_task(model, timed.path.oriented), arm, model)
     result = hf.plan_motion(
         model,
         timed,

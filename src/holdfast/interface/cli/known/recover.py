@@ -10,15 +10,15 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.core.labels import is_number, read_measures
+from holdfast.core.labels import is_number, parse_quantities
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
 from holdfast.interface.cli.values import (
     check_path_units,
-    read_by_joint,
     read_configuration,
     read_locks,
     read_numbers,
+    read_numbers_by_joint,
     read_pose,
     read_task,
 )
@@ -116,8 +116,8 @@ def command(
         read_locks(model, lock, degrees, optional_value=True, failure=failure),
         read_configuration(model, at, degrees, "--at"),
         goal=target_goal,
-        task=_position_task(model, known_task) if positions else known_task,
-        within=None if within is None else _read_angle(within),
+        task=_choose_position_task(model, known_task) if positions else known_task,
+        within=None if within is None else _read_axis_tolerance(within),
         path=tool_path,
         clearance=clearance or False,
         margin=apart.margin or 0.0,
@@ -128,7 +128,7 @@ def command(
         starts=starts,
         tries=tries,
         time_limit=time_limit,
-        tolerance=None if tolerance is None else tuple(read_measures("--tolerance", tolerance)),  # type: ignore[arg-type]
+        tolerance=None if tolerance is None else tuple(parse_quantities("--tolerance", tolerance)),  # type: ignore[arg-type]
         accelerations=max_accelerations,
         period=period,
         seed=seed,
@@ -150,16 +150,16 @@ def command(
 def _read_accelerations(arm: Arm, text: str) -> Any:
     """Read ``--accelerations`` as an argument of the library."""
     if "=" in text:
-        return read_by_joint(arm, text.replace(",", " ").split(), "--accelerations")
+        return read_numbers_by_joint(arm, text.replace(",", " ").split(), "--accelerations")
     numbers = read_numbers("--accelerations", text, "a number, one per joint, or JOINT=NUMBER")
     return numbers if len(numbers) > 1 else float(numbers[0])
 
 
-def _read_angle(text: str) -> float:
+def _read_axis_tolerance(text: str) -> float:
     """Read ``--within`` in rad."""
     if not text.strip().endswith(("deg", "rad")):
         raise InputError(f"--within '{text}' has no unit; write it as 30deg or 0.5rad")
-    angles = read_measures("--within", text)
+    angles = parse_quantities("--within", text)
     if len(angles) != 1:
         raise InputError(f"--within '{text}' has {len(angles)} numbers; give one angle, for example 30deg")
     return angles[0]
@@ -190,7 +190,7 @@ def _read_goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     return goal_poses, any(pose.ndim == 1 for pose in poses)
 
 
-def _position_task(arm: Arm, task: Any) -> Any:
+def _choose_position_task(arm: Arm, task: Any) -> Any:
     """Return the task of a goal without orientation."""
     from holdfast.model.arm.task import as_task, plane_normal
 

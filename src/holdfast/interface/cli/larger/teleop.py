@@ -73,9 +73,9 @@ def analyse(
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import tool_paths
-    from holdfast.teleop.records.verification import open_or_name_damage
+    from holdfast.teleop.records.verification import open_undamaged_records
 
-    with open_or_name_damage(folder) as records, show_status("computing") as update_status:
+    with open_undamaged_records(folder) as records, show_status("computing") as update_status:
         result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
         update_status("drawing")
         report = result.save(folder, records.protocol, tool_paths(records))[0]
@@ -93,9 +93,9 @@ def replay(folder: FolderArgument) -> None:
     Example: holdfast teleop replay experiment
     """
     from holdfast.teleop.records.check import replay_trials as again
-    from holdfast.teleop.records.verification import open_or_name_damage
+    from holdfast.teleop.records.verification import open_undamaged_records
 
-    with open_or_name_damage(folder) as records, show_status("replaying"):
+    with open_undamaged_records(folder) as records, show_status("replaying"):
         result = again(records)
     print_result(result, False)
     if result.differing_entries:
@@ -149,9 +149,9 @@ def export(
     Example: holdfast teleop export experiment
     """
     from holdfast.teleop.records.tables import export_tables as write
-    from holdfast.teleop.records.verification import open_or_name_damage
+    from holdfast.teleop.records.verification import open_undamaged_records
 
-    with open_or_name_damage(folder) as records, show_status("writing"):
+    with open_undamaged_records(folder) as records, show_status("writing"):
         files = write(records, folder / "export" if out is None else out, parquet)
     for file in files:
         typer.echo(f"written: {file}")
@@ -190,11 +190,11 @@ def subjects(
 
     Example: holdfast teleop subjects experiment
     """
-    from holdfast.teleop.records.verification import open_or_name_damage
+    from holdfast.teleop.records.verification import open_undamaged_records
 
     if drop is not None and delete is not None:
         raise InputError("give --drop or --delete, not both")
-    with open_or_name_damage(folder) as records:
+    with open_undamaged_records(folder) as records:
         if delete is not None:
             count = len(records.entries(delete))
             records.delete_subject(delete)

@@ -45,7 +45,7 @@ def serve(
     Example: holdfast teleop serve --data experiment
     """
     try:
-        from holdfast.core.files.hosts import is_loopback
+        from holdfast.core.files.hosts import is_loopback_host
         from holdfast.teleop.serve import app
         from holdfast.teleop.serve.guard import Guard, check_token
     except ModuleNotFoundError as error:
@@ -55,7 +55,7 @@ def serve(
     token = _read_token(token, token_file)
     if token is not None:
         check_token(token)
-    loopback = is_loopback(host)
+    loopback = is_loopback_host(host)
     if not loopback and token is None:
         raise InputError(
             f"--host {host} lets other computers in; add --token-file, or HOLDFAST_TOKEN, with a random secret of 12 "

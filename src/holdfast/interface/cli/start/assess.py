@@ -15,7 +15,7 @@ from holdfast.interface.cli.measure_options import IndexOption
 from holdfast.interface.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.start.candidates import TOOL_HELP, read_candidates
-from holdfast.interface.cli.values import read_by_joint, read_failures, read_task
+from holdfast.interface.cli.values import read_failures, read_numbers_by_joint, read_task
 from holdfast.interface.presentation.printing import make_console
 from holdfast.interface.presentation.results import print_result
 
@@ -104,7 +104,7 @@ def command(
             "restarts": restarts,
             "optimise": optimise,
             "after_lock": after_lock,
-            "locked": read_by_joint(candidate.arm, lock, "--lock"),
+            "locked": read_numbers_by_joint(candidate.arm, lock, "--lock"),
             "clearance": apart.build_clearance(candidate.arm, chooses_configurations=optimise or apart.cell is not None)
             or False,
             "margin": apart.margin or 0.0,
@@ -168,7 +168,7 @@ def report(
         _print_with_report(comparison, json_, [comparison.report(page)], thresholds=at_least)
         return
     assessment = load(folder)
-    rates = read_by_joint(assessment.arm, failure_rate, "--failure-rate")
+    rates = read_numbers_by_joint(assessment.arm, failure_rate, "--failure-rate")
     if rates and assessment.distribution.samples:
         assessment.expected_survival(rates)  # before anything is written
     _print_with_report(assessment, json_, [assessment.report(page, threshold)], thresholds=at_least, rates=rates)
@@ -182,12 +182,12 @@ def _print_with_report(result: Result, json_: bool, files: list[Path], **options
 
 def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock: list[str] | None) -> dict[str | int, float]:
     """Read ``--failure-rate``, which needs a requested lock of each of its joints."""
-    from holdfast.studies.assessment.upgrade import check_rates
+    from holdfast.studies.assessment.upgrade import check_failure_rates
 
-    rates = read_by_joint(arm, failure_rate, "--failure-rate")
-    locks = read_by_joint(arm, lock, "--lock") if rates else {}
+    rates = read_numbers_by_joint(arm, failure_rate, "--failure-rate")
+    locks = read_numbers_by_joint(arm, lock, "--lock") if rates else {}
     if rates:
-        check_rates(arm, rates)
+        check_failure_rates(arm, rates)
     for name in rates:
         if not after_lock and name not in locks:
             raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock {name}=VALUE")

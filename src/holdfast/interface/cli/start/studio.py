@@ -64,10 +64,10 @@ def command(
     from holdfast.model.arm.postures import generic_configuration
     from holdfast.model.arm.task import as_task, target_pose
     from holdfast.model.cell.cell import Cell
-    from holdfast.model.shapes.reading import with_meshes
+    from holdfast.model.shapes.reading import with_mesh_folder
 
     model = chain.resolve_arm(arm)
-    model = model if meshes is None else with_meshes(model, meshes)
+    model = model if meshes is None else with_mesh_folder(model, meshes)
     task_name = default_task(arm, model) if task is None else task
     studio_task = as_task(model, read_task(task_name, arm, model))
     INDEX_REGISTRY.read_label(index, "--index")

@@ -6,7 +6,7 @@ from typing import Any
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import LawsOption, TargetsOption, read_laws, read_positions, read_targets
+from holdfast.interface.cli.laws import LawsOption, TargetsOption, read_laws, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.unnoticed.measures import MapOptions, MapTimeOption
@@ -32,7 +32,7 @@ def command(
     Example: holdfast best-law panda --task position --target 0.5,0.2,0.4 --law pseudoinverse --law failure-tolerant:0.2
     """
     laws = read_laws(law, chain.resolve_arm(arm), task, arm)
-    targets, positions = read_targets(laws[0], target), read_positions(mapped.starts)
+    targets, positions = read_targets(laws[0], target), read_position_sampling(mapped.starts)
     clearance = touched.build_contact_clearance(laws[0].arm)
     map_options: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "time_limit": time_limit}
     with ProgressBar(json_, "runs") as progress:

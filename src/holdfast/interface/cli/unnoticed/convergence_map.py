@@ -6,7 +6,7 @@ from typing import Any
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_positions, read_targets
+from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.unnoticed.measures import MapOptions, MapTimeOption
@@ -32,7 +32,7 @@ def command(
     Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
     """
     control_law = read_law_for_arm(law, arm, task, chain)
-    targets, places = read_targets(control_law, target), read_positions(mapped.starts)
+    targets, places = read_targets(control_law, target), read_position_sampling(mapped.starts)
     clearance = touched.build_contact_clearance(control_law.arm)
     with ProgressBar(json_, "runs") as progress:
         map_options: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}

@@ -10,7 +10,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.core.labels import read_measures
+from holdfast.core.labels import parse_quantities
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
 from holdfast.interface.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, read_law_for_arm
 from holdfast.interface.cli.options import (
@@ -208,7 +208,7 @@ def _read_error_limit(text: str) -> tuple[float, float]:
         unit = next((unit_kind for suffix, unit_kind in _LIMIT_UNITS.items() if part.strip().endswith(suffix)), None)
         if unit is None:
             raise InputError(f"--error-limit '{text}' has a number without a unit; write it as 2deg, 0.05rad or 2deg,1mm")
-        limits[unit] = read_measures("--error-limit", part)[0]
+        limits[unit] = parse_quantities("--error-limit", part)[0]
     return limits["rad"], limits["m"]
 
 

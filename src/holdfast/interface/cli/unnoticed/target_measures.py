@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_positions, read_targets
+from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption
@@ -31,7 +31,10 @@ def command(
     Example: holdfast target-measures panda --task position --target random:50 --out results
     """
     control_law = read_law_for_arm(law, arm, task, chain)
-    targets, places = read_targets(control_law, target), None if measured.starts is None else read_positions(measured.starts)
+    targets, places = (
+        read_targets(control_law, target),
+        None if measured.starts is None else read_position_sampling(measured.starts),
+    )
     options = {"time_limit": time_limit, "seed": seed, **measured.library_arguments()}
     with ProgressBar(json_, "targets") as progress:
         result = hf.target_measures(control_law, targets, places, progress=progress, **options)

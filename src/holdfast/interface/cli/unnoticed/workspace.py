@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.laws import LawOption, TargetOption, read_law_for_arm, read_positions
+from holdfast.interface.cli.laws import LawOption, TargetOption, read_law_for_arm, read_position_sampling
 from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption
@@ -35,7 +35,7 @@ def command(
     control_law = read_law_for_arm(law, arm, task, chain)
     target_value, places = (
         read_target(control_law.arm, control_law.task, target),
-        None if measured.starts is None else read_positions(measured.starts),
+        None if measured.starts is None else read_position_sampling(measured.starts),
     )
     store = None if measured.out is None else measured.out / "run"
     options = {"time_limit": time_limit, "seed": seed, "store": store, **measured.library_arguments()}

@@ -17,7 +17,7 @@ from holdfast.interface.presentation.arm.visuals import build_body
 from holdfast.interface.presentation.cell import bodies
 from holdfast.interface.report import viewer
 from holdfast.interface.report.viewer import ViewerScene, round_to_seven_digits
-from holdfast.kinematics.indices.lost_directions import find_losses
+from holdfast.kinematics.indices.lost_directions import find_speed_losses
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.postures import generic_configuration
@@ -316,7 +316,7 @@ def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: 
     world_rows = task_rows.rows @ rotation
     scale = np.array([1 / task_rows.length] * 3 + [1.0] * 3)
     directions = []
-    for loss in find_losses(task_rows.rows @ (scale[:, None] * (rotation @ arm.jacobian(q))), failed):
+    for loss in find_speed_losses(task_rows.rows @ (scale[:, None] * (rotation @ arm.jacobian(q))), failed):
         if loss.kept <= _MARKED_SPEED_FRACTION:
             label = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed left"
             directions.append({"twist": round_to_seven_digits(world_rows.T @ loss.direction), "words": label})

@@ -27,7 +27,7 @@ from holdfast.interface.presentation.assessment.console import rank_optimised_up
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.sections.upgrades import format_gain
 from holdfast.interface.presentation.collision.shape import describe_cell
-from holdfast.interface.presentation.commands import build_command_line, list_capsule_files, list_region_files
+from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
 from holdfast.interface.report import figures as drawing
 from holdfast.interface.report import page
 from holdfast.interface.report.figures import Curve, Mark
@@ -133,7 +133,7 @@ def _describe_nearest_candidate(comparison: Comparison) -> str:
         return ""
     sign = 1.0 if comparison.assessments[0].index.better == "larger" else -1.0
     _, name, assessment = max(medians, key=lambda entry: sign * entry[0])
-    return f" Nearest is {name}. {AssessmentFacts(assessment, comparison.threshold).explanation}"
+    return f" Nearest is {name}. {AssessmentFacts(assessment, comparison.threshold).low_probability_reason}"
 
 
 def _describe_task_leader(comparison: Comparison, task: str) -> str:
@@ -471,6 +471,6 @@ def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
         blocks.append(
             Text(f"{name}: {remark}") if command is None else Code(command, f"{name} alone{f' ({remark})' if remark else ''}:")
         )
-        blocks += list_capsule_files(assessment)
+        blocks += build_shape_file_blocks(assessment)
     region = comparison.assessments[0].region
-    return [*blocks, *(list_region_files(region) if region.storable else [])]
+    return [*blocks, *(build_region_file_blocks(region) if region.storable else [])]

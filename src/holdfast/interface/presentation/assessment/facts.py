@@ -20,7 +20,7 @@ from holdfast.model.arm.poses import rotations_of_quaternions
 from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.rows import describe_provenance
-from holdfast.studies.assessment.upgrade import select_sample
+from holdfast.studies.assessment.upgrade import make_run_sample
 
 _MAX_DOTS = 20_000
 _MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
@@ -84,7 +84,7 @@ class AssessmentFacts(ThresholdAnswer):
         """Every evaluated pose; None if the poses were not kept."""
         if not self.distribution.samples or not self.assessment.has_rows:
             return None
-        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=False)
+        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=False)
         if self.assessment.region.kind == "joints":
             tool_poses = self.assessment.arm.forward_kinematics(evaluated.q)
             position, rotation = tool_poses[:, :3, 3], tool_poses[:, :3, :3]
@@ -109,7 +109,7 @@ class AssessmentFacts(ThresholdAnswer):
         """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
         if self.poses is None or self.assessment.optimised is None:
             return None
-        evaluated = select_sample(self.assessment.index, self.assessment.columns, optimised=True)
+        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=True)
         return replace(
             self.poses,
             q=evaluated.q,

@@ -8,7 +8,7 @@ from holdfast.core import labels
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.presentation.commands import build_command_line, list_capsule_files, list_region_files
+from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
 from holdfast.interface.presentation.page_content import format_versions
 from holdfast.interface.report.page import Block, Code, Table, Text
 from holdfast.studies.assessment.assessment import Assessment
@@ -96,8 +96,8 @@ def build_rerun_blocks(assessment: Assessment) -> list[Block]:
         return [Text(remark)]
     return [
         Code(command, remark and f"{capitalise_first(remark)}:"),
-        *list_region_files(assessment.region),
-        *list_capsule_files(assessment),
+        *build_region_file_blocks(assessment.region),
+        *build_shape_file_blocks(assessment),
     ]
 
 

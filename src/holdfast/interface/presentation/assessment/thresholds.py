@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from holdfast.core.formatting import format_as_given, format_half_width, format_interval, join_units
+from holdfast.core.formatting import format_as_given, format_half_width, format_interval, insert_nonbreaking_spaces
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.figures import locate_axes
@@ -103,7 +103,7 @@ def build_slider(
     """
     start_step = int(np.flatnonzero(threshold_values == facts.threshold)[0])
     failure_names, miss_fractions, bar_list = bars
-    answers = {label: [join_units(text) for text in texts] for label, texts in answers.items()}
+    answers = {label: [insert_nonbreaking_spaces(text) for text in texts] for label, texts in answers.items()}
     data = {
         "values": threshold_values.tolist(),
         "thresholds": [format_as_given(threshold) for threshold in threshold_values.tolist()],

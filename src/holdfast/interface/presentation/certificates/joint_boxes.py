@@ -166,7 +166,7 @@ def figures(proof: Found) -> dict[str, Figure]:
     )
 
 
-def _marked_configuration(proof: Found) -> FloatArray | None:
+def _refuting_or_extreme_configuration(proof: Found) -> FloatArray | None:
     """Return the configuration that refutes a claim, or comes nearest to a bound."""
     return proof.witness if isinstance(proof, Refutation) else proof.extreme
 
@@ -177,7 +177,7 @@ def _draw_witness(proof: Found) -> Figure:
 
     from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
 
-    arm, q = proof.claim.arm, _marked_configuration(proof)
+    arm, q = proof.claim.arm, _refuting_or_extreme_configuration(proof)
     spans = joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
     assert q is not None
     scale = _display_factors(~arm.prismatic)
@@ -237,7 +237,7 @@ def _draw_boxes(proof: Found, leaves: LeafBoxes) -> Figure:
     with style():
         figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
         plane, bars = figure.subplots(1, 2)
-        _draw_projection(plane, leaves, _marked_configuration(proof))
+        _draw_projection(plane, leaves, _refuting_or_extreme_configuration(proof))
         counts = [np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided)]
         for series, box_counts in enumerate(counts):
             bar_style = (

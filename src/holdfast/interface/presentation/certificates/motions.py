@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.tool_paths.proof import PathProof
-from holdfast.certificates.tool_paths.slabs import Slab
+from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.certificates.verifier import format_percent
 from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
 from holdfast.interface.presentation.certificates.pages import write as write
@@ -208,7 +208,7 @@ def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
     axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
     axes.add_collection(PolyCollection(rotated, facecolor=BLUE, edgecolor="face", linewidth=0.2))
     axes.add_collection(
-        PolyCollection(outline_intervals(part.refuted_spans), facecolor=ORANGE, edgecolor="face", linewidth=0.2)
+        PolyCollection(outline_intervals(part.refuted_lock_intervals), facecolor=ORANGE, edgecolor="face", linewidth=0.2)
     )
     axes.add_collection(
         PolyCollection(outline_intervals(proof.gaps(part)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3)
@@ -222,7 +222,7 @@ def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
     axes.grid(visible=False)
 
 
-def _rotated_intervals(slab: Slab, joint: int) -> list[tuple[float, float]]:
+def _rotated_intervals(slab: LockSlab, joint: int) -> list[tuple[float, float]]:
     """Return the intervals of the path, in segments, over which the cells of a slab are rotated."""
     intervals, position, run_start = [], slab.begin, -1
     for end, center in zip(slab.ends, slab.centers, strict=True):

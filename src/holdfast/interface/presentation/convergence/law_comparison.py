@@ -14,7 +14,7 @@ from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawCompari
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.files.output import make_folder, open_replacement
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.core.formatting import capitalise_first, format_count, format_decimals, format_number, format_percent
 from holdfast.core.progress import reports_progress
 from holdfast.interface.presentation.collision.shape import describe_shape
@@ -156,8 +156,8 @@ def save(comparison: LawComparison, folder: Path, command: str = "") -> list[Pat
     for file, rows in zip(files, tables.values(), strict=True):
         with open_replacement(file) as stream:
             writer = csv.writer(stream)
-            writer.writerow(map(escape_cell, rows[0]))
-            writer.writerows([escape_cell(row[name]) for name in rows[0]] for row in rows)
+            writer.writerow(map(escape_formula, rows[0]))
+            writer.writerows([escape_formula(row[name]) for name in rows[0]] for row in rows)
     return [*files, comparison.report(folder / "report.html", command=command)]
 
 

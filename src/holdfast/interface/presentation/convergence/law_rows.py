@@ -166,25 +166,25 @@ def get_time_unit(comparison: LawComparison) -> str:
     return "cycles" if comparison.runs[0].cycles else "s"
 
 
-def headline(c: LawComparison) -> str:
+def headline(comparison: LawComparison) -> str:
     """Compose the answer in two sentences."""
-    if not c.joints:
-        rates = {name: format_percent(_get_converged_rate(c, name, HEALTHY_CASE)) for name in c.names}
+    if not comparison.joints:
+        rates = {name: format_percent(_get_converged_rate(comparison, name, HEALTHY_CASE)) for name in comparison.names}
         return f"Healthy, {_join_phrases([f'{rate} converge with {name}' for name, rate in rates.items()])}."
     text = "With one joint locked and nobody aware of it, the end effector "
-    if any(c.share_any(n).value for n in c.names):
+    if any(comparison.share_any(n).value for n in comparison.names):
         shares = [
             f"{format_percent(probability.value) if probability.value else 'none'} with {n}"
-            for n in c.names
-            for probability in [c.share_any(n)]
+            for n in comparison.names
+            for probability in [comparison.share_any(n)]
         ]
         text += f"reaches its target in {_join_phrases(shares)} of the motions"
     else:
-        text += f"never reaches its target, whichever of the {len(c.names)} laws commands it"
-    within = compute_reachable_fraction(c)
+        text += f"never reaches its target, whichever of the {len(comparison.names)} laws commands it"
+    within = compute_reachable_fraction(comparison)
     text += f" ({format_percent(within) if within else 'none'} of the targets are still within reach)."
-    for name in c.names[1:]:
-        text += f" {_describe_gain(c, name)}"
+    for name in comparison.names[1:]:
+        text += f" {_describe_gain(comparison, name)}"
     return text
 
 
@@ -194,9 +194,9 @@ def _describe_gain(comparison: LawComparison, name: str) -> str:
     gain = comparison.gain(name)
     first_name = comparison.names[0]
     if gain.low > 0 and comparison.gain(name, undecided="against").low > 0:
-        text = f"With {name} more converge than with {first_name}, by {_format_points(gain.value)}"
+        text = f"With {name} more converge than with {first_name}, by {_format_percentage_points(gain.value)}"
     elif gain.high < 0 and comparison.gain(name, undecided="for").high < 0:
-        text = f"With {name} fewer converge than with {first_name}, by {_format_points(-gain.value)}"
+        text = f"With {name} fewer converge than with {first_name}, by {_format_percentage_points(-gain.value)}"
     else:
         text = f"It cannot be told whether more or fewer converge with {name} than with {first_name}"
     parts = []
@@ -208,7 +208,7 @@ def _describe_gain(comparison: LawComparison, name: str) -> str:
     return f"{text}{'; on average its runs end ' * bool(parts)}{' and '.join(parts)}."
 
 
-def _format_points(share: float) -> str:
+def _format_percentage_points(share: float) -> str:
     return f"{100 * share:.1f} percentage points"
 
 

@@ -117,7 +117,7 @@ def headline(designs: ConvergenceDesigns) -> str:
         text = (
             "After a lock that the controller does not know of, the best design reaches its target in "
             f"{_format_share(best)} of fresh failures, the given arm in {_format_share(baseline)}: "
-            f"{_format_points(difference)} more."
+            f"{_format_percentage_points(difference)} more."
         )
         return (
             text if difference.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
@@ -133,7 +133,7 @@ def _format_share(fraction: Interval) -> str:
     return f"{format_percent(fraction.value)} ({format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %)"
 
 
-def _format_points(difference: Difference) -> str:
+def _format_percentage_points(difference: Difference) -> str:
     middle, lower, upper = (format_decimals(100 * value, 1) for value in (difference.value, difference.low, difference.high))
     return f"{middle} points ({lower} to {upper})"
 
@@ -151,7 +151,9 @@ def _build_gain_blocks(designs: ConvergenceDesigns) -> list[Block]:
     ]
     if designs.checked is not None:
         baseline, best, difference = designs.checked
-        check_rows: list[list[Cell]] = [["converged", _format_share(baseline), _format_share(best), _format_points(difference)]]
+        check_rows: list[list[Cell]] = [
+            ["converged", _format_share(baseline), _format_share(best), _format_percentage_points(difference)]
+        ]
         check_caption = "On targets and failures that had no part in the search, the same for both."
         blocks.append(
             Table(check_rows, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=check_caption)

@@ -24,10 +24,10 @@ from holdfast.core.formatting import (
 from holdfast.core.progress import reports_progress
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.commands import (
+    build_region_file_blocks,
     format_failures_option,
     format_region_file,
     format_task_option,
-    list_region_files,
     wrap_command,
 )
 from holdfast.interface.presentation.designs.console import name_reached_bound
@@ -424,5 +424,5 @@ def _build_rerun_blocks(designs: Designs) -> list[Block]:
     command_line, remark = format_command(designs)
     return [
         Code(command_line, remark and f"{capitalise_first(remark)}:"),
-        *(list_region_files(designs.region) if designs.region.storable else []),
+        *(build_region_file_blocks(designs.region) if designs.region.storable else []),
     ]

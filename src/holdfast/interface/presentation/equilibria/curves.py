@@ -9,7 +9,7 @@ import numpy as np
 from holdfast.control.equilibria.curves import Curves
 from holdfast.control.equilibria.stability import Kind
 from holdfast.control.simulation.errors import display_errors, error_kinds
-from holdfast.control.simulation.system import tool_errors
+from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import capitalise_first, format_percent, list_alternatives
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable, format_significant
@@ -88,7 +88,7 @@ def story(curves: Curves) -> PageContent:
     joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].display_unit
     arcs = [f"{factor * begin:.4g} to {factor * end:.4g}" for begin, end in curves.sink_arcs]
     sinks = [
-        tool_errors(
+        position_and_angle_errors(
             curves.law, curve.q[segment.first : segment.last + 1], curve.error[segment.first : segment.last + 1], curves.target
         )
         for curve in curves.curves

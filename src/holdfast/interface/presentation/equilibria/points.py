@@ -109,14 +109,16 @@ def story(points: StationaryPoints) -> PageContent:
     facts = [(f"{int((points.kind == kind).sum()):,}", _KIND_CAPTIONS[kind]) for kind in Kind if (points.kind == kind).any()]
     if errors.size:
         facts.insert(0, (errors[0], "off the target, at the nearest point that holds the arm away from it"))
-    lines = [*map(capitalise_first, points.describe()[1:])] if points.continuum.any() or _mentions_unnoticed(points) else []
+    lines = (
+        [*map(capitalise_first, points.describe()[1:])] if points.continuum.any() or _mentions_undetected_locks(points) else []
+    )
     return PageContent(
         f"Where {law.arm.name} can stop with a lock that its controller does not know of",
         answer,
         about=f"{law.arm.name}, {law.describe()}",
         facts=facts[:5],
         lines=[f"{sentence}." for sentence in lines],
-        views=[*_draw_stops(points, is_solution, is_trap)],
+        views=[*_draw_stationary_arms(points, is_solution, is_trap)],
         tables=[table._replace(rows=table.rows[:PAGE_ROWS]) for table in tables(points)],
         method=[
             ("Search", f"{points.starts:,} random starts; points that none of them converges to are missed"),
@@ -128,11 +130,11 @@ def story(points: StationaryPoints) -> PageContent:
     )
 
 
-def _mentions_unnoticed(points: StationaryPoints) -> bool:
+def _mentions_undetected_locks(points: StationaryPoints) -> bool:
     return any("does not notice" in line for line in points.describe())
 
 
-def _draw_stops(points: StationaryPoints, solved: Any, holds: Any) -> list[tuple[str, list[Any]]]:
+def _draw_stationary_arms(points: StationaryPoints, solved: Any, holds: Any) -> list[tuple[str, list[Any]]]:
     from holdfast.interface.presentation.arm.view import scene
     from holdfast.interface.report.page import Picture
 

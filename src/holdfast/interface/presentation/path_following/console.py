@@ -104,7 +104,7 @@ def show(trajectory: Trajectory, out: Console) -> None:
     for remark in remarks:
         out.print(escape(capitalise_first(remark)), soft_wrap=True)
     if trajectory.torque_bound is not None:
-        _show_slowness(trajectory, trajectory.torque_bound, out)
+        _show_required_slowdown(trajectory, trajectory.torque_bound, out)
 
 
 def _summarize_values(values: FloatArray) -> dict[str, float]:
@@ -117,7 +117,7 @@ def _summarize_values(values: FloatArray) -> dict[str, float]:
     }
 
 
-def _show_slowness(trajectory: Trajectory, bound: float, out: Console) -> None:
+def _show_required_slowdown(trajectory: Trajectory, bound: float, out: Console) -> None:
     from rich.markup import escape
 
     from holdfast.interface.presentation.terminal import BandedTable

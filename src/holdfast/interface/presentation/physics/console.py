@@ -41,7 +41,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
     return run.kinematic.to_dict() | {"physics": physics}
 
 
-def _last_errors(run: PhysicalRun) -> tuple[str, str]:
+def _final_errors(run: PhysicalRun) -> tuple[str, str]:
     """Return the last errors, kinematic and in MuJoCo."""
     history, (position, angle) = error_history(run.kinematic), run.errors_apart
     law, end = run.law, history.end
@@ -53,7 +53,7 @@ def key_table(run: PhysicalRun) -> TextTable:
     kinematic_run = run.kinematic
     rows = [
         ["outcome", str(kinematic_run.outcome), run.ending],
-        ["error at the end", *_last_errors(run)],
+        ["error at the end", *_final_errors(run)],
         ["simulated time, s", format_significant(float(kinematic_run.time)), format_significant(run.time[-1])],
         ["tool paths apart, at most, mm", "", format_significant(1000 * run.path_distance, 3)],
     ]
@@ -85,7 +85,7 @@ def show(run: PhysicalRun, out: Console) -> None:
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
     table = BandedTable("", "kinematic", "in MuJoCo", "")
     table.add_row("outcome", str(kinematic_run.outcome), f"[bold]{run.ending}[/]", "")
-    table.add_row("error at the end", *_last_errors(run), "")
+    table.add_row("error at the end", *_final_errors(run), "")
     table.add_row("simulated time", format_significant(float(kinematic_run.time)), format_significant(run.time[-1]), "s")
     out.print(table)
     facts = BandedTable()

@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 def write(run: PhysicalRun, path: Path, command: str = "") -> Path:
     """Write the page of the kinematic run, with the differences in MuJoCo."""
-    return simulation.write(run.kinematic, path, command=command, more=[_comparison_section(run, figures(run)["physics"])])
+    return simulation.write(run.kinematic, path, command=command, more=[_build_physics_section(run, figures(run)["physics"])])
 
 
 def save(run: PhysicalRun, folder: Path, command: str = "") -> list[Path]:
     """Write the files of the kinematic run, and physics.png."""
     figure = figures(run)["physics"]
-    files = simulation.save(run.kinematic, folder, command=command, more=[_comparison_section(run, figure)])
+    files = simulation.save(run.kinematic, folder, command=command, more=[_build_physics_section(run, figure)])
     return [*files, save_png(figure, folder / "physics.png")]
 
 
-def _comparison_section(run: PhysicalRun, figure: Figure) -> Section:
+def _build_physics_section(run: PhysicalRun, figure: Figure) -> Section:
     caption = "Thick: kinematic; thin: with masses and joint servos. Right: how far the joints lag behind."
     paragraphs = [Text(f"{capitalise_first(sentence)}.") for sentence in run.describe()]
     picture = Picture(svg(figure, "physics", "The same run in MuJoCo"), caption)

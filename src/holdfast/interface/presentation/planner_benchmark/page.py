@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.core.files.output import make_folder, open_replacement
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.interface.presentation.planner_benchmark.console import name_task, score_rows
 from holdfast.interface.report.outcomes import Stack, stack_figure
 from holdfast.studies.planner_benchmark.suite import FailActive
@@ -44,6 +44,6 @@ def save(suite: FailActive, folder: Path, command: str = "") -> list[Path]:
     file, table = make_folder(folder) / "scores.csv", score_rows(suite)
     with open_replacement(file) as stream:
         writer = csv.writer(stream)
-        writer.writerow(map(escape_cell, table[0] if table else []))
-        writer.writerows([escape_cell(value) for value in row.values()] for row in table)
+        writer.writerow(map(escape_formula, table[0] if table else []))
+        writer.writerows([escape_formula(value) for value in row.values()] for row in table)
     return [file, suite.report(folder / "report.html", command=command)]

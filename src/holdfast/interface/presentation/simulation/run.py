@@ -86,7 +86,7 @@ class _RunReport:
         self.time_unit = runs.unit
         self._lock_time = np.atleast_2d(runs.lock_time)[run_index]
 
-    def _run_value(self, name: str) -> FloatArray:
+    def _get_run_array(self, name: str) -> FloatArray:
         values = np.asarray(getattr(self.runs, name))
         return np.asarray(values[self.run_index]) if self.runs.code.ndim else values
 
@@ -103,8 +103,8 @@ class _RunReport:
     @cached_property
     def full_path(self) -> RunPath:
         """The whole run, sampled densely enough to show every motion."""
-        samples = float(self._run_value("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _SAMPLE_DENSITY
-        return self._sample_path(int(np.clip(samples, _MIN_SAMPLES, _MAX_SAMPLES)), float(self._run_value("time")))
+        samples = float(self._get_run_array("time")) * (1.0 if self.runs.cycles else self.runs.law.gain) * _SAMPLE_DENSITY
+        return self._sample_path(int(np.clip(samples, _MIN_SAMPLES, _MAX_SAMPLES)), float(self._get_run_array("time")))
 
     def _sample_path(self, samples: int, end_time: float) -> RunPath:
         return self.runs._simulator.sample_path(
@@ -113,15 +113,15 @@ class _RunReport:
 
     @cached_property
     def _interpolate(self) -> Callable[[FloatArray], FloatArray]:
-        return self.runs._simulator.replay_run(self.runs, self.run_index, float(self._run_value("time")))[1]
+        return self.runs._simulator.replay_run(self.runs, self.run_index, float(self._get_run_array("time")))[1]
 
     @cached_property
     def drawn_path(self) -> RunPath:
         """Sampled part of the run that is drawn."""
-        full_path, end_time = self.full_path, float(self._run_value("time"))
-        if self._run_value("code") == RunOutcome.MOVING:
+        full_path, end_time = self.full_path, float(self._get_run_array("time"))
+        if self._get_run_array("code") == RunOutcome.MOVING:
             end_time = min(end_time, REPEATED_SPAN_GAINS / self.runs.law.gain)
-        elif self._run_value("code") != RunOutcome.UNDECIDED:
+        elif self._get_run_array("code") != RunOutcome.UNDECIDED:
             moving_samples = np.flatnonzero((np.abs(full_path.q - full_path.q[-1]) > _STILL_DISTANCE).any(axis=1))
             if moving_samples.size:
                 end_time = min(1.03 * float(full_path.time[min(moving_samples[-1] + 1, len(full_path.time) - 1)]), end_time)
@@ -130,12 +130,12 @@ class _RunReport:
     @property
     def omission_note(self) -> str:
         """Sentence about the part of the run that is not drawn; empty where all is drawn."""
-        drawn_time, total_time = float(self.drawn_path.time[-1]), float(self._run_value("time"))
+        drawn_time, total_time = float(self.drawn_path.time[-1]), float(self._get_run_array("time"))
         if drawn_time >= 0.99 * total_time:
             return ""
         reason_text = (
             "the arm repeats its motion"
-            if self._run_value("code") == RunOutcome.MOVING
+            if self._get_run_array("code") == RunOutcome.MOVING
             else "no joint moves by more than 0.001 rad or m"
         )
         return (
@@ -153,13 +153,13 @@ class _RunReport:
     def headline(self) -> str:
         """Outcome of the run, and whether joints passed their limits."""
         code, smallest_errors, final_error = (
-            RunOutcome(int(self._run_value("code"))),
+            RunOutcome(int(self._get_run_array("code"))),
             self.smallest_errors,
             self.error_curve.end,
         )
         error_phrase, duration_text = (
             self._format_error(final_error.position, final_error.angle),
-            f"{format_number(float(self._run_value('time')))} {self.time_unit}",
+            f"{format_number(float(self._get_run_array('time')))} {self.time_unit}",
         )
         names = " and ".join(lock_text.replace(f" at 0 {self.time_unit}", " at the start") for lock_text in self.lock_texts)
         opening = (
@@ -173,10 +173,10 @@ class _RunReport:
             f"{error_phrase} off its target",
             RunOutcome.UNDECIDED: f"{opening} {self.runs.ending_sentence(self.run_index)}, {error_phrase} off its target",
         }[code]
-        if code == RunOutcome.UNDECIDED and self._run_value("reason") != Reason.TIME_LIMIT:
+        if code == RunOutcome.UNDECIDED and self._get_run_array("reason") != Reason.TIME_LIMIT:
             answer = (
                 f"{opening} is {error_phrase} off its target when the run ends, undecided: "
-                f"{Reason(int(self._run_value('reason'))).sentence}"
+                f"{Reason(int(self._get_run_array('reason'))).sentence}"
             )
         if code != RunOutcome.CONVERGED:
             answer += (
@@ -212,8 +212,8 @@ class _RunReport:
             if max(position, angle) > _REACHED_ERROR
         ]
         numbers = [
-            (float(self._run_value("path_length")), "m", "path of the tool"),
-            (float(self._run_value("time")), self.time_unit, "simulated time"),
+            (float(self._get_run_array("path_length")), "m", "path of the tool"),
+            (float(self._get_run_array("time")), self.time_unit, "simulated time"),
             *[
                 (contact.time, self.time_unit, f"until {contact.link} touches {contact.object}")
                 for contact in self.contacts[:1]
@@ -237,7 +237,7 @@ class _RunReport:
     @cached_property
     def goal_position(self) -> FloatArray:
         """Target position of the tool (3,), m; directions that the task leaves free keep their values."""
-        law, start, target = self.runs.law, self.drawn_path.x[0], self._run_value("target")
+        law, start, target = self.runs.law, self.drawn_path.x[0], self._get_run_array("target")
         linear = law.task.rows[:, :3]
         projection = linear.T @ linear if law.task.frame == "base" else np.eye(3)
         target_position = target[:3, 3] if target.shape == (4, 4) else target @ linear
@@ -252,7 +252,9 @@ class _RunReport:
             np.rad2deg(drawn_path.angle_error),
             float(np.rad2deg(self.smallest_errors[1])),
         )
-        title = f"Ends {self._run_value('outcome')}" + ", past a joint limit" * bool(self._run_value("limits_passed").any())
+        title = f"Ends {self._get_run_array('outcome')}" + ", past a joint limit" * bool(
+            self._get_run_array("limits_passed").any()
+        )
         panels = []
         for label, values, smallest in [position_series] * bool(task.rows[:, :3].any()) + [angle_series] * bool(task.angular):
             moments = tuple(
@@ -392,7 +394,7 @@ class _RunReport:
                 (capitalise_first(label), value)
                 for label, value in tabulate_errors(self.runs, self.error_curve, self.run_index)
             ],
-            ("Path of the tool", f"{format_number(float(self._run_value('path_length')))} m"),
-            ("Simulated time", f"{format_number(float(self._run_value('time')))} {self.time_unit}"),
+            ("Path of the tool", f"{format_number(float(self._get_run_array('path_length')))} m"),
+            ("Simulated time", f"{format_number(float(self._get_run_array('time')))} {self.time_unit}"),
         ]
         return [Table(rows)]

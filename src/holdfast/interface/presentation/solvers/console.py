@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.files.output import open_replacement
-from holdfast.core.files.spreadsheet import escape_cell
+from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
@@ -379,7 +379,7 @@ def to_csv(optima: Optima, path: Path) -> Path:
     rows = np.column_stack([*facts, optima_rows.q])
     with open_replacement(path, "configurations") as file:
         table = csv.writer(file)
-        table.writerow(map(escape_cell, columns + names))
+        table.writerow(map(escape_formula, columns + names))
         for index, row in enumerate(rows):
             table.writerow([index + 1, _status_name(optima_rows.status[index]), *[f"{entry:.12g}" for entry in row]])
     return path

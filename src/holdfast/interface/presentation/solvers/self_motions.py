@@ -156,11 +156,11 @@ def _format_target(motion: SelfMotion) -> str:
 
 def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
     """Return the joints that may lock anywhere, and for the others the allowed fraction of their range."""
-    from holdfast.model.arm.configurations import finite_limits
+    from holdfast.model.arm.configurations import sampling_limits
 
     free: list[str] = []
     restricted: dict[str, float] = {}
-    lower, upper = finite_limits(motion.arm)
+    lower, upper = sampling_limits(motion.arm)
     for index, (joint, lock_ranges) in enumerate(zip(motion.arm.joints, motion.bounds or [], strict=True)):
         if _may_lock_anywhere(motion, index):
             free.append(joint.name)
@@ -276,10 +276,10 @@ def main_figure(motion: SelfMotion) -> Drawings:
 def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
     from holdfast.interface.presentation.stick_figure import choose_views
     from holdfast.interface.report.manifolds import JointPanel, self_motion_figure
-    from holdfast.model.arm.configurations import finite_limits
+    from holdfast.model.arm.configurations import sampling_limits
 
     arm = motion.arm
-    lower, upper = finite_limits(arm)
+    lower, upper = sampling_limits(arm)
     factors = np.array([joint.display_unit[0] for joint in arm.joints])
     panels = [
         JointPanel(

@@ -8,12 +8,12 @@ from holdfast.core.formatting import format_interval, format_percent, indefinite
 from holdfast.studies.study_files.ranking import ArmRanking, format_unit
 
 
-def headline(stand: Sequence[ArmRanking]) -> str:
+def headline(rankings: Sequence[ArmRanking]) -> str:
     """Compose the answer: the leader for the first index, as found and at its best, and the law and arm with the most
     successes.
     """
     parts = []
-    index_standings = [standing for standing in stand if not standing.law]
+    index_standings = [standing for standing in rankings if not standing.law]
     if index_standings:
         standing = index_standings[0]
         best = (
@@ -22,7 +22,7 @@ def headline(stand: Sequence[ArmRanking]) -> str:
             else None
         )
         parts.append(_explain_absence(standing, best) if standing.is_uninformative else _describe_leader(standing, best))
-    law_standings = [standing for standing in stand if standing.law]
+    law_standings = [standing for standing in rankings if standing.law]
     if law_standings:
         top = max(law_standings, key=lambda standing: standing.ranked_entries[0][1].value)
         success_rate = format_interval(top.ranked_entries[0][1])
@@ -78,7 +78,7 @@ def name_leader(standing: ArmRanking) -> str:
     return f"{leader} (level with {', '.join(others)})" if others else leader
 
 
-def list_facts(standings: Sequence[ArmRanking]) -> list[tuple[str, str]]:
+def list_leaders(standings: Sequence[ArmRanking]) -> list[tuple[str, str]]:
     """List the leaders of the first questions; the best median where hardly anything is retained."""
     entries: list[tuple[str, str]] = []
     for standing in standings[:4]:

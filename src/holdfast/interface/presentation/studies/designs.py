@@ -10,7 +10,7 @@ from holdfast.interface.presentation.designs.figures import draw_parameters, dra
 from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Cell, Picture, Table, Text
 from holdfast.kinematics.indices.index import by_name
-from holdfast.kinematics.indices.own_file import check_digest
+from holdfast.kinematics.indices.own_file import check_function_digest
 from holdfast.model.arm.task import Task
 from holdfast.model.arms.serial import from_dict
 from holdfast.studies.designs.ranking import choose_best_design, describe_farther_design
@@ -131,5 +131,5 @@ def _find_index_bound(swept: DesignSweep) -> float | None:
     index = by_name(
         swept.plan["index"], from_dict(swept.plan["arm"]), task, failures=[list(failure) for failure in swept.plan["failures"]]
     )
-    check_digest(index, swept.plan)
+    check_function_digest(index, swept.plan)
     return index.bound

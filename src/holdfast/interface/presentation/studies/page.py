@@ -23,7 +23,7 @@ from holdfast.core.probability.intervals import Interval
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
 from holdfast.core.typing import T
-from holdfast.interface.presentation.studies.answer import headline, list_facts
+from holdfast.interface.presentation.studies.answer import headline, list_leaders
 from holdfast.interface.presentation.studies.designs import build_sweep_blocks, describe_best_design
 from holdfast.interface.report import figures, page
 from holdfast.interface.report.figures import Curve, Mark
@@ -83,7 +83,7 @@ def build(study: Study) -> Page:
         {key: _format_fatal_joints(job_plan, item) for key, (job_plan, item) in fatal_structures.items()},
     )
     sections = [
-        Section("Which arm for what", _build_standing_blocks(ranking)),
+        Section("Which arm for what", _build_ranking_blocks(ranking)),
         Section("Single points of failure by structure", _build_structure_blocks(fatal_structures)),
         *[
             Section(f"Designs of {item.labels['arm']}", build_sweep_blocks(item, position))
@@ -107,7 +107,7 @@ def build(study: Study) -> Page:
         study.name,
         " ".join([*([headline(ranking)] if assessed or laws or not sweeps else []), *map(describe_best_design, sweeps)]),
         sections,
-        facts=list_facts(ranking),
+        facts=list_leaders(ranking),
         subtitle=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
         warnings=alerts,
         method=_build_provenance_blocks(study, assessed),
@@ -141,7 +141,7 @@ def _get_row_key(labels: dict[str, Any]) -> tuple[str, ...]:
 # ---- the answer --------------------------------------------------------------------------------------------------------
 
 
-def _build_standing_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
+def _build_ranking_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
     """Build the first section of a study of several arms: a figure of all questions, and the leader of each."""
     names = list(dict.fromkeys(name for standing in ranking for name, _ in standing.entries))
     if len(names) < 2:
@@ -416,7 +416,7 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
             for candidate in laws
             if candidate.labels["arm"] == result.labels["arm"] and candidate.labels["task"] == result.labels["task"]
         )
-        improvement = None if result is reference else results.compare_laws(reference, result)
+        improvement = None if result is reference else results.compare_convergence_cells(reference, result)
         gain_text = (
             "–"
             if improvement is None
@@ -487,7 +487,7 @@ def _build_provenance_blocks(study: Study, assessed: Sequence[AssessedCell]) -> 
     cells = study.status()
     samples = sum(cell.rows_done for cell in cells)
     processor_time, wall_time = sum(cell.seconds for cell in cells), sum(finished_run["seconds"] for finished_run in study.runs)
-    size = sum(results.measure_store(study.cell_store(k)) for k in range(len(cells)) if study.cell_folder(k).exists())
+    size = sum(results.stored_size_bytes(study.cell_store(k)) for k in range(len(cells)) if study.cell_folder(k).exists())
     entries = [
         ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
         (

@@ -135,7 +135,7 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
             axes.set_ylabel("y, m")
         for axes in panels[max(0, len(motions) - columns) : len(motions)]:
             axes.set_xlabel("x, m")
-        lower, upper = _find_extent(motions)
+        lower, upper = _find_bounding_box(motions)
         center, half_width = (lower + upper) / 2, 0.53 * float((upper - lower).max())
         panels[0].set(
             xlim=(center[0] - half_width, center[0] + half_width), ylim=(center[1] - half_width, center[1] + half_width)
@@ -143,7 +143,7 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
         return settle_layout(figure)
 
 
-def _find_extent(motions: Sequence[Motion]) -> tuple[FloatArray, FloatArray]:
+def _find_bounding_box(motions: Sequence[Motion]) -> tuple[FloatArray, FloatArray]:
     points = [np.vstack([motion.path, motion.target - motion.radius, motion.target + motion.radius]) for motion in motions]
     for motion in motions:
         if motion.whole is not None:

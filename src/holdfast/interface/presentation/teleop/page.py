@@ -73,7 +73,7 @@ def save(
 def figures(analysis: Analysis) -> dict[str, Figure]:
     """Draw the figures of the page that depend on the analysis alone, by name."""
     panels, power_curve = (
-        _scatter_panels(analysis),
+        _make_correlation_panels(analysis),
         {"power": drawing.draw_power(analysis)} if "power_curve" in analysis.tables else {},
     )
     return {
@@ -105,13 +105,13 @@ def build(
         alerts.append(Callout("Its numbers must not be used.", "bad", "The mixed model did not converge."))
     sections = [
         Section("The failed arm under each law", build_law_blocks(result)),
-        Section("Anticipated, actual and perceived difficulty", _build_difficulty(result)),
-        Section("Task by task: operators and computer", _build_tasks(result)),
-        Section("Distributions of all measures", _build_distributions(result)),
+        Section("Anticipated, actual and perceived difficulty", _build_difficulty_blocks(result)),
+        Section("Task by task: operators and computer", _build_task_blocks(result)),
+        Section("Distributions of all measures", _build_distribution_blocks(result)),
         *(Section(f"Task {task}", build_example_blocks(result, task, protocol, paths)) for task in shown_tasks),
         Section("The healthy arm: what tolerance costs before a failure", build_healthy_blocks(result)),
-        Section("How many subjects would have been enough", _build_power(result)),
-        Section("What is missing", _build_missing(result)),
+        Section("How many subjects would have been enough", _build_power_blocks(result)),
+        Section("What is missing", _build_missing_trial_blocks(result)),
     ]
     name = "" if protocol is None else protocol.name
     return Page(
@@ -120,7 +120,7 @@ def build(
         sections,
         subtitle=name,
         warnings=alerts,
-        method=_build_method(result),
+        method=_build_method_blocks(result),
     )
 
 
@@ -164,7 +164,7 @@ def _compose_headline(analysis: Analysis) -> str:
     return text + "."
 
 
-def _scatter_panels(analysis: Analysis) -> list[drawing.Scatter]:
+def _make_correlation_panels(analysis: Analysis) -> list[drawing.Scatter]:
     table = analysis.table("tasks").sort_values("task")
     panels = []
     for correlation in analysis.correlations:
@@ -183,8 +183,8 @@ def _scatter_panels(analysis: Analysis) -> list[drawing.Scatter]:
     return panels
 
 
-def _build_difficulty(analysis: Analysis) -> list[Block]:
-    panels = _scatter_panels(analysis)
+def _build_difficulty_blocks(analysis: Analysis) -> list[Block]:
+    panels = _make_correlation_panels(analysis)
     blocks: list[Block] = []
     if panels:
         caption = f"Each dot is a task in scenario {analysis.conditions[0].label}. " + " ".join(
@@ -204,7 +204,7 @@ def _draw_tasks(analysis: Analysis) -> Figure:
     return drawing.tasks_figure(analysis, (f"{prefix}the median operator of each task", "Computer"))
 
 
-def _build_tasks(analysis: Analysis) -> list[Block]:
+def _build_task_blocks(analysis: Analysis) -> list[Block]:
     caption = (
         f"CPM of each task with the failed arm ({len(analysis.observed.tasks)} tasks). The median operator of a task is "
         f"the one whose CPM under "
@@ -261,7 +261,7 @@ def _draw_measures(analysis: Analysis) -> Figure:
     return drawing.measures_figure(values, computer_medians, [condition.scenario for condition in observed.conditions])
 
 
-def _build_distributions(analysis: Analysis) -> list[Block]:
+def _build_distribution_blocks(analysis: Analysis) -> list[Block]:
     observed = analysis.observed
     legend = "; ".join(condition.label for condition in observed.conditions)
     caption = (
@@ -274,7 +274,7 @@ def _build_distributions(analysis: Analysis) -> list[Block]:
     return [caption_figure(analysis, _draw_measures(analysis), "measures", caption)]
 
 
-def _build_power(analysis: Analysis) -> list[Block]:
+def _build_power_blocks(analysis: Analysis) -> list[Block]:
     rows: list[list[Cell]] = []
     for _, record in analysis.table("power").iterrows():
         subject_counts: list[Cell] = []
@@ -309,7 +309,7 @@ def _build_power(analysis: Analysis) -> list[Block]:
     return blocks
 
 
-def _build_missing(analysis: Analysis) -> list[Block]:
+def _build_missing_trial_blocks(analysis: Analysis) -> list[Block]:
     observed, endings, missing_trials = analysis.observed, analysis.table("ends"), analysis.table("missing")
     causes = [
         cause for cause in endings.columns if cause in {"still", "time", "aborted", "broken_off", "no_rating", "not_recorded"}
@@ -344,7 +344,7 @@ def _build_missing(analysis: Analysis) -> list[Block]:
     return blocks
 
 
-def _build_method(analysis: Analysis) -> list[Block]:
+def _build_method_blocks(analysis: Analysis) -> list[Block]:
     observed = analysis.observed
     blocks: list[Block] = [
         Callout(Markup("<br>").join(f"• {note}" for note in analysis.notes), title="Read this before using these numbers")

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from holdfast.core.errors import HoldfastError
-from holdfast.core.files.hosts import find_request_fault, is_loopback
+from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 
 MAX_MESSAGE_BYTES = (
     8 << 20
@@ -38,14 +38,16 @@ def is_own_request(hosts: Sequence[str], origins: Sequence[str], served: str) ->
         served: The address that the studio listens on, as it was given.
     """
     return (
-        find_request_fault(hosts, origins, lambda name: name in ("localhost", served.lower()) or _is_local_name(name, served))
+        request_rejection_reason(
+            hosts, origins, lambda name: name in ("localhost", served.lower()) or _is_safe_host_name(name, served)
+        )
         is None
     )
 
 
-def _is_local_name(name: str, served: str) -> bool:
+def _is_safe_host_name(name: str, served: str) -> bool:
     """Return whether no other page can have this host name, because it is an address or this machine's own name."""
-    is_exposed = not is_loopback(served.lower())
+    is_exposed = not is_loopback_host(served.lower())
     try:
         return ipaddress.ip_address(name).is_loopback or is_exposed
     except ValueError:

@@ -95,7 +95,7 @@ class ControlPanel:
         self.gui.add_html(_message_html("Locked: cannot move. Free: swings under gravity. Or click a joint in the scene."))
         self.conditions = []
         for index, joint in enumerate(arm.joints):
-            group = self.gui.add_button_group(joint.name, _mark_pressed(state.conditions[index]))
+            group = self.gui.add_button_group(joint.name, _label_condition_buttons(state.conditions[index]))
             self._attach_action(group.on_click, "fail", partial(_read_condition, index))
             self.conditions.append(group)
         self._add_button("All healthy", "heal")
@@ -236,8 +236,8 @@ class ControlPanel:
             is_failed = condition != "healthy"
             if slider.disabled != is_failed:
                 slider.disabled = is_failed
-            if group.options != _mark_pressed(condition):
-                group.options = _mark_pressed(condition)
+            if group.options != _label_condition_buttons(condition):
+                group.options = _label_condition_buttons(condition)
 
     def enable_controls(self, possible: Mapping[str, bool]) -> None:
         """Enable or disable the buttons and sliders of the listed actions, and leave the others unchanged."""
@@ -312,7 +312,7 @@ def _read_condition(joint: int, handle: Any) -> tuple[int, str]:
     return joint, _read_choice(handle).removeprefix(PRESSED_PREFIX)
 
 
-def _mark_pressed(condition: str) -> tuple[str, ...]:
+def _label_condition_buttons(condition: str) -> tuple[str, ...]:
     return tuple(f"{PRESSED_PREFIX}{option}" if option == condition else option for option in JOINT_CONDITIONS)
 
 

@@ -52,14 +52,14 @@ def sanitise_file_name(name: str) -> str:
     return cleaned or "file"
 
 
-def read_machine(name: str, content: bytes) -> tuple[CompiledArm, State, list[MeshPart], str]:
+def read_uploaded_arm(name: str, content: bytes) -> tuple[CompiledArm, State, list[MeshPart], str]:
     """Read the arm of an uploaded URDF file or DH table; return it with its first state, its parts, and a note on missing
     meshes.
 
     Raises:
         HoldfastError: The file is too large, or wrong, or its arm has more than 40 joints.
     """
-    with _write_isolated(name, content) as file:
+    with _provide_temporary_file(name, content) as file:
         if file.suffix.lower() in (".yaml", ".yml"):
             from holdfast.model.arms import dh_file
 
@@ -76,12 +76,12 @@ def read_machine(name: str, content: bytes) -> tuple[CompiledArm, State, list[Me
 
 def read_uploaded_motion(arm: Arm, name: str, content: bytes) -> PlayedMotion:
     """Read the motion of an uploaded CSV file; see :func:`holdfast.interface.studio.motions.read_motion`."""
-    with _write_isolated(name, content) as file:
+    with _provide_temporary_file(name, content) as file:
         return read_motion(arm, file)
 
 
 @contextmanager
-def _write_isolated(name: str, content: bytes) -> Iterator[Path]:
+def _provide_temporary_file(name: str, content: bytes) -> Iterator[Path]:
     """Provide the content inside the block as a file in a folder of its own; errors contain only the name of the upload."""
     if len(content) > MAX_FILE_BYTES:
         raise InputError(f"'{sanitise_file_name(name)}': {_TOO_LARGE}")

@@ -23,9 +23,9 @@ from holdfast.kinematics.indices.index import Index, by_name
 from holdfast.kinematics.indices.lost_directions import (
     DirectionLoss,
     Ellipsoid,
-    find_losses,
+    find_speed_losses,
     manipulability_ellipsoid,
-    null_directions,
+    null_space_joint_rates,
 )
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.solvers.inverse_kinematics import solver
@@ -171,19 +171,21 @@ class CompiledArm:
                 self._laws[text] = LAW_REGISTRY.make(text, self.arm, option="law", task=self.task)
             return self._laws[text]
 
-    def evaluate(self, q: FloatArray, failed: Sequence[int], index: str, weight: str) -> LiveReading:
+    def evaluate_live_reading(
+        self, q: FloatArray, failed: Sequence[int], index_name: str, susceptibility_name: str
+    ) -> LiveReading:
         """Evaluate all live values at q (n,)."""
-        bars = self._evaluate_index_bars(q, index)
+        bars = self._evaluate_index_bars(q, index_name)
         failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
         linear_jacobian = self.arm.jacobian(q)[:3]
         task_jacobian = self._task_jacobian(q).reshape(self.task.m, self.arm.n)
         return LiveReading(
             bars,
-            self._evaluate_susceptibility_bars(q, weight),
+            self._evaluate_susceptibility_bars(q, susceptibility_name),
             manipulability_ellipsoid(linear_jacobian),
             manipulability_ellipsoid(linear_jacobian, failure_joints),
             failure_joints,
-            find_losses(task_jacobian, failure_joints),
+            find_speed_losses(task_jacobian, failure_joints),
         )
 
     def _evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
@@ -204,7 +206,7 @@ class CompiledArm:
 
     # ---- following the end effector ----------------------------------------------------------------------------------------
 
-    def solve_near(self, q: FloatArray, pose: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, bool]:
+    def solve_pose_near(self, q: FloatArray, pose: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, bool]:
         """Find the configuration near q (n,) that brings the end effector to a pose (4, 4) with failed joints locked; return it
         and whether it reaches the pose.
 
@@ -245,13 +247,13 @@ class CompiledArm:
             Where it led, within the limits, and the unit direction (n,) it went in; q itself and 0 where there is no way on.
         """
         length = float(np.linalg.norm(step))
-        basis = null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
+        basis = null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
         projected = basis.T @ (basis @ step)
         projected_norm = float(np.linalg.norm(projected))
         if length == 0 or projected_norm < 1e-6 * length:
             return q, np.zeros_like(q)
         direction = projected / projected_norm
-        q_next, is_reached = self.solve_near(q + length * direction, self.tool_pose(q), failed)
+        q_next, is_reached = self.solve_pose_near(q + length * direction, self.tool_pose(q), failed)
         is_within_limits = bool(((q_next >= self.arm.lower) & (q_next <= self.arm.upper)).all())
         if not is_reached or not is_within_limits or np.linalg.norm(q_next - q) > 2 * length:
             return q, np.zeros_like(q)
@@ -259,7 +261,7 @@ class CompiledArm:
 
     def self_motion_directions(self, q: FloatArray, failed: Sequence[int]) -> FloatArray:
         """Return unit directions (r, n) of the self-motions of q."""
-        return null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
+        return null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
 
 
 def describe_error(error: BaseException) -> str:

@@ -97,7 +97,7 @@ class CellObjects:
 
     _error_text = ""
 
-    def show_nearest(self, q: FloatArray) -> tuple[str, bool]:
+    def draw_shortest_distance(self, q: FloatArray) -> tuple[str, bool]:
         """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too near."""
         if self._error_text or self._clearance is None or self._clearance.obstacles is None:
             self._line.visible = False

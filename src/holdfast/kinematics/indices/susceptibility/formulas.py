@@ -51,7 +51,7 @@ class SusceptibilityFormula:
 # ---- torque --------------------------------------------------------------------------------------------------------
 
 
-def _torque_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+def _holding_torques_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
     """Return the holding torques and their status; eq. (7), (8), (12)."""
     return statics.gravity_torques(arm, statics.composite_bodies(arm, q)), ca.DM.zeros(arm.n)
 
@@ -86,7 +86,7 @@ def _require_inertia(arm: Arm) -> None:
         mass -= body.mass
 
 
-def _acceleration_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+def _failure_accelerations_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
     """Return the accelerations, eq. (22); NaN for a revolute joint on whose axis all the carried mass lies."""
     c = statics.composite_bodies(arm, q)
     tau, m = statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
@@ -112,7 +112,7 @@ def _acceleration_jacobian(arm: Arm, q: SX) -> SX:
 # ---- swing angle ---------------------------------------------------------------------------------------------------
 
 
-def _swing_values(arm: Arm, q: SX) -> tuple[SX, SX]:
+def _swing_angles_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
     """Return the swing angles; eq. (36)-(39), (42), (43)."""
     c = statics.composite_bodies(arm, q)
     length, weight = statics.length_scale(arm), float(np.linalg.norm(arm.gravity))
@@ -164,7 +164,7 @@ TORQUE_FORMULA = SusceptibilityFormula(
     sliding="N",
     slides=True,
     check=require_masses,
-    values=_torque_values,
+    values=_holding_torques_and_status,
     jacobian=_torque_jacobian,
 )
 ACCELERATION_FORMULA = SusceptibilityFormula(
@@ -174,7 +174,7 @@ ACCELERATION_FORMULA = SusceptibilityFormula(
     sliding="m/s^2",
     slides=True,
     check=_require_inertia,
-    values=_acceleration_values,
+    values=_failure_accelerations_and_status,
     jacobian=_acceleration_jacobian,
 )
 SWING_ANGLE_FORMULA = SusceptibilityFormula(
@@ -184,6 +184,6 @@ SWING_ANGLE_FORMULA = SusceptibilityFormula(
     sliding="rad",
     slides=False,
     check=require_masses,
-    values=_swing_values,
+    values=_swing_angles_and_status,
     jacobian=_swing_jacobian,
 )

@@ -124,7 +124,7 @@ class Susceptibility(Labelled, Objective):
 
     def expression(self, q: SX) -> SX:
         """``f' W f`` as a function of the symbols q (n,); smooth but where a joint becomes degenerate or hangs upright."""
-        return self._combine_joints(self.by_joint_expression(q))
+        return self._weighted_square_sum(self.by_joint_expression(q))
 
     def gradient_expression(self, q: SX) -> SX:
         """Gradient (n,) of ``f' W f``, eq. (3), as a function of the symbols q (n,); 0 for a degenerate joint.
@@ -140,7 +140,7 @@ class Susceptibility(Labelled, Objective):
         derivative = ca.densify(ca.gradient(value, q))
         return [ObjectivePart(1.0, [-value], [[-ca.dot(derivative, v) for v in directions]])]
 
-    def _combine_joints(self, f: SX) -> SX:
+    def _weighted_square_sum(self, f: SX) -> SX:
         # A joint without weight takes no part, also where its own measure is not a number.
         weights = ca.sparsify(ca.SX(ca.DM(self.weights)))
         return ca.SX(ca.densify(ca.dot(f, weights @ f)))
@@ -150,7 +150,7 @@ class Susceptibility(Labelled, Objective):
     def _values_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         f, degenerate = self.formula.values(self.arm, q)
-        return Kernel(self.name, [q], [self._combine_joints(f), f, degenerate])
+        return Kernel(self.name, [q], [self._weighted_square_sum(f), f, degenerate])
 
     @cached_property
     @cached_kernel

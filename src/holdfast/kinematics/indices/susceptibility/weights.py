@@ -112,12 +112,12 @@ def largest_static_torque(arm: Arm) -> FloatArray:
     sign = np.repeat([1.0, -1.0], arm.n * _STARTS_PER_SIGN)
     carried = np.cumsum([body.mass for body in statics.links_with_payload(arm)][::-1])[::-1]
     scale = carried * float(np.linalg.norm(arm.gravity)) * np.where(arm.prismatic, 1.0, statics.length_scale(arm))
-    reached = _maximise_by_coordinates(arm, starts, joint, sign, low, high, _CONVERGED_GAIN * scale[joint])
+    reached = _maximise_static_torque(arm, starts, joint, sign, low, high, _CONVERGED_GAIN * scale[joint])
     largest = np.array([reached[joint == k].max() for k in range(arm.n)])
     return np.where(largest > _ZERO_TORQUE_RATIO * scale, largest, 0.0)
 
 
-def _maximise_by_coordinates(
+def _maximise_static_torque(
     arm: Arm, q: FloatArray, joint: NDArray[np.int64], sign: FloatArray, low: FloatArray, high: FloatArray, still: FloatArray
 ) -> FloatArray:
     """Return ``sign * tau[joint]`` (R,) at the end of a coordinate ascent from every row of q (R, n)."""
@@ -133,22 +133,22 @@ def _maximise_by_coordinates(
             best = q[:, k]
             choices = [np.full(len(q), low[k]), np.full(len(q), high[k])]
             if not arm.prismatic[k]:
-                quarter = [signed_torque(_replace_joint(q, k, np.full(len(q), a))) for a in (0.0, np.pi / 2, np.pi)]
+                quarter = [signed_torque(_replace_joint_value(q, k, np.full(len(q), a))) for a in (0.0, np.pi / 2, np.pi)]
                 # a + b cos x + c sin x at 0, a quarter and half a turn
                 a, b = (quarter[0] + quarter[2]) / 2, (quarter[0] - quarter[2]) / 2
                 top = np.arctan2(quarter[1] - a, b)
                 choices.append(np.clip(top + 2 * np.pi * np.ceil((low[k] - top) / (2 * np.pi)), low[k], high[k]))
             for choice in choices:
-                new_value = signed_torque(_replace_joint(q, k, choice))
+                new_value = signed_torque(_replace_joint_value(q, k, choice))
                 best = np.where(new_value > value, choice, best)
                 value = np.maximum(value, new_value)
-            q = _replace_joint(q, k, best)
+            q = _replace_joint_value(q, k, best)
         if (value - before <= still).all():
             break
     return value
 
 
-def _replace_joint(q: FloatArray, k: int, x: FloatArray) -> FloatArray:
+def _replace_joint_value(q: FloatArray, k: int, x: FloatArray) -> FloatArray:
     changed = q.copy()
     changed[:, k] = x
     return changed

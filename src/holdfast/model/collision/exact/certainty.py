@@ -16,7 +16,7 @@ from holdfast.model.collision.exact.engines import is_library_installed
 _ROUNDING_M = 1e-9  # m
 
 
-def find_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0.0) -> list[str]:
+def name_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0.0) -> list[str]:
     """Name for each configuration (N, n) two bodies that are certainly closer than allowed; empty where none is known.
 
     Args:
@@ -26,12 +26,12 @@ def find_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0
     """
     names, exactness, arm = [""] * len(q), clearance.exactness, clearance.arm
     own_count = len(clearance.capsules) - clearance.capsules.held
-    if clearance.capsules.shape is None and exactness.are_parts_known:
+    if clearance.capsules.shape is None and exactness.are_all_shapes_known:
         distances = clearance.alone.by_pair(q)
         for index, pair in enumerate(clearance.pairs):
             for touching in np.flatnonzero(distances[:, index] < margin - _ROUNDING_M) if max(pair) < own_count else ():
                 names[touching] = clearance.pair_names[index]
-    inner_objects, solids = exactness.inner_objects
+    inner_objects, solids = exactness.inner_objects_and_sources
     if solids and len(inner_objects.spheres.link) and clearance.cell is not None:
         allowed = margin + np.array([clearance.cell.margin_of(solid) for solid in solids])
         links = np.unique(inner_objects.spheres.link)
@@ -39,7 +39,7 @@ def find_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0
             names[row] = f"{link_name(arm, int(links[link]))} & {solids[index].name}"
     unnamed = np.array([row for row, name in enumerate(names) if not name], dtype=np.int64)
     if unnamed.size and is_library_installed():
-        for row, name in zip(unnamed.tolist(), exactness.find_known_contacts(q[unnamed], margin), strict=True):
+        for row, name in zip(unnamed.tolist(), exactness.name_known_contacts(q[unnamed], margin), strict=True):
             names[row] = name
     return names
 

@@ -64,15 +64,15 @@ class BodyGeometry:
 
     def bodies_touch(self, part: PlacedBody) -> bool:
         """See :class:`CollisionGeometry`."""
-        return self._engine.bodies_touch(part.library_body, self.placed.library_body) or self._contains_other(part)
+        return self._engine.bodies_touch(part.library_body, self.placed.library_body) or self._is_one_inside_other(part)
 
     def body_distance(self, part: PlacedBody) -> float:
         """See :class:`CollisionGeometry`."""
         # Within a mesh and far from its surface a library sees no contact.
         distance = self._engine.body_distance(part.library_body, self.placed.library_body)
-        return 0.0 if distance < CONTACT_DISTANCE_M or self._contains_other(part) else distance
+        return 0.0 if distance < CONTACT_DISTANCE_M or self._is_one_inside_other(part) else distance
 
-    def _contains_other(self, part: PlacedBody) -> bool:
+    def _is_one_inside_other(self, part: PlacedBody) -> bool:
         """Return True if one of the two is a mesh that contains the other, so that their surfaces need not meet."""
         if part.body.kind != "mesh" != self.placed.body.kind:
             return False
@@ -119,17 +119,17 @@ class PointCloudGeometry:
 
     def bodies_touch(self, part: PlacedBody) -> bool:
         """See :class:`CollisionGeometry`."""
-        return self._nearest_distance(part, CONTACT_DISTANCE_M, sign_only=True) < CONTACT_DISTANCE_M
+        return self._nearest_ball_distance(part, CONTACT_DISTANCE_M, sign_only=True) < CONTACT_DISTANCE_M
 
     def body_distance(self, part: PlacedBody) -> float:
         """See :class:`CollisionGeometry`."""
         # No ball is nearer than the one about the point that is nearest to the middle, and that one is no farther than this.
         middle, part_radius = part.body.bounding_sphere
         center_distance = float(self._tree.query(part.position + part.rotation @ middle)[0])
-        distance = self._nearest_distance(part, center_distance + part_radius)
+        distance = self._nearest_ball_distance(part, center_distance + part_radius)
         return distance if distance >= CONTACT_DISTANCE_M else 0.0
 
-    def _nearest_distance(self, part: PlacedBody, max_distance: float, *, sign_only: bool = False) -> float:
+    def _nearest_ball_distance(self, part: PlacedBody, max_distance: float, *, sign_only: bool = False) -> float:
         """Return the distance of the nearest ball, m, if it is less than ``max_distance``; with ``sign_only`` only whether it
         is 0 or more.
         """

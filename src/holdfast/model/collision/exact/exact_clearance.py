@@ -77,13 +77,13 @@ class ExactClearance(Clearance):
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """See :meth:`holdfast.Clearance.__call__`."""
-        return self._raise_bound(q, np.zeros(len(self.margins)), self._bound(q))
+        return self._sharpen_margins(q, np.zeros(len(self.margins)), self._bound(q))
 
     def margin_left(self, q: ArrayLike) -> FloatArray:
         """See :meth:`holdfast.Clearance.margin_left`."""
-        return self._raise_bound(q, self.margins, self._bound.margin_left(q))
+        return self._sharpen_margins(q, self.margins, self._bound.margin_left(q))
 
-    def _raise_bound(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
+    def _sharpen_margins(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
         rows, single = as_configurations(self.arm, q)
         raised = np.atleast_1d(bound).copy()
         is_near = raised < self._near

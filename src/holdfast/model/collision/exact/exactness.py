@@ -84,17 +84,17 @@ class ExactQueries:
         """
         queries, own_count = self._contact_queries, len(self._pairs)
         column = (
-            len(self._pair_columns) + pair - own_count
+            len(self._columns_by_link_pair) + pair - own_count
             if pair >= own_count
-            else list(self._pair_columns).index(self._link_groups(self._pairs[pair]))
+            else list(self._columns_by_link_pair).index(self._links_of_pair(self._pairs[pair]))
         )
         bounds = np.full(
-            (len(q), len(self._pair_columns) + (0 if self.obstacles is None else len(self.obstacles.pairs))), np.inf
+            (len(q), len(self._columns_by_link_pair) + (0 if self.obstacles is None else len(self.obstacles.pairs))), np.inf
         )
         bounds[:, column] = -np.inf
         return queries.check_contacts(q, bounds)
 
-    def find_known_contacts(self, q: FloatArray, margin: float) -> list[str]:
+    def name_known_contacts(self, q: FloatArray, margin: float) -> list[str]:
         """Name for each row two bodies of known shape that are closer than allowed; empty where there are none.
 
         Meshes count as they are, not as the hulls that stand for them where they are nearly convex.
@@ -107,17 +107,17 @@ class ExactQueries:
             HoldfastError: No library for it is installed.
         """
         obstacles = self.obstacles
-        allowed = np.full(len(self._pair_columns), margin)
+        allowed = np.full(len(self._columns_by_link_pair), margin)
         if obstacles is not None:
             allowed = np.concatenate([allowed, obstacles.margins + margin])
         queries = self._known_distance_queries if allowed.any() else self._known_contact_queries
-        pairs = queries.find_closer_pair(q, self._distance_bounds(q, near=True), allowed)
-        names = [" & ".join(link_name(self.arm, link) for link, _ in links) for links in self._pair_columns]
+        pairs = queries.find_too_close_pair(q, self._distance_bounds(q, near=True), allowed)
+        names = [" & ".join(link_name(self.arm, link) for link, _ in links) for links in self._columns_by_link_pair]
         names += [] if obstacles is None else obstacles.names
         return [names[pair] if pair >= 0 else "" for pair in pairs.tolist()]
 
     @property
-    def are_parts_known(self) -> bool:
+    def are_all_shapes_known(self) -> bool:
         """True if each body is a part of the arm, none a cover or an assumption."""
         return all(part.known for part in self.parts)
 
@@ -169,14 +169,14 @@ class ExactQueries:
 
     def _build_known_queries(self, engine: CollisionLibrary) -> NarrowPhase:
         parts = [replace(part, body=part.body.filled or part.body) for part in self.parts if part.known]
-        body_pairs = [_find_checked_pairs(parts, *links, self._unchecked_links) for links in self._pair_columns]
+        body_pairs = [_find_checked_pairs(parts, *links, self._unchecked_links) for links in self._columns_by_link_pair]
         return NarrowPhase(self.arm, parts, body_pairs, self.obstacles, engine)
 
     def _build_queries(self, engine: CollisionLibrary) -> NarrowPhase:
         return NarrowPhase(
             self.arm,
             self.parts,
-            [_find_checked_pairs(self.parts, *links, self._unchecked_links) for links in self._pair_columns],
+            [_find_checked_pairs(self.parts, *links, self._unchecked_links) for links in self._columns_by_link_pair],
             self.obstacles,
             engine,
         )
@@ -188,13 +188,13 @@ class ExactQueries:
         """Pairs of links of the file that are not checked."""
         return frozenset() if self.capsules.shape is None else self.capsules.shape.unchecked
 
-    def _link_groups(self, pair: Pair) -> tuple[Group, Group]:
+    def _links_of_pair(self, pair: Pair) -> tuple[Group, Group]:
         own_count = len(self.capsules) - self.capsules.held
         first, second = ((self.capsules.parts[part].link, part >= own_count) for part in pair)
         return first, second
 
     @cached_property
-    def _pair_columns(self) -> dict[tuple[Group, Group], list[int]]:
+    def _columns_by_link_pair(self) -> dict[tuple[Group, Group], list[int]]:
         """Checked pairs of links, with the columns of their capsule pairs; no columns if a relevant capsule pair is ignored.
 
         What the last link holds is apart from it. Pairs of capsules about bodies that are not checked against each other,
@@ -202,20 +202,20 @@ class ExactQueries:
         """
         columns_by_links: dict[tuple[Group, Group], list[int]] = {}
         for column, pair in enumerate(self._pairs):
-            columns_by_links.setdefault(self._link_groups(pair), []).append(column)
+            columns_by_links.setdefault(self._links_of_pair(pair), []).append(column)
         lacking = {
-            self._link_groups((first, second))
+            self._links_of_pair((first, second))
             for first, second in self._ignored
             if (min(first, second), max(first, second)) not in self.capsules.apart
         }
         return {links: [] if links in lacking else columns for links, columns in columns_by_links.items()}
 
     @property
-    def own_bodies(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
+    def self_collision_pairs(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
         """For each two links the pairs of the clearance, and the checked bodies, by their positions in ``parts``."""
         return [
             (columns, _find_checked_pairs(self.parts, *links, self._unchecked_links))
-            for links, columns in self._pair_columns.items()
+            for links, columns in self._columns_by_link_pair.items()
         ]
 
     # ---- bounds --------------------------------------------------------------------------------------------------
@@ -227,7 +227,7 @@ class ExactQueries:
         capsule_distances = self._self_bounds[1](q)
         own_bounds = [
             capsule_distances[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf)
-            for columns in self._pair_columns.values()
+            for columns in self._columns_by_link_pair.values()
         ]
         object_distances = self._outer_objects.link_distances(q)
         limit = (
@@ -276,7 +276,7 @@ class ExactQueries:
         )
 
     @cached_property
-    def inner_objects(self) -> tuple[FormulaObjects, list[Solid]]:
+    def inner_objects_and_sources(self) -> tuple[FormulaObjects, list[Solid]]:
         """Balls inside the arm against solids inside the objects, and the object of each such solid."""
         obstacles = self.obstacles
         return self._inner_distances, [] if obstacles is None else [

@@ -130,9 +130,9 @@ class NarrowPhase:
             q: (N, n) finite.
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
-        return np.asarray(self.find_closer_pair(q, bounds, np.zeros(bounds.shape[1])) >= 0)
+        return np.asarray(self.find_too_close_pair(q, bounds, np.zeros(bounds.shape[1])) >= 0)
 
-    def find_closer_pair(self, q: FloatArray, bounds: FloatArray, allowed: FloatArray) -> IndexArray:
+    def find_too_close_pair(self, q: FloatArray, bounds: FloatArray, allowed: FloatArray) -> IndexArray:
         """Find a pair (N,) that is closer than allowed, by position in the bounds; -1 where there is none.
 
         Args:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.machine import ArmData, Joint
 from holdfast.model.cell.solids import PrimitiveSolid
 from holdfast.model.collision.capsules import BASE_LINK
@@ -43,7 +43,7 @@ class EndLinks:
         self, arm: ArmData, spheres: SphereCover, objects: list[PrimitiveSolid], offsets: FloatArray, margins: FloatArray
     ) -> None:
         last_joint, count = arm.joints[-1], sum(_STAGE_ANGLES)
-        lower, upper = (float(limits[-1]) for limits in finite_limits(arm))
+        lower, upper = (float(limits[-1]) for limits in sampling_limits(arm))
         step = (upper - lower) / count
         order = np.argsort(np.arange(count) * _GOLDEN_FRACTION % 1)
         self._angles = np.split(lower + step * (order + 0.5), np.cumsum(_STAGE_ANGLES)[:-1])
@@ -60,9 +60,9 @@ class EndLinks:
         end_cover = SphereCover(np.where(on_previous, _PREVIOUS_JOINT, _LAST_JOINT), center, radius, spheres.part[end_spheres])
         self._last = np.unique(end_cover.link) == _LAST_JOINT
         offsets = offsets[np.unique(spheres.link[end_spheres])[::-1]]
-        self._objects, self._margins = FormulaObjects(_end_machine(last_joint), end_cover, objects, offsets), margins
+        self._objects, self._margins = FormulaObjects(_last_link_machine(last_joint), end_cover, objects, offsets), margins
 
-    def are_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+    def are_poses_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
         """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
         m.
 
@@ -81,7 +81,7 @@ class EndLinks:
         return always_close
 
 
-def _end_machine(last: Joint) -> ArmData:
+def _last_link_machine(last: Joint) -> ArmData:
     """Return a machine whose first six joints put the last link of an arm anywhere; the seventh is the arm's last, reversed."""
     slides = [Joint(f"along {name}", "prismatic", np.eye(4), axis=axis) for name, axis in zip("xyz", np.eye(3), strict=True)]
     turns = [

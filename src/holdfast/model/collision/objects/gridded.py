@@ -36,7 +36,7 @@ def center_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
 
 
 @cached_kernel
-def gradient_kernel(arm: ArmData) -> Kernel:
+def point_speed_kernel(arm: ArmData) -> Kernel:
     """Compile the speed of a point on a link along a direction, (n,) per unit of each joint's speed.
 
     Inputs: q (n,), and in one vector (7,) the point and the direction in the world and the joint that moves the link.
@@ -69,7 +69,7 @@ class GriddedObjects:
 
     @cached_property
     def _gradient_kernel(self) -> Kernel:
-        return gradient_kernel(self.arm)
+        return point_speed_kernel(self.arm)
 
     @cached_property
     def _distance_offsets(self) -> FloatArray:
@@ -103,7 +103,7 @@ class GriddedObjects:
         """
         distances = np.full((len(centers), *offsets.shape), np.inf)
         if len(centers) < _FULL_CHECK_BELOW:
-            self._read_distances(centers, offsets, np.ones(distances.shape, dtype=np.bool_), distances)
+            self._fill_selected_distances(centers, offsets, np.ones(distances.shape, dtype=np.bool_), distances)
             return distances
         object_centers, radius = self._bounding_spheres
         square = (
@@ -115,15 +115,17 @@ class GriddedObjects:
         evaluated = np.zeros(lower_bounds.shape, dtype=np.bool_)
         for start, stop in pairwise([*starts, centers.shape[1]]):  # first at the sphere that may be the nearest
             np.put_along_axis(evaluated, start + lower_bounds[:, start:stop].argmin(axis=1, keepdims=True), True, axis=1)
-        self._read_distances(centers, offsets, evaluated, distances)
+        self._fill_selected_distances(centers, offsets, evaluated, distances)
         known_distances = np.minimum.reduceat(distances, starts, axis=1)
         if together:
             known_distances = known_distances.min(axis=2, keepdims=True)
         group = np.repeat(np.arange(len(starts)), np.diff([*starts, centers.shape[1]]))
-        self._read_distances(centers, offsets, (lower_bounds < known_distances[:, group]) & ~evaluated, distances)
+        self._fill_selected_distances(centers, offsets, (lower_bounds < known_distances[:, group]) & ~evaluated, distances)
         return distances
 
-    def _read_distances(self, centers: FloatArray, offsets: FloatArray, selected: BoolArray, distances: FloatArray) -> None:
+    def _fill_selected_distances(
+        self, centers: FloatArray, offsets: FloatArray, selected: BoolArray, distances: FloatArray
+    ) -> None:
         places = [np.nonzero(selected[:, :, index]) for index in range(len(self.objects))]
         local_points = [
             solid.to_object_frame(centers[object_place]) for solid, object_place in zip(self.objects, places, strict=True)
@@ -157,7 +159,9 @@ class GriddedObjects:
             )
         return margins_left
 
-    def find_nearest(self, q: FloatArray, margins: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
+    def nearest_margin_and_gradient(
+        self, q: FloatArray, margins: FloatArray
+    ) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
         """Return the least distance above the margins (G,), m, the position of its link, its object, and the gradient (N, n).
 
         Args:

@@ -22,7 +22,7 @@ class SingleConfigurationClearance:
             if clearance.pairs
             else []
         )
-        self._blocks = [] if obstacles is None else obstacles.single_blocks()
+        self._blocks = [] if obstacles is None else obstacles.single_row_kernels()
         self._needs_batch = obstacles is not None and not self._blocks  # with grids, which are NumPy's
         self._n = clearance.arm.n
 

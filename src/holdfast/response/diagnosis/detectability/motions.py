@@ -26,7 +26,7 @@ def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
         log = Log.load(path)
         return log.q_ref, log.rate
     table = read_joint_table(arm, path, "motion", "time_s")
-    numbers = table.read_columns(["time_s", *joint_columns(arm)])
+    numbers = table.select_columns(["time_s", *joint_columns(arm)])
     if len(numbers) < 2 or not (np.diff(numbers[:, 0]) > 0).all():
         raise InputError(f"{table.title}: its time must increase over two lines or more")
     return numbers[:, 1:], float(1 / np.median(np.diff(numbers[:, 0])))

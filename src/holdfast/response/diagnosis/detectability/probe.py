@@ -26,9 +26,9 @@ from holdfast.response.diagnosis.detectability.separation import (
     LOG_LIKELIHOOD_THRESHOLD,
     hypothesis_separations,
     inseparable_pairs,
+    inverse_pose_deviations,
     null_space,
     pose_differences,
-    pose_weights,
     project_to_task,
     self_motion_rates,
     tool_poses_by_hypothesis,
@@ -214,7 +214,9 @@ def plan_identification(
             _time_curve(leg, speed)
             for leg in _trace_self_motions(arm, required_task, motion[-1], start, (duration - RAMP_TIME_S) * speed, speed, rng)
         ]
-        trials = [np.concatenate([motion, _collision_free_part(arm, motion, leg, chosen, clearance, margin)]) for leg in legs]
+        trials = [
+            np.concatenate([motion, _truncate_before_collision(arm, motion, leg, chosen, clearance, margin)]) for leg in legs
+        ]
         scores = [
             _score_separation(hypothesis_separations(arm, trial, sensors)[np.ix_(hypothesis_indices, hypothesis_indices)])
             for trial in trials
@@ -280,7 +282,7 @@ def identify(
     hypothesis_indices = [0, *(candidate_index + 1 for candidate_index in chosen)]
     pose_errors = pose_differences(measured, tool_poses_by_hypothesis(arm, motion)[hypothesis_indices, 1:])
     pose_errors -= pose_errors[:, : len(resting)].mean(axis=1, keepdims=True)
-    log_likelihoods = -np.cumsum(((pose_errors * pose_weights(sensors or Sensors())) ** 2).sum(axis=2), axis=1) / 2
+    log_likelihoods = -np.cumsum(((pose_errors * inverse_pose_deviations(sensors or Sensors())) ** 2).sum(axis=2), axis=1) / 2
     runner_up = np.sort(log_likelihoods, axis=0)[-2]
     is_decided = log_likelihoods.max(axis=0) - runner_up > LOG_LIKELIHOOD_THRESHOLD
     row = int(is_decided.argmax()) if is_decided.any() else len(pose_rows) - 1
@@ -368,7 +370,7 @@ def _time_curve(curve: FloatArray, speed: float) -> FloatArray:
     return np.stack([np.interp(arc_length, curve_lengths, column) for column in curve.T], axis=1)
 
 
-def _collision_free_part(
+def _truncate_before_collision(
     arm: Arm,
     earlier_motion: FloatArray,
     leg: FloatArray,

@@ -77,7 +77,7 @@ def pose_differences(poses: FloatArray, reference_poses: FloatArray) -> FloatArr
     return np.concatenate([poses[..., :3, 3] - reference_poses[..., :3, 3], rotations], axis=-1)
 
 
-def pose_weights(sensors: Sensors) -> FloatArray:
+def inverse_pose_deviations(sensors: Sensors) -> FloatArray:
     """Return one over the deviation of a sample (6,), its part of the systematic error included."""
     deviations = np.array([sensors.position, sensors.angle])
     return np.repeat(1 / np.hypot(deviations, np.sqrt(_CORRELATED_SAMPLES) * np.array(_SYSTEMATIC_DEVIATIONS)), 3)
@@ -88,7 +88,7 @@ def hypothesis_separations(arm: Arm, q: FloatArray, sensors: Sensors) -> FloatAr
 
     A test tells i from j with an error of epsilon if D is above ``ln(1/epsilon)`` (Wald).
     """
-    poses, weight = tool_poses_by_hypothesis(arm, q), pose_weights(sensors)
+    poses, weight = tool_poses_by_hypothesis(arm, q), inverse_pose_deviations(sensors)
     separation = np.zeros((arm.n + 1, arm.n + 1))
     for joint in range(arm.n):
         to_later = ((pose_differences(poses[joint + 1 :], poses[joint]) * weight) ** 2).sum(axis=(1, 2)) / 2

@@ -47,7 +47,7 @@ class LockedKind(_HoldingKind):
             distance = fault.position - fault.number("at")
             fault.is_pending, fault.memory = distance != 0, math.copysign(1.0, distance)
 
-    def take_hold(self, fault: ActiveFault) -> bool:
+    def take_delayed_effect(self, fault: ActiveFault) -> bool:
         """See :meth:`FaultKind.take_hold`."""
         position = fault.number("at")
         has_arrived: bool = (fault.joint.q - position) * fault.memory <= 0

@@ -31,7 +31,7 @@ class PhysicsInterceptor:
 
     def __init__(self, injector: FaultInjector) -> None:
         self.injector, self.call_count = injector, 0
-        _find_bindings()
+        _find_function_aliases()
 
     @contextmanager
     def intercept(self) -> Iterator[None]:
@@ -65,7 +65,7 @@ _REPLACED_FUNCTIONS: dict[str, tuple[Any, Any]] = {}  # a function of MuJoCo and
 _MODULE_BINDINGS: dict[tuple[int, str], tuple[dict[str, Any], str, Any, Any]] = {}  # names in modules that mean such a function
 
 
-def _find_bindings() -> None:
+def _find_function_aliases() -> None:
     """Find the names under which modules have the functions; ``from mujoco import mj_step`` makes such a name as well."""
     mujoco = import_mujoco()
     with _PATCH_LOCK:

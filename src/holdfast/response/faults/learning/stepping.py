@@ -14,7 +14,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
-from holdfast.kinematics.solvers.inverse_kinematics import task_error
+from holdfast.kinematics.solvers.inverse_kinematics import task_error_and_jacobian
 from holdfast.response.faults.batch import FaultBatch
 from holdfast.response.faults.kind import MAX_PARAMETERS, FaultKind, fault_kinds, find_kind
 from holdfast.response.faults.step_symbols import KERNEL_INFINITY, StepSymbols
@@ -59,7 +59,7 @@ def build_step_kernel(law: Law) -> Kernel:
         """Return (n,) 1 where a fault of the kind is active."""
         return StepSymbols.all_true(code == kind.code, onset <= time + TIME_TOLERANCE_S, time < end - TIME_TOLERANCE_S)
 
-    error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
+    error, _ = task_error_and_jacobian(arm, task, q_measured, target_position, target_rotation)
     rates = law.inverse(law.jacobian(q_measured), law.scale_velocity(law.command(error)))
     rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # where the law has no answer: none
     commanded_rates = StepSymbols.clip(rates + StepSymbols.clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
@@ -94,8 +94,8 @@ def build_step_kernel(law: Law) -> Kernel:
     for kind in fault_kinds().values():
         kind.change_reading(step, is_active(kind, time_after))
     q_measured = step.q_measured
-    measured_error, _ = task_error(arm, task, q_measured, target_position, target_rotation)
-    true_error, _ = task_error(arm, task, q_next, target_position, target_rotation)
+    measured_error, _ = task_error_and_jacobian(arm, task, q_measured, target_position, target_rotation)
+    true_error, _ = task_error_and_jacobian(arm, task, q_next, target_position, target_rotation)
     position_error, orientation_error = (
         ca.norm_2(ca.SX(ca.DM(task.rows[:, columns].T)) @ true_error) for columns in (slice(0, 3), slice(3, 6))
     )
@@ -116,7 +116,7 @@ def build_step_kernel(law: Law) -> Kernel:
     )
 
 
-def make_kernel_rows(batch: FaultBatch) -> FloatArray:
+def make_fault_rows(batch: FaultBatch) -> FloatArray:
     """Return the kernel's rows (N, 6 n) of episodes: code, onset, end, and parameters.
 
     Raises:

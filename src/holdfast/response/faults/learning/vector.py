@@ -15,7 +15,7 @@ from holdfast.response.faults.batch import make_batch
 from holdfast.response.faults.events import FaultEvents
 from holdfast.response.faults.fault_model import FaultModel
 from holdfast.response.faults.kind import fault_kinds
-from holdfast.response.faults.learning.stepping import GOAL_NUMBERS, STATE_PARTS, build_step_kernel, make_kernel_rows
+from holdfast.response.faults.learning.stepping import GOAL_NUMBERS, STATE_PARTS, build_step_kernel, make_fault_rows
 from holdfast.response.faults.step_symbols import KERNEL_INFINITY
 
 try:
@@ -205,7 +205,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
             raise InputError(f"goals gave an array of shape {goals.shape}; they must be finite tool poses ({count}, 4, 4), m")
         episodes = self._episode_numbers[rows] + self.num_envs
         events = [self.faults.draw(arm, episode=int(episode), horizon=self.horizon) for episode in episodes]
-        faults = make_kernel_rows(make_batch(arm.joint_names, events, seed=self.faults.seed, first=0))
+        faults = make_fault_rows(make_batch(arm.joint_names, events, seed=self.faults.seed, first=0))
         positions, rotations = goals[:, :3, 3], goals[:, :3, :3].reshape(count, 9)
         self._episodes[rows] = np.concatenate([q_start, positions, rotations, faults], axis=1)
         if self._on_gpu:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from holdfast.core.typing import BoolArray, FloatArray
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.capsules import BASE_LINK, Capsules, LinkCapsule
 from holdfast.model.collision.changes import pair_lipschitz_bounds
@@ -38,7 +38,7 @@ class BlockedBoxes:
     """
 
     def __init__(self, clearance: Clearance, margin: float, limits: tuple[FloatArray, FloatArray] | None = None) -> None:
-        obstacles, (self._inner_model, solids) = clearance.obstacles, clearance.exactness.inner_objects
+        obstacles, (self._inner_model, solids) = clearance.obstacles, clearance.exactness.inner_objects_and_sources
         self._arm, self._object_names, self._blockers = clearance.arm, [solid.name for solid in solids], set[str]()
         self._margins = np.array([margin + obstacles.cell.margin_of(solid) for solid in solids]) if obstacles else np.zeros(0)
         balls = self._inner_model.spheres
@@ -47,20 +47,20 @@ class BlockedBoxes:
         self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
         self._axes = np.array([joint.axis for joint in self._arm.joints])
         self._self_clearance, self._margin = clearance.alone, margin
-        self._self_pairs = _find_self_pairs(clearance, limits or finite_limits(self._arm))
+        self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
 
     def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half`` (N, n) of q (N, n) is blocked."""
         is_blocked = np.zeros(len(q), dtype=bool)
         indices = np.flatnonzero(np.sort(half_widths, axis=1)[:, half_widths.shape[1] // 2] < _MAX_HALF_WIDTH)
         if self._self_pairs:
-            is_blocked[indices] = self.is_self_blocked(q[indices], half_widths[indices])
+            is_blocked[indices] = self.are_boxes_self_colliding(q[indices], half_widths[indices])
         if self._links.size and self._margins.size:
             indices = indices[~is_blocked[indices]]
-            is_blocked[indices] = self._is_blocked_by_objects(q[indices], half_widths[indices])
+            is_blocked[indices] = self._are_boxes_hitting_objects(q[indices], half_widths[indices])
         return is_blocked
 
-    def is_self_blocked(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+    def are_boxes_self_colliding(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked by the arm alone."""
         is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
         for pair in self._self_pairs:
@@ -75,7 +75,7 @@ class BlockedBoxes:
                 self._blockers.add(pair.name)
         return is_blocked
 
-    def _is_blocked_by_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+    def _are_boxes_hitting_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
         margins = self._inner_model.link_distances(q) - self._margins
         indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
@@ -143,11 +143,11 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
     self_pairs, arm, capsules = [], clearance.arm, clearance.capsules
     if capsules.shape is None:
         lipschitz_bounds, arm_capsule_count = clearance.alone.lipschitz_bounds(*limits), len(capsules) - capsules.held
-        parts_known = clearance.exactness.are_parts_known
+        parts_known = clearance.exactness.are_all_shapes_known
         indices = [index for index, pair in enumerate(clearance.pairs) if parts_known and max(pair) < arm_capsule_count]
         return [_SelfCollisionPair(clearance.pair_names[index], [index], lipschitz_bounds[[index]]) for index in indices]
     parts = clearance.exactness.parts
-    for columns, bodies in clearance.exactness.own_bodies:
+    for columns, bodies in clearance.exactness.self_collision_pairs:
         ball_pairs = [
             (LinkCapsule(parts[a].link, tuple(x), tuple(x), radius=r), LinkCapsule(parts[b].link, tuple(y), tuple(y), radius=s))
             for a, b in bodies

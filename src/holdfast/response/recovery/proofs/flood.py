@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 Cells = NDArray[np.int64]
 Indices = NDArray[np.intp]
-Holds = Callable[[FloatArray, FloatArray], BoolArray]
+CellTest = Callable[[FloatArray, FloatArray], BoolArray]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
 
 _MAX_JOINTS = 3  # that move, at most
@@ -56,21 +56,21 @@ _MAX_CONFINED_JOINTS = 2
 _MAX_CONFINED_FLOODS = 2
 
 
-def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: Holds) -> str | None:
+def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:
     """Prove that no motion leads from a start (n,) to the goal, and return the proof as a sentence; None if that fails.
 
-    Of at most three joints that move; of more see :func:`find_confined_floods`.
+    Of at most three joints that move; of more see :func:`find_confined_regions`.
     """
     joints = np.flatnonzero(space.free)
     if len(joints) > _MAX_JOINTS or (space.manifold is None and space.clearance is None):
         return None
-    for flood in _generate_floods(space, start, joints, _BlockedCells(space)):
+    for flood in _generate_connected_regions(space, start, joints, _BlockedCells(space)):
         if not may_hold_goal(flood.middle, flood.half_widths).any():
             return flood.proof_sentence
     return None
 
 
-def find_confined_floods(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[Flood]:
+def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[ConnectedCells]:
     """Yield floods over one or two of more than three moving joints that are confined, wherever the other joints are.
 
     Those between two links that touch each other, and the first two, whose links touch objects. Only floods that hold none of
@@ -83,16 +83,18 @@ def find_confined_floods(space: FreeSpace, start: FloatArray, known_goals: Float
     attempts: list[tuple[Indices, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
     if self_blocked is not None:
         attempts = [
-            (flood_joints, self_blocked.is_self_blocked) for flood_joints in _list_joints_between_links(space.clearance, joints)
+            (flood_joints, self_blocked.are_boxes_self_colliding)
+            for flood_joints in _joint_sets_between_links(space.clearance, joints)
         ] + attempts
     for flood_joints, is_blocked in attempts:
-        floods = _generate_floods(space, start, flood_joints, is_blocked, _MAX_CONFINED_CELLS)
+        floods = _generate_connected_regions(space, start, flood_joints, is_blocked, _MAX_CONFINED_CELLS)
         yield from islice(
-            (flood for flood in floods if flood.excludes(known_goals, np.zeros_like(known_goals)).all()), _MAX_CONFINED_FLOODS
+            (flood for flood in floods if flood.excludes_boxes(known_goals, np.zeros_like(known_goals)).all()),
+            _MAX_CONFINED_FLOODS,
         )
 
 
-def _list_joints_between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
+def _joint_sets_between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
     """Return the sets of one or two joints between two links that may touch each other, the smallest first."""
     link_pairs = {tuple(sorted(clearance.capsules.parts[part].link for part in pair)) for pair in clearance.pairs}
     joint_sets = {
@@ -106,7 +108,7 @@ def _list_joints_between_links(clearance: Clearance, joints: Indices) -> list[In
 
 
 @dataclass(frozen=True, eq=False)
-class Flood:
+class ConnectedCells:
     """Cells that may be connected to the start.
 
     Attributes:
@@ -147,7 +149,7 @@ class Flood:
             counts = counts.cumsum(axis=axis)
         return counts
 
-    def excludes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+    def excludes_boxes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where no configuration within ``half_widths`` (N, n) of q (N, n) is in a connected cell."""
         positions, widths = q[:, self.joints], half_widths[:, self.joints]
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
@@ -165,9 +167,9 @@ class Flood:
         return np.asarray(cell_counts == 0)
 
 
-def _generate_floods(
+def _generate_connected_regions(
     space: FreeSpace, start: FloatArray, joints: Indices, blocked: Blocked, max_cells: int | None = None
-) -> Iterator[Flood]:
+) -> Iterator[ConnectedCells]:
     """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
     limits.
     """
@@ -199,7 +201,7 @@ def _generate_floods(
             return  # the start is clear, so this cannot be
         is_connected = _connect_cells(cells, holds_start, cells_per_joint, is_unlimited)
         cells, middle = cells[is_connected], middle[is_connected]
-        yield Flood(
+        yield ConnectedCells(
             [space.arm.joint_names[index] for index in joints],
             joints,
             lower,
@@ -215,14 +217,16 @@ def _generate_floods(
         cells_per_joint *= 2
 
 
-def make_configuration_test(space: FreeSpace, q: FloatArray) -> Holds:
+def make_configuration_test(space: FreeSpace, q: FloatArray) -> CellTest:
     """Return the test of cells for a goal that is a configuration (n,)."""
     return lambda middle, half: np.asarray(
         (np.abs(joint_space.joint_difference(space.arm, middle, q)) <= half + _ROUNDING_SLACK).all(axis=1, where=space.free)
     )
 
 
-def make_pose_test(space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)) -> Holds:
+def make_pose_test(
+    space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)
+) -> CellTest:
     """Return the test of cells for a goal that is any of poses (G, 4, 4); rows that mix translation and rotation
     are ignored.
     """
@@ -384,7 +388,7 @@ class _BlockedCells:
                 space.manifold.constraint_margins(q) + space.manifold.bound_changes(joint_half_widths[None]) < -_ROUNDING_SLACK
             ).any(axis=1)
         if self.self_blocked is not None:
-            is_blocked |= self.self_blocked.is_self_blocked(q, half_widths)
+            is_blocked |= self.self_blocked.are_boxes_self_colliding(q, half_widths)
         if not self._objects or not len(self._radii):
             return is_blocked
         frames = space.arm.frames(q)

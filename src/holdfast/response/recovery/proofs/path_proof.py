@@ -46,7 +46,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
         space: Where the arm may be.
     """
     fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
-    order = list(order_by_relevance(len(poses)))
+    order = list(coarse_to_fine_indices(len(poses)))
     hardest_samples = [sample for sample in order if not is_reached[sample]][:_MAX_PROVED_POSES]
     request, q_locked = (recovery.degraded, recovery.task), np.where(space.free, recovery.at, recovery.degraded.lo)
     constraint_proofs = (
@@ -80,7 +80,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
     return replace(recovery, proved_within=bool(is_proved))
 
 
-def order_by_relevance(count: int) -> Iterator[int]:
+def coarse_to_fine_indices(count: int) -> Iterator[int]:
     """Yield 0 to count - 1, the most informative samples first: the last, the first, the middle, quarters, eighths, ..."""
     yielded, parts = set[int](), 1
     while len(yielded) < count:

@@ -13,7 +13,7 @@ from holdfast.kinematics.interval_search.boxes import Blocked
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, plane_normal
 from holdfast.model.collision.clearance import Clearance
-from holdfast.model.collision.exact.certainty import find_certain_contacts
+from holdfast.model.collision.exact.certainty import name_certain_contacts
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.response.recovery.recovery import Recovery
@@ -44,7 +44,7 @@ def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, 
         normal = None
     elif rank != 2 or normal is None or rows.linear != "base" or np.abs(linear_rows @ normal).max() > 1e-9:
         return None
-    return prove_out_of_reach(arm, free, q_locked, pose, rows.m == 6, normal)
+    return prove_by_reach_bound(arm, free, q_locked, pose, rows.m == 6, normal)
 
 
 def enumerate_collision_free(
@@ -156,7 +156,7 @@ def prove_no_configuration(
         solutions.arm, BoundedTask.from_task(solutions.arm, solutions.task)
     ):
         return None  # the last joint was looked at in one place, and its turn may clear what touches
-    if clearance is None or not all(find_certain_contacts(clearance, solutions.q)):
+    if clearance is None or not all(name_certain_contacts(clearance, solutions.q)):
         return None
     return (
         f"each of its {len(solutions.q)} configurations touches something, by {solutions.boxes:,} boxes of joints and "
@@ -167,7 +167,7 @@ def prove_no_configuration(
 # ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------
 
 
-def prove_out_of_reach(
+def prove_by_reach_bound(
     arm: Arm, free: BoolArray, q_locked: FloatArray, pose: FloatArray, whole_pose: bool, planar: FloatArray | None
 ) -> str | None:
     """Prove that a pose is out of reach with joints locked, and return the sentence; None if this bound cannot prove it.
@@ -198,8 +198,17 @@ def prove_out_of_reach(
             frame = frame @ joint.motion(float(q_locked[index]))
     tool_offset = frame @ arm.tool  # from the last moving joint to the tool
     center = offsets[0]
-    lengths = [_bound_distance(arm, index, offset, is_planar) for index, offset in zip(moving[:-1], offsets[1:], strict=True)]
-    proofs = [("the end effector", pose[:3, 3], [*lengths, _bound_distance(arm, moving[-1], tool_offset[:3, 3], is_planar)])]
+    lengths = [
+        _bound_distance_from_joint(arm, index, offset, is_planar)
+        for index, offset in zip(moving[:-1], offsets[1:], strict=True)
+    ]
+    proofs = [
+        (
+            "the end effector",
+            pose[:3, 3],
+            [*lengths, _bound_distance_from_joint(arm, moving[-1], tool_offset[:3, 3], is_planar)],
+        )
+    ]
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tool_offset)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
@@ -227,7 +236,7 @@ def prove_out_of_reach(
     return None
 
 
-def _bound_distance(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
+def _bound_distance_from_joint(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
     """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
     across its axis.
     """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.response.recovery.proofs.flood import (
-    Flood,
-    find_confined_floods,
+    ConnectedCells,
+    find_confined_regions,
     make_configuration_test,
     make_pose_test,
     prove_disconnected,
@@ -16,7 +16,7 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import TaskRows
 
 
-def prove_separated(
+def prove_goal_disconnected(
     recovery: Recovery,
     rows: TaskRows,
     space: FreeSpace,
@@ -45,15 +45,15 @@ def prove_separated(
     )
     if proof is not None:
         return proof, True
-    for flood in find_confined_floods(space, start, known_goals):
+    for flood in find_confined_regions(space, start, known_goals):
         for tolerance in dict.fromkeys((requested_tolerance, EXACT_TOLERANCE)):
-            if q_goal is not None or all(_proves_no_goal_in_flood(flood, recovery, pose, space, tolerance) for pose in poses):
+            if q_goal is not None or all(_is_goal_outside_region(flood, recovery, pose, space, tolerance) for pose in poses):
                 return flood.proof_sentence, tolerance == requested_tolerance
     return None
 
 
-def _proves_no_goal_in_flood(
-    flood: Flood, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
+def _is_goal_outside_region(
+    flood: ConnectedCells, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
 ) -> bool:
     """Return True if it is proved that no collision-free configuration of a pose (4, 4) is in a flood, in half of the time
     left.
@@ -61,7 +61,7 @@ def _proves_no_goal_in_flood(
     blocked_boxes = make_blocked_boxes(space)
 
     def is_excluded(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
-        excluded = flood.excludes(middle, half_widths)
+        excluded = flood.excludes_boxes(middle, half_widths)
         if blocked_boxes is not None and not excluded.all():
             excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])
         return excluded

@@ -13,7 +13,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.files.output import write_table
 from holdfast.core.formatting import format_count
 from holdfast.core.typing import BoolArray, FloatArray
-from holdfast.kinematics.paths.joint_table import motion_columns
+from holdfast.kinematics.paths.joint_table import motion_column_names
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.failure_modes import Degraded
@@ -67,7 +67,7 @@ class TimedMotion:
         Raises:
             StoreError: The file cannot be written.
         """
-        columns = ["time_s", *(name for names in motion_columns(self.arm) for name in names)]
+        columns = ["time_s", *(name for names in motion_column_names(self.arm) for name in names)]
         return write_table(file, "motion", columns, np.column_stack([self.time, self.q, self.qd, self.qdd]), "%.17g")
 
     def describe(self) -> str:

@@ -54,10 +54,10 @@ class SpeedProfile:
         return q, direction * rate[:, None], curvature * rate[:, None] ** 2 + direction * self.acceleration[interval][:, None]
 
 
-def compute_fastest_profile(pieces: PathPieces, v: FloatArray, a: FloatArray) -> SpeedProfile:
+def compute_fastest_profile(pieces: PathPieces, max_speeds: FloatArray, max_accelerations: FloatArray) -> SpeedProfile:
     """Compute the profile between standstills within speeds v and accelerations a (n,) above 0, finite for moving joints."""
-    grid = _PathGrid(pieces, v, a)
-    speed_limits = grid.compute_backward_limits()
+    grid = _PathGrid(pieces, max_speeds, max_accelerations)
+    speed_limits = grid.compute_backward_speed_limits()
     return grid.make_profile(grid.limit_forward_speeds(speed_limits))
 
 
@@ -111,7 +111,7 @@ class _PathGrid:
         rows = np.concatenate([start_rows, -start_rows, end_rows, -end_rows])
         return np.asarray(rows[np.abs(rows).max(axis=1) > 0])
 
-    def compute_backward_limits(self) -> FloatArray:
+    def compute_backward_speed_limits(self) -> FloatArray:
         """Return (G + 1,) the greatest squared speeds from which the rest of the path can be completed."""
         squared_speeds = self.squared_speed_caps.copy()
         for interval in range(len(self.offsets) - 1, -1, -1):
@@ -121,7 +121,7 @@ class _PathGrid:
                     squared_speeds[interval + 1] + 2 * self.acceleration_limits[interval] * self.lengths[interval],
                 )
             elif squared_speeds[interval] > 0:
-                squared_speeds[interval] = _maximize_speed(
+                squared_speeds[interval] = _maximize_squared_speed(
                     self._constraint_rows(interval), float(squared_speeds[interval]), float(squared_speeds[interval + 1])
                 )
         return squared_speeds
@@ -197,15 +197,17 @@ def _split_trapezoid(
     return [part for part in parts if part[0] > 1e-15 * length]
 
 
-def _maximize_speed(rows: FloatArray, cap: float, next_limit: float) -> float:
-    """Maximize x up to ``cap`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is allowed."""
+def _maximize_squared_speed(constraint_rows: FloatArray, max_squared_speed: float, next_limit: float) -> float:
+    """Maximize x up to ``max_squared_speed`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is
+    allowed.
+    """
     # In units of the bounds, so that one rounding fits all.
-    units = np.array([cap, next_limit if next_limit > 0 else 1.0])
-    if not np.isfinite(cap):
-        units[0] = 1 / np.abs(rows[:, 0]).max()
-    bounds = np.array([[1.0 if np.isfinite(cap) else 0.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
-    normals = np.concatenate([rows * units, bounds])
-    offsets = np.concatenate([np.ones(len(rows) + 1), [1.0 if next_limit > 0 else 0.0, 0.0]])
+    units = np.array([max_squared_speed, next_limit if next_limit > 0 else 1.0])
+    if not np.isfinite(max_squared_speed):
+        units[0] = 1 / np.abs(constraint_rows[:, 0]).max()
+    bounds = np.array([[1.0 if np.isfinite(max_squared_speed) else 0.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    normals = np.concatenate([constraint_rows * units, bounds])
+    offsets = np.concatenate([np.ones(len(constraint_rows) + 1), [1.0 if next_limit > 0 else 0.0, 0.0]])
     first, second = np.triu_indices(len(normals), 1)
     norms = np.linalg.norm(normals, axis=1)
     determinants = normals[first, 0] * normals[second, 1] - normals[second, 0] * normals[first, 1]

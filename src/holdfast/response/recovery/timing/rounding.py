@@ -84,7 +84,7 @@ def find_corner_cuts(q: FloatArray, must_meet: BoolArray, is_allowed: Callable[[
 
 
 def _make_chords(q: FloatArray, corners: Indices, cut_lengths: FloatArray) -> CornerChords:
-    incoming, outgoing = _compute_directions(q)
+    incoming, outgoing = _arrival_and_departure_directions(q)
     u, v = incoming[corners][:, None], outgoing[corners][:, None]
     s = np.linspace(0, 2, _CHORDS_PER_PARABOLA + 1)[None, :, None] * cut_lengths[:, None, None]
     corner_distance = cut_lengths[:, None, None]
@@ -102,7 +102,7 @@ def _make_chords(q: FloatArray, corners: Indices, cut_lengths: FloatArray) -> Co
     )
 
 
-def _compute_directions(q: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _arrival_and_departure_directions(q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return (K, n) unit vectors towards each waypoint and onwards from it; at the ends both are equal."""
     steps = np.diff(q, axis=0)
     steps /= np.linalg.norm(steps, axis=1, keepdims=True)

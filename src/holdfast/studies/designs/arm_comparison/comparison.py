@@ -20,7 +20,7 @@ from holdfast.kinematics.regions.region import Region, default_region
 from holdfast.kinematics.solvers.optima import optimise
 from holdfast.kinematics.solvers.self_motions import fibres
 from holdfast.kinematics.workspace.tolerance import tolerant_workspace
-from holdfast.model.arm.configurations import finite_limits
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, plane_normal
 from holdfast.model.failure_modes import FailureSpec
@@ -261,7 +261,7 @@ class _ComparisonSample:
         return [(f"kept at {_format_percent(self.level)} of the poses", "1", len(self.poses), interval)]
 
     def measure_fractions_above(self, index: RelativeManipulability) -> list[_Cell]:
-        lower, upper = finite_limits(index.arm)
+        lower, upper = sampling_limits(index.arm)
         value = index(np.random.default_rng(self.seed).uniform(lower, upper, (self.samples, index.arm.n)))
         counts = [int((value >= threshold).sum()) for threshold in self.thresholds]
         return [

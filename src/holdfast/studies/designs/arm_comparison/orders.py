@@ -17,7 +17,7 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.linalg import factor_householder, select_smallest, squared_volume
+from holdfast.kernels.linalg import factor_householder, gram_determinant, select_smallest
 from holdfast.model.failure_modes.sets import FailureSets
 from holdfast.studies.designs.synthesis.axes import find_joint_axes
 
@@ -229,10 +229,10 @@ def _make_worst_case_kernel(n: int, failures: int) -> Kernel:
         rotation = ca.SX.eye(3) + ca.sin(q[index]) * cross + (1 - ca.cos(q[index])) * cross @ cross
         frame_offset = frame_rotation @ (point - rotation @ point) + frame_offset
         frame_rotation = frame_rotation @ rotation
-    null_rows = factor_householder(ca.horzcat(*columns)).null_rows()
+    null_rows = factor_householder(ca.horzcat(*columns)).null_space_basis()
     failed_sets: FailureSets = tuple(combinations(range(n), failures))
     return Kernel(
         f"worst order {n} {failures}",
         [lines, q],
-        [select_smallest([squared_volume([null_rows[k] for k in s]) for s in failed_sets])],
+        [select_smallest([gram_determinant([null_rows[k] for k in s]) for s in failed_sets])],
     )

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from holdfast.core.typing import FloatArray
 
 
-def compute_ring_area(lengths: FloatArray, limits: FloatArray, samples: int = 25) -> FloatArray:
+def compute_tolerant_area(lengths: FloatArray, limits: FloatArray, samples: int = 25) -> FloatArray:
     """Return the area (P,), m^2, of the failure-tolerant workspace of planar arms of n revolute joints, n = 3 or more.
 
     The first two joints turn all the way. Links that others follow after a lock of joint k are one of length

@@ -13,7 +13,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm, factor_householder
-from holdfast.kinematics.solvers.inverse_kinematics import task_error
+from holdfast.kinematics.solvers.inverse_kinematics import task_error_and_jacobian
 from holdfast.model.arm import kinematics
 from holdfast.studies.designs.family import Family
 
@@ -57,10 +57,10 @@ class SelfMotionTracer:
     def _step_kernel(self) -> Kernel:
         arm, q = self.family.arm, kinematics.joint_symbols(self.family.arm)
         position, rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        error, jacobian = task_error(arm, self.family.task, q, position, rotation)
+        error, jacobian = task_error_and_jacobian(arm, self.family.task, q, position, rotation)
         scale = ca.sparsify(ca.SX(ca.DM(self.family.task.scale(self.family.space.arm.length_unit))))
         error, jacobian = scale @ error, scale @ jacobian
-        null_vectors = factor_householder(jacobian).null_rows()
+        null_vectors = factor_householder(jacobian).null_space_basis()
         outputs = ca.vertcat(
             q + damped_least_norm(jacobian, error, 1e-14), ca.norm_2(error), *[null_vectors[k][0] for k in range(arm.n)]
         )

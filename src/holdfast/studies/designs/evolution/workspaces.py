@@ -13,7 +13,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.workspace.closed_form import ThreeLinks, workspace_area
 from holdfast.model.arm.model import Arm
-from holdfast.studies.designs.evolution.annuli import compute_ring_area
+from holdfast.studies.designs.evolution.annuli import compute_tolerant_area
 from holdfast.studies.designs.evolution.found import EvolvedDesign
 from holdfast.studies.designs.evolution.strategy import minimise_by_evolution
 from holdfast.studies.designs.space import DesignSpace, Vary, design_space
@@ -55,7 +55,7 @@ def design_for_workspace(
     if generations < 1 or restarts < 1:
         raise InputError(f"generations is {generations} and restarts {restarts}; give at least 1")
     links = _LinkLengths(design_space(arm, vary), keep_reach)
-    area_functions: list[_Areas] = [_compute_ring_areas, *([_compute_three_link_areas] if arm.n == 3 else [])]
+    area_functions: list[_Areas] = [_compute_tolerant_areas, *([_compute_three_link_areas] if arm.n == 3 else [])]
     rng, history = np.random.default_rng(seed), list[float]()
     best, baseline_area = (0.0, links.space.start, np.tile([-np.pi, np.pi], (arm.n, 1))), 0.0
     with ProgressCount("generations", len(area_functions) * (restarts + 1) * generations) as advance:
@@ -69,7 +69,7 @@ def design_for_workspace(
             for restart in range(restarts + 1):
                 keep_lengths = restart == 0  # the given lengths: what limits alone give
                 parameter_count = len(links.space.start)
-                angles = 2 * (arm.n - 2) if compute_areas is _compute_ring_areas else 5
+                angles = 2 * (arm.n - 2) if compute_areas is _compute_tolerant_areas else 5
                 start_point = np.concatenate([links.space.draw(1, int(rng.integers(1 << 30)))[0], rng.uniform(-1, 1, angles)])
                 deviations = np.concatenate([(links.space.upper - links.space.lower) / 4, np.full(angles, 1.0)])
 
@@ -122,7 +122,7 @@ def design_for_workspace(
 _Areas = Callable[[FloatArray, FloatArray, bool], tuple[FloatArray, FloatArray]]
 
 
-def _compute_ring_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> tuple[FloatArray, FloatArray]:
+def _compute_tolerant_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> tuple[FloatArray, FloatArray]:
     """Return areas (P,) and limits (P, n, 2) of the link angles, from the middles and half widths of the ranges of joints 3 to
     n.
     """
@@ -130,7 +130,7 @@ def _compute_ring_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> 
     middle, half_ranges = angles[:, : n - 2], np.minimum(abs(angles[:, n - 2 :]), np.pi)
     limits = np.tile([-np.pi, np.pi], (arm_count, n, 1))
     limits[:, 2:] = np.stack([middle - half_ranges, middle + half_ranges], axis=2)
-    return compute_ring_area(lengths, limits[:, 2:], _FINAL_RANGE_SAMPLES if fine else _RANGE_SAMPLES), limits
+    return compute_tolerant_area(lengths, limits[:, 2:], _FINAL_RANGE_SAMPLES if fine else _RANGE_SAMPLES), limits
 
 
 def _compute_three_link_areas(lengths: FloatArray, angles: FloatArray, fine: bool) -> tuple[FloatArray, FloatArray]:

@@ -14,7 +14,7 @@ from pydantic import Field, ValidationError
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import yaml
-from holdfast.core.files.yaml import Number, Strict, describe_error
+from holdfast.core.files.yaml import Number, Strict, describe_validation_error
 from holdfast.core.formatting import format_percent
 from holdfast.core.labels import TASK_SIZES
 from holdfast.core.result import Result
@@ -400,7 +400,7 @@ def parse_record(content: Any, text: str, name: str) -> DesignRecord:
     try:
         data = RecordFile.model_validate(content)
     except ValidationError as error:
-        raise InputError(f"{name}: {describe_error(error, RecordFile, dh_file.POSE_TAGS)}") from error
+        raise InputError(f"{name}: {describe_validation_error(error, RecordFile, dh_file.POSE_TAGS)}") from error
     if [data.arm is None, data.null_space is None, data.kind.of is None].count(False) != 1:
         raise InputError(f"{name}: a record has an arm or a null_space, or its class is `of` an arm: one of them")
     if data.kind.of is not None and data.kind.of not in names():

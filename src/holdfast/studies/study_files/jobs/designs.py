@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from holdfast.core.sweeps.job import Chunk
 from holdfast.core.sweeps.store import Column
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.indices.own_file import check_digest
+from holdfast.kinematics.indices.own_file import check_function_digest
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.task import Task
 from holdfast.model.arms.serial import from_dict
@@ -57,7 +57,7 @@ class DesignJob(PlannedJob[CompiledDesigns]):
         family = Family(
             space, plan["index"], Task.from_dict(plan["task"]), failures=[list(failed) for failed in plan["failures"]]
         )
-        check_digest(family.index, plan)
+        check_function_digest(family.index, plan)
         poses, weights = sample_comparison_poses(Region.from_dict(plan["region"]), plan["poses"], plan["seed"])
         designs = list_designs(space, self.rows, plan["seed"])
         return Evaluator(family, poses, plan["seed"]), ReachEvaluator(family, plan["seed"]), designs, weights

@@ -57,4 +57,4 @@ class WorkspaceJob(PlannedLaw[tuple[TargetAnalysis, Places]]):
         job, places = self.compiled_parts
         chunk_places = Places(places.poses[chunk.start : chunk.stop])
         beginnings = StartConfigurations(job.law, chunk_places, job.configurations, job.method, chunk.own_seed)
-        return job.analyse(*beginnings.find_block(0, len(chunk)), len(chunk))
+        return job.analyse(*beginnings.find_configurations(0, len(chunk)), len(chunk))

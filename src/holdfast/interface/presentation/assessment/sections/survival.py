@@ -47,8 +47,8 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         Text(
             f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
             f"{'the weight of ' if facts.distribution.has_weights else ''}the "
-            f"{facts.distribution.samples:,} poses{_describe_safe_reach(facts)}. The lock that costs most is that of "
-            f"{worst}, {lock_positions[worst]}: "
+            f"{facts.distribution.samples:,} poses{_describe_collision_free_fraction(facts)}. "
+            f"The lock that costs most is that of {worst}, {lock_positions[worst]}: "
             f"{format_interval(fractions[worst])} of the poses are left."
         ),
         Picture(
@@ -68,7 +68,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     return blocks
 
 
-def _describe_safe_reach(facts: AssessmentFacts) -> str:
+def _describe_collision_free_fraction(facts: AssessmentFacts) -> str:
     """Describe the fraction of poses reached without collision; empty if collisions were not checked."""
     return (
         ""
