@@ -256,14 +256,14 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
     inner = [_kinds_of_node(each, scope) for each in parts if ast.unparse(each) != "..."]
     items = inner[-1] if outer == "Mapping" else inner[0]
 
-    if len(items) > 1 and any(each.description.startswith(("a sequence", "a mapping")) for each in items):
-        return (kind,)  # items that may be containers or something else are the function's to read
+    if any(each.description.startswith(("a sequence", "a mapping")) for each in items):
+        return (kind,)  # items that may be containers are the function's to read
 
     def accepts(value: Any) -> bool:
         if not kind.accepts(value):
             return False
         if outer == "tuple" and len(inner) == len(parts):
-            return len(value) == len(inner) and all(map(_is_of_kinds, value, inner))
+            return len(value) != len(inner) or all(map(_is_of_kinds, value, inner))  # the function checks the length
         values = value.values() if outer == "Mapping" else value if isinstance(value, (Sequence, np.ndarray)) else ()
         return all(_is_of_kinds(each, items) for each in values)
 

@@ -167,7 +167,7 @@ def fault_kinds() -> dict[str, FaultKind]:
     Raises:
         InputError: The codes are not 0, 1, 2, ..., each once, or a kind has too many parameters.
     """
-    exports = {module: names for module, names in read_exports("faults").items() if module.startswith(_KINDS_PACKAGE)}
+    exports = {module: names for module, names in read_exports("response.faults").items() if module.startswith(_KINDS_PACKAGE)}
     for module in exports:
         import_module(module)
     kinds = [kind for name, kind in _registered.items() if any(name in names for names in exports.values())]
