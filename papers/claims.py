@@ -1,7 +1,7 @@
 """A paper's statements beside ours, and the page of the docs that gathers them.
 
-``python -m papers.claims`` writes ``docs/claims.md`` from the tables of statements in every ``papers/*/RESULTS.md``, which
-the papers' own runs write; nothing is computed again.
+``python -m papers.claims`` writes ``docs/claims.md`` from the tables of statements in every ``papers/*/RESULTS.md`` and in
+``measurements/certificates/RESULTS.md``, which the papers' own runs write; nothing is computed again.
 """
 
 from __future__ import annotations
@@ -66,13 +66,13 @@ PAPERS = {
     "certificates": "Beliefs and gaps that certificates settle",
 }
 INTRODUCTION = """\
-<!-- Written by `python -m papers.claims` from papers/*/RESULTS.md: change those, not this page. -->
+<!-- Written by `python -m papers.claims` from RESULTS.md in papers and measurements: change those, not this page. -->
 
 # Claims checked
 
 holdfast makes the figures, tables and numbers of four papers again. This page lists their statements that can be true or
 false, beside what we computed. The command under each heading, run in a checkout of holdfast, computes everything in its
-table again and writes it, with the figures, into `papers/NAME/RESULTS.md`.
+table again and writes it, with the figures, into a file `RESULTS.md`.
 
 These papers are the ground of holdfast, and most of what they say holds. Where a statement does not hold *as it
 is written*, the row says how it can be read so that it does. Scans and lost displays make some places hard to read;
@@ -89,9 +89,14 @@ there each word in bold is proved by a [certificate](certificates.md), where a s
 """
 
 
+def find_package(name: str) -> Path:
+    """Return the folder of a paper, or of a measurement with the same form."""
+    return next(folder / name for folder in (HERE, HERE.parent / "measurements") if (folder / name).is_dir())
+
+
 def stored(name: str) -> list[Claim]:
-    """The statements of a paper as its last run wrote them."""
-    return read((HERE / name / "RESULTS.md").read_text(encoding="utf-8").splitlines())
+    """Read the statements of a paper as its last run wrote them."""
+    return read((find_package(name) / "RESULTS.md").read_text(encoding="utf-8").splitlines())
 
 
 def page() -> str:
@@ -101,7 +106,7 @@ def page() -> str:
     counts = ", ".join(f"{v} {every.count(v)}" for v in Verdict if v)
     lines = [*INTRODUCTION.splitlines(), "", f"{len(every)} statements so far: {counts}."]
     for name, title in PAPERS.items():
-        lines += ["", f"## {title}", "", "```sh", f"python -m papers.{name}", "```", ""]
+        lines += ["", f"## {title}", "", "```sh", f"python -m {find_package(name).parent.name}.{name}", "```", ""]
         lines += ["| statement | paper | ours | verdict |", "|---|---|---|---|"]
         lines += [f"| {c.where} | {c.paper} | {c.ours}; {c.why} | **{c.verdict}** |" for c in claims[name]]
     return "\n".join(lines) + "\n"

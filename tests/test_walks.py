@@ -83,7 +83,7 @@ def test_all_walks_in_one_copy(run, tmp_path):
         write(tmp_path, *line)
     command_file, command_line, command_test = steps("add-a-command")
     write(tmp_path, *command_file)
-    registry, imports = "tests/test_registry.py", "tests/interface/cli/test_imports.py"
+    registry, imports = "tests/core/test_registry.py", "tests/interface/cli/test_imports.py"
     code, told = tests(registry, imports, asked=["has_an_oracle", "in_the_table"])
     assert code == 1
     for _, name, _, _, kind in WALKS.values():

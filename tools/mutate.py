@@ -25,15 +25,15 @@ from typing import Any, NamedTuple
 ROOT = Path(__file__).parents[1]
 # By package: the files to mutate, below src/holdfast, and the tests to run, below tests.
 PACKAGES = {
-    "assessment": (["assessment/*"], ["assessment"]),
-    "clearance": (["clearance/**/*"], ["clearance"]),
-    "diagnosis": ([f"diagnosis/{name}" for name in ("bounds", "decision", "kinds", "plausibility", "signals")], ["diagnosis"]),
-    "probability": (
-        ["probability/*"],
-        ["test_beta.py", "test_interval.py", "test_interval_coverage.py", "test_sobol.py", "assessment"],
+    "assessment": (["studies/assessment/*"], ["studies/assessment"]),
+    "collision": (["model/collision/**/*"], ["model/collision"]),
+    "diagnosis": (
+        [f"response/diagnosis/{name}" for name in ("bounds", "decision", "kinds", "plausibility", "signals")],
+        ["response/diagnosis"],
     ),
-    "recovery": (["recovery/verification"], ["recovery"]),
-    "verifier": (["certificates/verified/*"], ["certificates"]),
+    "probability": (["core/probability/*"], ["core/probability", "studies/assessment"]),
+    "recovery": (["response/recovery/verification"], ["response/recovery"]),
+    "verifier": (["certificates/verifier_parts/*"], ["certificates"]),
 }
 ARITHMETIC: dict[type, Any] = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.BitAnd: ast.BitOr}
 COMPARISONS: dict[type, Any] = {

@@ -82,7 +82,7 @@ def test_the_bound_is_never_below_the_truth(rng, kind, flat4):
             test.max_ratio = thresholds[k] / np.sqrt(1 - thresholds[k] ** 2)
             token = int(test(middle[[k]], half[[k]])[0][0])
             document = {
-                "arm": documents._encode_arm(arm), "joint_box": documents._encode_floats(box), "threshold": thresholds[k].hex(),
+                "arm": documents._encode_arm(arm), "joint_box": documents.encode_floats(box), "threshold": thresholds[k].hex(),
                 "locks": list(range(n)), "task": "planar-pose" if kind == "planar" else "pose",
             }  # fmt: skip
             leaves = bounds.CeilingVerifier(document)

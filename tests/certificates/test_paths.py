@@ -103,12 +103,12 @@ def test_closed_form_of_a_planar_arm(bent, tmp_path):
             away = np.abs(np.append(tool[k:], np.exp(1j * np.cumsum(knots[-1])).sum()) - pivot)
             true[k] = away.max() < 1 + long and away.min() > abs(1 - long)
         said = np.zeros(len(at), dtype=bool)
-        for begin, stop in part.proved_spans:
+        for begin, stop in part.proved_lock_intervals:
             said |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (said & ~true).any()
         assert (true & ~said).mean() < 0.05
         never = np.zeros(len(at), dtype=bool)
-        for begin, stop in part.refuted_spans:
+        for begin, stop in part.refuted_lock_intervals:
             never |= (at > begin / SEGMENT) & (at < stop / SEGMENT)
         assert not (never & true).any()
         assert (~never & ~true).mean() < 0.02
@@ -507,7 +507,7 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     assert error.center == pytest.approx(missed(np.zeros(14)), abs=1e-14)
     assert (np.abs(error.center - missed(np.zeros(14))) <= error.radius + 1e-15).all()
     assert error.radius.max() < 1e-11
-    assert first.at == pytest.approx(slopes, abs=1e-8)
+    assert first.center == pytest.approx(slopes, abs=1e-8)
     e = 1e-4
     for i, j in rng.integers(14, size=(20, 2)):
         a, b = e * steps[i], e * steps[j]

@@ -237,7 +237,7 @@ def bundle(files: dict[str, dict[str, Any]], *, locks: list[int], ranges: Any) -
 def alone(folder: Path) -> Path:
     """The verifier's files and nothing else, in a folder where an import of holdfast fails."""
     source = Path(verifier.__file__)
-    shutil.copytree(source.parent / "verified", folder / "verified", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(source.parent / "verifier_parts", folder / "verifier_parts", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "holdfast.py").write_text("raise ImportError('holdfast is imported')\n", encoding="utf-8")
     return Path(shutil.copy(source, folder / source.name))
 

@@ -17,10 +17,10 @@ from holdfast.certificates.proof import Proof as Proof
 from holdfast.certificates.proof import TolerantProof as TolerantProof
 from holdfast.certificates.prover import certify as certify
 from holdfast.certificates.structure import StructuralZero as StructuralZero
-from holdfast.certificates.suggested_claims import make_workspace_claim as make_workspace_claim
+from holdfast.certificates.suggestions.working_ranges import WorkingRanges as WorkingRanges
+from holdfast.certificates.suggestions.working_ranges import find_working_ranges as find_working_ranges
+from holdfast.certificates.suggestions.workspace_claims import make_workspace_claim as make_workspace_claim
 from holdfast.certificates.tool_paths.claims import PathClaim as PathClaim
 from holdfast.certificates.tool_paths.claims import path_claim as path_claim
 from holdfast.certificates.tool_paths.proof import PathProof as PathProof
 from holdfast.certificates.tree import SearchState as SearchState
-from holdfast.certificates.working_ranges import WorkingRanges as WorkingRanges
-from holdfast.certificates.working_ranges import find_working_ranges as find_working_ranges

@@ -50,7 +50,7 @@ holdfast.kinematics.tool_constraints: Kept=ToolConstraint
 holdfast.kernels: BACKENDS=BACKEND_NAMES Single=SingleRowKernel Step=ControlStep pool=shared_pool recalled=cached_kernel
   recalled_data=cached_json settle=wait_for_compiler
 holdfast.response.recovery: Ending=RecoveryOutcome RowsGivenUp=RelaxedRows Verdict=RecoveryVerdict WhatIsLeft=RemainingWorkspace
-holdfast.interface.report: binned=bin_positions finished=settle_layout together=join_units
+holdfast.interface.report: binned=bin_positions finished=settle_layout together=insert_nonbreaking_spaces
 holdfast.control.simulation: Outcome=RunOutcome Path=RunPath
 holdfast.kinematics.solvers: Reach=PoseSolutions
 holdfast.studies: read=read_study_file

@@ -263,11 +263,12 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
         if not kind.accepts(value):
             return False
         if outer == "tuple" and len(inner) == len(parts):
-            return len(value) != len(inner) or all(map(_is_of_kinds, value, inner))  # the function checks the length
+            return len(value) == len(inner) and all(map(_is_of_kinds, value, inner))
         values = value.values() if outer == "Mapping" else value if isinstance(value, (Sequence, np.ndarray)) else ()
         return all(_is_of_kinds(each, items) for each in values)
 
-    return (_Kind(kind.description + (f", each {_describe_kinds(items)}" if items else ""), accepts),)
+    size = f" of {len(inner)}" if outer == "tuple" and len(inner) == len(parts) else ""
+    return (_Kind(f"{kind.description}{size}" + (f", each {_describe_kinds(items)}" if items else ""), accepts),)
 
 
 def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:

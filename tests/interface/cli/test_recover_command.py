@@ -117,7 +117,7 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--margin", "0.1"], "--margin has no effect"),
         ([*CALL, "--accelerations", "quick"], "--accelerations"),
         ([*CALL, "--accelerations", "3=1"], "no limit of 'joint1'"),
-        ([*CALL, "--tolerance", "1mm"], "give two finite numbers"),
+        ([*CALL, "--tolerance", "1mm"], "a sequence of 2"),
         ([*CALL, "--tolerance", "1mm,x"], "--tolerance '1mm,x' is not a number"),
     ],
     ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin", "accelerations", "missing", "one", "number"],

@@ -18,7 +18,7 @@ def machine(mixed7):
 def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
     q = rng.uniform(-0.8, 0.8, 7)
     for failed in ((), (3,)):
-        there = q + 0.1 * rng.uniform(-1, 1, 7)
+        there = q + 0.05 * rng.uniform(-1, 1, 7)
         there[list(failed)] = q[list(failed)]
         pose = machine.tool_pose(there)
         found, on = machine.solve_near(q, pose, failed)

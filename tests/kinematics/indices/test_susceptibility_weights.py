@@ -92,7 +92,7 @@ def test_largest_static_torque_against_brute_force(types, rng):
     bounds = list(zip(arm.lower, arm.upper, strict=True))
     for k in range(arm.n):
         best = 0.0
-        for start in q[np.argsort(-tau[:, k])[:3]]:
+        for start in q[np.argsort(-tau[:, k])[:20]]:
             sign = np.sign(arm.gravity_torque(start)[k])
             found = minimize(lambda x, k=k, s=sign: -s * arm.gravity_torque(x)[k], start, bounds=bounds, method="L-BFGS-B")
             best = max(best, -found.fun)

@@ -9,7 +9,7 @@ import holdfast as hf
 import oracles
 from holdfast import InputError, TaskError, arms, certify, tolerant_workspace
 from holdfast.certificates import make_workspace_claim
-from holdfast.certificates.suggested_claims import find_inner_box
+from holdfast.certificates.suggestions.workspace_claims import find_inner_box
 from holdfast.interface.presentation.workspace.region import next_steps
 from holdfast.kinematics.workspace.samples import with_artificial_limits
 

@@ -37,7 +37,8 @@ OTHERS = {
 def public() -> dict[str, object]:
     """Every public callable with ``locked=``."""
     found = {}
-    for module in [hf, *(importlib.import_module(m.name) for m in pkgutil.iter_modules(hf.__path__, "holdfast.") if m.ispkg)]:
+    packages = [m.name for m in pkgutil.walk_packages(hf.__path__, "holdfast.") if m.ispkg and m.name.count(".") <= 2]
+    for module in [hf, *map(importlib.import_module, packages)]:
         for name in getattr(module, "__all__", dir(module)):
             thing = getattr(module, name, None)
             if name.startswith("_") or not callable(thing) or not getattr(thing, "__module__", "").startswith("holdfast"):

@@ -31,7 +31,7 @@ def kinds_with(name):
 
 
 def test_every_exported_constructor_is_a_kind_with_its_code():
-    exports = read_exports("faults")
+    exports = read_exports("response.faults")
     exported = {
         name for module, names in exports.items() if module.startswith("holdfast.response.faults.kinds.") for name in names
     }

@@ -298,7 +298,7 @@ def test_a_box_in_which_the_arm_blocks_itself_holds_nothing_that_is_clear(bodies
 def test_poses_without_a_clear_configuration_are_proved_to_have_none(rng):
     """Against configurations of closed forms, one every half degree of the first joint."""
     arm, proved, known = three_links(2.8), 0, 0
-    for _ in range(12):
+    for _ in range(24):
         centres, target = rng.uniform(-1.6, 1.6, (2, 2)), rng.uniform(-1.8, 1.8, 2)
         pose = np.eye(4)
         pose[:2, 3] = target

@@ -167,7 +167,7 @@ def test_disconnected_no_flood_over_a_grid_joins_what_is_proved_apart(three, rng
         sure = label(room > farthest)[0]
         assert not (proof and sure[start] == sure[goal] != 0)
         proved += proof is not None
-    assert proved > 20
+    assert proved > 10
 
 
 def test_disconnected_no_leg_that_a_branch_follows_is_proved_parted(three, rng):

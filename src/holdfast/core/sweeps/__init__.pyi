@@ -2,8 +2,6 @@ from holdfast.core.sweeps.cluster import Cluster as Cluster
 from holdfast.core.sweeps.job import Chunk as Chunk
 from holdfast.core.sweeps.job import SweepCell as SweepCell
 from holdfast.core.sweeps.job import SweepJob as SweepJob
-from holdfast.core.sweeps.merge import MergeReport as MergeReport
-from holdfast.core.sweeps.merge import merge_studies as merge_studies
 from holdfast.core.sweeps.runner import ChunkResult as ChunkResult
 from holdfast.core.sweeps.runner import ChunkTask as ChunkTask
 from holdfast.core.sweeps.runner import Runner as Runner
@@ -13,5 +11,7 @@ from holdfast.core.sweeps.state import DamagedChunk as DamagedChunk
 from holdfast.core.sweeps.store import Column as Column
 from holdfast.core.sweeps.store import Store as Store
 from holdfast.core.sweeps.study import Study as Study
+from holdfast.core.sweeps.study_merge import MergeReport as MergeReport
+from holdfast.core.sweeps.study_merge import merge_studies as merge_studies
 from holdfast.core.sweeps.verification import StudyVerification as StudyVerification
 from holdfast.core.sweeps.verification import verify_studies as verify_studies

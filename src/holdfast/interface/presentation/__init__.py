@@ -52,7 +52,7 @@ PRESENTER_MODULES = {
     "kinematics.interval_search.search.Configurations": ("interval_search.console", ""),
     "response.lock_survival.planning.LockSurvival": ("lock_survival.console", "lock_survival.page"),
     "core.sweeps.study.Study": ("studies.console", "studies.page"),
-    "core.sweeps.merge.MergeReport": ("studies.console", ""),
+    "core.sweeps.study_merge.MergeReport": ("studies.console", ""),
     "control.equilibria.attraction.Basins": ("equilibria.basins", "equilibria.basins"),
     "control.equilibria.curves.Curves": ("equilibria.curves", "equilibria.curves"),
     "control.equilibria.limit_cycles.Orbit": ("equilibria.orbit", ""),
@@ -66,7 +66,7 @@ PRESENTER_MODULES = {
     "control.physics.fall.FreeSwing": ("physics.swing", "physics.swing"),
     "control.physics.run.PhysicalRun": ("physics.console", "physics.run"),
     "kinematics.workspace.tolerance.TolerantWorkspace": ("workspace.region", "workspace.region"),
-    "certificates.working_ranges.WorkingRanges": ("certificates.working_ranges", ""),
+    "certificates.suggestions.working_ranges.WorkingRanges": ("certificates.suggestions.working_ranges", ""),
     "response.supervisor.run.FaultRun": ("supervisor.console", "supervisor.page"),
     "response.recovery.recovery.Recovery": ("recovery.console", "recovery.motion"),
     "response.recovery.workspace_after_failure.RemainingWorkspace": (

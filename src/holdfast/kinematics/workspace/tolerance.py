@@ -14,7 +14,7 @@ from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import ProgressCount, reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
-from holdfast.core.validation import check_arguments
+from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.workspace import closed_form as tolerant_planar
 from holdfast.kinematics.workspace import samples as tolerant_sampled
 from holdfast.kinematics.workspace.closed_form import ThreeLinks
@@ -227,7 +227,10 @@ def _read_limits(arm: Arm, limits: Limits | None) -> FloatArray:
         return ranges
     if isinstance(limits, Mapping):
         for name, pair in limits.items():
-            ranges[arm.joint_index(name)] = pair
+            values = require_real_numbers(pair, f"limits of joint {name}", "two numbers, lower and upper")
+            if values.shape != (2,):
+                raise InputError(f"limits of joint {name} have shape {values.shape}; give two numbers, lower and upper")
+            ranges[arm.joint_index(name)] = values
     else:
         array = np.asarray(limits, dtype=np.float64)
         if array.shape != (arm.n, 2):

@@ -156,7 +156,7 @@ def merge(
 
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
-    from holdfast.core.sweeps.merge import merge_studies as join
+    from holdfast.core.sweeps.study_merge import merge_studies as join
 
     target, sources = (folders[0], folders[1:]) if out is None else (out, folders)
     if not sources:

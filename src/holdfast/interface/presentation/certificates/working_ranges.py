@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from holdfast.certificates.working_ranges import WorkingRanges
+from holdfast.certificates.suggestions.working_ranges import WorkingRanges
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation.printing import TextTable
 from holdfast.interface.presentation.solvers.self_motions import format_ranges

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.formatting import format_count, format_duration
-from holdfast.core.sweeps.merge import MergeReport
 from holdfast.core.sweeps.study import Study
+from holdfast.core.sweeps.study_merge import MergeReport
 from holdfast.interface.presentation.printing import TextTable, print_table
 from holdfast.kernels.threads import thread_count
 from holdfast.studies.study_files.estimate import CellEstimate

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.certificates.claims import TolerantClaim, narrow_limits, tolerant_claim
+from holdfast.certificates.suggestions.box_samples import sample_box_poses
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_percent
 from holdfast.core.progress import reports_progress
@@ -23,7 +23,6 @@ from holdfast.kinematics.workspace import samples
 from holdfast.model.arm.configurations import replace_infinite_limits, sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
-from holdfast.model.arm.urdf import rpy_rotation
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
 _BISECTION_STEPS = 10  # of the distance between a value that passes and the next one of the grid, which fails
@@ -213,7 +212,7 @@ class _RangeSearch:
         self._claim, self._arm, self._bounds, self._seed = claim, claim.arm, bounds, seed
         self._targets, self._values = targets, values
         self._task: Task = as_task(claim.arm, claim.task)
-        self._poses = _sample_box_poses(self._claim, self._targets, self._seed, 0)
+        self._poses = sample_box_poses(self._claim, self._targets, self._seed, 0)
         locks = np.isin(np.arange(claim.arm.n), claim.locks)
         width = bounds[:, 1] - bounds[:, 0]
         self._is_periodic = locks & joint_space.is_unlimited(claim.arm) & (width >= 2 * np.pi - 1e-9)
@@ -227,7 +226,7 @@ class _RangeSearch:
 
     def add_sample(self, sample: int) -> None:
         """Add a sample to the poses for which ranges are searched."""
-        self._poses = np.concatenate([self._poses, _sample_box_poses(self._claim, self._targets, self._seed, sample)])
+        self._poses = np.concatenate([self._poses, sample_box_poses(self._claim, self._targets, self._seed, sample)])
 
     def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[NDArray[np.bool_]]:
         """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
@@ -364,7 +363,7 @@ class _RangeSearch:
         The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
         """
         poses, generator = (
-            _sample_box_poses(self._claim, self._targets, self._seed, sample),
+            sample_box_poses(self._claim, self._targets, self._seed, sample),
             np.random.default_rng([self._seed, sample, 1]),
         )
         parts = max(self._values - 2, 1)
@@ -400,27 +399,3 @@ def _relative_widths(arm: Arm, ranges: FloatArray) -> FloatArray:
     return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(limit_widths > 0, limit_widths, 1.0) + (
         limit_widths <= 0
     )
-
-
-def _sample_box_poses(claim: TolerantClaim, count: int, seed: int, sample: int) -> FloatArray:
-    """Return poses (N, 4, 4) of the corners of a claim's box, and of ``count`` targets inside; each sample is another one."""
-    from scipy.stats import qmc
-
-    box = claim.box
-    varying = box[:, 0] < box[:, 1]
-    corners = np.array(list(product(*([lower, upper] if lower < upper else [lower] for lower, upper in box))))
-    inside = np.tile(box[:, 0], (count if varying.any() else 0, 1))
-    if varying.any():
-        halton = qmc.Halton(int(varying.sum()), rng=np.random.default_rng([seed, sample]))
-        inside[:, varying] = qmc.scale(halton.random(len(inside)), *box[varying].T)
-    rows = np.vstack([corners, inside])
-    position_count = 2 if claim.task.startswith("planar") else 3
-    poses = np.tile(np.eye(4), (len(rows), 1, 1))
-    poses[:, :position_count, 3] = rows[:, :position_count]
-    if claim.rotation is not None:
-        poses[:, :3, :3] = claim.rotation
-    elif rows.shape[1] > position_count:  # of a planar pose yaw alone
-        angles = np.zeros((len(rows), 3))
-        angles[:, position_count - rows.shape[1] :] = rows[:, position_count:]
-        poses[:, :3, :3] = [rpy_rotation(row.tolist()) for row in angles]
-    return poses
