@@ -27,8 +27,7 @@ from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
 _BISECTION_STEPS = 10  # of the distance between a value that passes and the next one of the grid, which fails
 _MAX_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tried
-# _RETRY_FRACTION and _MORE_RESTARTS: where so many are reached, the others are tried again from more starts
-_RETRY_FRACTION = 0.8
+_RETRY_FRACTION = 0.8  # where so many are reached, the others are tried again
 _MORE_RESTARTS = 400
 _MAX_SHORTENINGS = 4  # of ranges that a fresh sample may shorten
 

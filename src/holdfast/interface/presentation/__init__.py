@@ -66,7 +66,7 @@ PRESENTER_MODULES = {
     "control.physics.fall.FreeSwing": ("physics.swing", "physics.swing"),
     "control.physics.run.PhysicalRun": ("physics.console", "physics.run"),
     "kinematics.workspace.tolerance.TolerantWorkspace": ("workspace.region", "workspace.region"),
-    "certificates.suggestions.working_ranges.WorkingRanges": ("certificates.suggestions.working_ranges", ""),
+    "certificates.suggestions.working_ranges.WorkingRanges": ("certificates.working_ranges", ""),
     "response.supervisor.run.FaultRun": ("supervisor.console", "supervisor.page"),
     "response.recovery.recovery.Recovery": ("recovery.console", "recovery.motion"),
     "response.recovery.workspace_after_failure.RemainingWorkspace": (
