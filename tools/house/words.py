@@ -14,24 +14,17 @@ RETIRED = {
     "hand": r"(?<!by )(?<!in )(?<!at )(?<!other )(?<!right-)(?<!left-)\bhands?\b(?!-| (over|on|in|out|back|it|them)\b)",
     "stand": r"\b(stands?|stood|standing)\b(?! (for|alone|in)\b)",
     "stuck joint": r"\b(joints?|brakes?|it|one|which) (is|are|gets?) stuck\b|\bstuck (joint|brake)s?\b",
-    "limp": r"(?<!`)(?<!kind: )\blimp\b",  # the name of a kind of fault, which is hashed, may be written as code
     "let go": r"\blets? go\b(?! on\b)",
     "turning joint": r"\bturning joints?\b",
     "sliding joint": r"\bsliding joints?\b",
     "rest": r"\b(points?|places?) of rest\b|\brest (points?|curves?)\b|\bcom(e|es|ing) to rest\b",
-    "arriv": r"\barriv(e|es|ed|ing|als?)\b",
-    "come to": r"\bcom(e|es|ing) to (a|an|the|its|every|that|any) ",
     "way home": r"\bways? home\b",
     "to spare": r"\bto spare\b",
     "go on": r"\b(stopped|killed|interrupted|study|search|again to)\b[^.;:]{0,30}\bgo(es)? on\b|\bgo(es)? on there\b",
-    "from where": r"\bfrom where (do|does|the|an?)\b",
-    "is none": r"\b(what|that|which) (is|are|may be) (none|no [a-z]+)\b",
-    "do not look": r"\bdo not look\b",
 }
 # In keys of --json, columns and stored tables, where a name is one word.
 RETIRED_NAMES = {
     "share": r"(^|_)shares?(_|$)",
-    "arriv": r"(^|_)arriv(e|es|ed|al|als)(_|$)",
     "hand": r"(^|_)hand(_|$)",
     "stand": r"(^|_)stands(_|$)",
 }
@@ -40,8 +33,6 @@ GUIDES = {"run-your-own-experiment.md", "experiment.md"}
 # A pattern is tried where one of these is in the text: most texts have none.
 STEMS = {
     "stand": ("stand", "stood"),
-    "is none": ("what ", "that ", "which "),
-    "come to": ("com",),
     "go on": (" go",),
     "let go": ("let",),
 }

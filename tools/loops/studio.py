@@ -1,6 +1,6 @@
 """A joint locks, the lost direction appears, and the stance of the same tool point that is optimised keeps it.
 
-The real studio in headless Chromium, with its server; needs what ``tests/studio`` needs.
+The real studio in headless Chromium, with its server; needs what ``tests/interface/studio`` needs.
 """
 
 from __future__ import annotations
