@@ -117,7 +117,7 @@ WORK = {
         "arm = hf.arms.load('panda'); m = CompiledArm(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
         "frames = getattr(arm, 'frames', None) or m.frames\n"
         "def page(x):\n"
-        "    frames(x); reading = m.evaluate(x, (), 'relative-manipulability', 'torque')\n"
+        "    frames(x); reading = m.evaluate_live_reading(x, (), 'relative-manipulability', 'torque')\n"
         "    bars_html(reading.bars, '', arm.joint_names, up); bars_html(reading.weights, '', arm.joint_names, up)\n"
         "    losses_html(arm, m.task, reading, ())",
         "for x in q: page(x)",

@@ -129,7 +129,7 @@ def test_contraction(factor):
     """The box (1, 2) becomes (0.1 + 2 b, 0.4 + 2 c), of which one side is the box's own."""
     for b, c in ((0.4495 / factor, 0.1), (0.1, 0.799 / factor)):
         slope = np.array([[[9.0, 0.1, b], [9.0, 0.4, c]]])
-        faults = SimpleNamespace(m=2, bound_gradients=lambda cells, half, slope=slope: slope)
+        faults = SimpleNamespace(m=2, bound_residual_gradients=lambda cells, half, slope=slope: slope)
         cells = SimpleNamespace(half_widths=np.ones((1, 4)))
         assert PathVerifier.is_contraction(faults, cells, np.array([[1.0, 2.0]]))[0] == (factor > 1)
 
@@ -150,7 +150,7 @@ def test_turned_cells_go_forward(rng, factor, columns):
         own = rng.normal(size=(1, m + 1, 2 + columns + m))
         fastest = np.linalg.solve(np.eye(m) - slope[0, :, 1:], slope[0, :, 0])
         own[0, -1, 1] = abs(own[0, -1, -m:]) @ fastest / factor
-        faults = SimpleNamespace(m=m, bound_gradients=lambda cells, half, slope=slope: slope)
+        faults = SimpleNamespace(m=m, bound_residual_gradients=lambda cells, half, slope=slope: slope)
         cells = SimpleNamespace(half_widths=rng.uniform(0.1, 1, (1, 2 + columns + m)))
         assert PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e3]))[0] == (factor < 1)
         own[0, -1, 1] += 1
@@ -163,7 +163,7 @@ def test_turned_cells_whose_section_runs_away():
     own, cells = np.ones((1, 2, 3)), SimpleNamespace(half_widths=np.ones((1, 3)))
     own[0, -1, 1] = 1e9
     for slope in (1.0, 1.5):
-        faults = SimpleNamespace(m=1, bound_gradients=lambda cells, half, slope=slope: np.array([[[0.1, slope]]]))
+        faults = SimpleNamespace(m=1, bound_residual_gradients=lambda cells, half, slope=slope: np.array([[[0.1, slope]]]))
         assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e12]))[0]
 
 
@@ -174,7 +174,7 @@ def test_turned_cells_whose_equations_are_solved_badly():
     assert (b * (1 - f) + c * e) / ((1 - a) * (1 - f) - c * d) > 2e13
     own = np.array([[[0.0, 0, 0, 0], [0, 0, 0, 0], [0, 2e13, 1, 0]]])
     faults, cells = (
-        SimpleNamespace(m=2, bound_gradients=lambda cells, half: slope),
+        SimpleNamespace(m=2, bound_residual_gradients=lambda cells, half: slope),
         SimpleNamespace(half_widths=np.ones((1, 4))),
     )
     assert not PathVerifier.moves_forward(faults, cells, BallArray(own), np.array([-1e30]))[0]
@@ -282,7 +282,7 @@ def test_rings_of_an_elbow(first, elbow, side):
     for gap, excluded in ((0.0, False), (2e-3, True)):
         ends = np.sort(elbow + side * np.array([gap, gap + 0.01]))
         ring = make_ring(ELBOW, q, [0.3, ends[0]], [0.3, ends[1]], turns=False)
-        assert ring.exclude_cells([first, TIP], [((0, 0),) * 2])[0] == excluded
+        assert ring.find_excluded_cells([first, TIP], [((0, 0),) * 2])[0] == excluded
 
 
 @pytest.mark.parametrize("elbow", [-2.0, -0.7, 0.4, 1.5])
@@ -299,7 +299,7 @@ def test_rings_whose_base_is_not_known_exactly(elbow, angle, part):
         else:
             ring.chain.origins[2] = ring.chain.origins[2] + off
             ring._base_radius = abs(off)
-        assert not ring.exclude_cells([ROOT if part == "base" else ASIDE, TIP], [((0, 0),) * 2])[0]
+        assert not ring.find_excluded_cells([ROOT if part == "base" else ASIDE, TIP], [((0, 0),) * 2])[0]
 
 
 @pytest.mark.parametrize("slides", [None, [False, True, False]])
@@ -314,7 +314,7 @@ def test_rings_of_random_arms(rng, slides, turns):
         high = np.maximum(high, low + 2 * half * (low == q))
         one, other = sorted(rng.integers(4, size=2)) if turns else (int(rng.integers(4)), 3)
         points = [(one, rng.normal(size=3)), (other, rng.normal(size=3) if turns else np.array(frames[-1][1]))]
-        assert not make_ring(arm, q, low, high, turns=turns).exclude_cells(points, [((0, 0),) * 3])[0]
+        assert not make_ring(arm, q, low, high, turns=turns).find_excluded_cells(points, [((0, 0),) * 3])[0]
         elsewhere = make_ring(arm, q, q + 0.5, q + 0.51, turns=turns)
-        excluded += elsewhere.exclude_cells(points, [((0, 0),) * 3])[0]
+        excluded += elsewhere.find_excluded_cells(points, [((0, 0),) * 3])[0]
     assert excluded > 5

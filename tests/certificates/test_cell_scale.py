@@ -20,7 +20,7 @@ def forms(panda, rng):
 
 def test_a_scale_is_the_last_test_that_passes(forms, rng):
     form, cells = forms
-    passes = np.array([form.prove_cells(cells * k / 16) for k in range(1, 16)])
+    passes = np.array([form.is_cell_proved(cells * k / 16) for k in range(1, 16)])
     assert (passes[:-1] >= passes[1:]).all()  # less of a cell is never harder
     most = passes.sum(axis=0) / 16
     assert len(set(most.tolist())) > 3
@@ -31,4 +31,4 @@ def test_a_scale_is_the_last_test_that_passes(forms, rng):
 
 def test_cells_may_be_as_small_as_one_likes(forms):
     form, cells = forms
-    assert form.prove_cells(1e-6 * cells / cells.max(axis=1, keepdims=True)).all()
+    assert form.is_cell_proved(1e-6 * cells / cells.max(axis=1, keepdims=True)).all()

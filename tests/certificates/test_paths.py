@@ -512,7 +512,7 @@ def test_error_and_derivatives_of_the_verifier(moved, tmp_path, rng):
     for i, j in rng.integers(14, size=(20, 2)):
         a, b = e * steps[i], e * steps[j]
         bend = (missed(a + b) - missed(a - b) - missed(b - a) + missed(-a - b)) / (4 * e**2)
-        assert second.at[:, i, j] == pytest.approx(bend, abs=1e-6)
+        assert second.center[:, i, j] == pytest.approx(bend, abs=1e-6)
 
 
 def test_what_is_behind_the_second_order_is_bounded(panda, rng):

@@ -47,7 +47,7 @@ def test_what_is_registered_is_what_the_package_exports(kind):
     """By what the functions return: every exported one that makes a thing of the kind for an arm."""
     package, made = {
         "index": (hf.indices, Index),
-        "control law": (hf.control, hf.control.Law),
+        "control law": (hf.control.laws, hf.control.Law),
         "susceptibility": (hf.susceptibility, hf.susceptibility.Susceptibility),
     }[kind]
     makers = set()

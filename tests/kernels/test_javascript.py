@@ -160,7 +160,7 @@ def test_constants_keep_every_bit(rng):
     x = ca.SX.sym("x")
     found = in_node([x], [ca.vertcat(*values)], np.zeros((1, 1)))[0]
     np.testing.assert_array_equal(found, values)
-    assert printer._write_number(-0.0) == ("-0", printer._BINDS_SUM)
+    assert printer._number_and_binding(-0.0) == ("-0", printer._BINDS_SUM)
     signs = in_node([x], [ca.vertcat(x - ca.SX(-2.0), x + ca.SX(-3.0), -2.0 * (-x), -(-2.0 - x))], np.array([[1.0]]))
     np.testing.assert_array_equal(signs, [[3.0, -2.0, 2.0, 3.0]])
 

@@ -142,7 +142,7 @@ def calm(torque):
 
 
 def told(torque, course, **options):
-    settings = {"tracks": True, "requested": None, "cap_phrase": "the cap"} | options
+    settings = {"follows_extremum": True, "requested_value": None, "cap_phrase": "the cap"} | options
     return {e.kind: e for e in find_events(torque, course, **settings)}
 
 
@@ -166,7 +166,7 @@ def test_events_of_made_up_motions(torque, calm):
     lost = told(torque, replace(calm, curvature=np.where(middle, -1.0, 1.0)))
     assert list(lost) == ["algorithmic singularity"]
     assert "on its way to another local best" in lost["algorithmic singularity"].text
-    assert told(torque, replace(calm, curvature=np.where(middle, -1.0, 1.0)), tracks=False) == {}
+    assert told(torque, replace(calm, curvature=np.where(middle, -1.0, 1.0)), follows_extremum=False) == {}
     never = told(torque, replace(calm, curvature=np.where(calm.time > 4, -1.0, 1.0)))
     assert "has not reached one by the end" in never["algorithmic singularity"].text
     fast = told(torque, replace(calm, rate_norm=np.where(middle, 30.0, 1.0)))
@@ -174,7 +174,7 @@ def test_events_of_made_up_motions(torque, calm):
     assert "30 rad/s (30 times" in fast["fast motion"].text
     jump = told(torque, replace(calm, value=np.where(calm.time > 4, 5.0, 1.0)))
     assert jump["value jump"].start == pytest.approx(4, abs=0.01)
-    kept = told(torque, replace(calm, value=np.where(middle, 2.0, 1.0)), requested=1.0)
+    kept = told(torque, replace(calm, value=np.where(middle, 2.0, 1.0)), requested_value=1.0)
     assert kept["value not kept"].start == pytest.approx(4, abs=0.01)
     empty = told(torque, replace(calm, value=0 * calm.time))
     assert empty == {}

@@ -21,7 +21,7 @@ def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
         there = q + 0.05 * rng.uniform(-1, 1, 7)
         there[list(failed)] = q[list(failed)]
         pose = machine.tool_pose(there)
-        found, on = machine.solve_near(q, pose, failed)
+        found, on = machine.solve_pose_near(q, pose, failed)
         assert on
         np.testing.assert_allclose(machine.tool_pose(found), pose, atol=1e-5)
         assert (found[list(failed)] == q[list(failed)]).all()
@@ -35,7 +35,7 @@ def test_out_of_reach_the_arm_never_goes_away_from_the_pose(machine, rng):
     far[:3, 3] += 10 * machine.size
     before = np.linalg.norm(far[:3, 3] - pose[:3, 3])
     for _ in range(5):
-        q, on = machine.solve_near(q, far, ())
+        q, on = machine.solve_pose_near(q, far, ())
         assert not on
         after = np.linalg.norm(far[:3, 3] - machine.tool_pose(q)[:3, 3])
         assert after <= before + 1.0  # orientation counts as well
@@ -66,10 +66,10 @@ def test_without_redundancy_nothing_slides(machine, rng):
 def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
     q = rng.uniform(-1, 1, 7)
     rho = hf.indices.relative_manipulability(machine.arm)
-    reading = machine.evaluate(q, (), "relative-manipulability", "torque")
+    reading = machine.evaluate_live_reading(q, (), "relative-manipulability", "torque")
     assert reading.failure_joints == (int(rho.worst_joint(q)),)
     np.testing.assert_array_equal(reading.bars.values, rho.by_joint(q))
-    assert machine.evaluate(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
+    assert machine.evaluate_live_reading(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
     assert isinstance(reading.weights, str)  # nothing is known of these bodies
     assert "link" in reading.weights
 

@@ -17,7 +17,7 @@ class Astray:
     def __init__(self, rng):
         self.rng = rng
 
-    def correct(self, q, poses):
+    def project_onto_poses(self, q, poses):
         return np.where(q[:, :1] < 1, q, self.rng.uniform(-20, 20, q.shape)), np.ones(len(q), dtype=bool), None
 
 

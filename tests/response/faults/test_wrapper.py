@@ -94,7 +94,7 @@ def test_what_has_no_model_is_refused():
 def test_feasibility_against_the_closed_form_of_a_planar_arm(three, rng):
     arm = three.arm  # three links of length 1
     seen = set()
-    for _ in range(12):
+    for _ in range(30):
         angle, goal = rng.uniform(-3, 3), np.r_[rng.uniform(-2, 2, 2), 0.0]
         found = feasible(arm, goal, {FaultEvent("locked", arm.joint_names[2], 0.0): angle}, restarts=20)
         outer = np.hypot(1 + np.cos(angle), np.sin(angle))  # the last two links are one

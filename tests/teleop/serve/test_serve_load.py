@@ -61,7 +61,7 @@ Server(config).run()
 
 def test_more_sockets_than_files_let_others_in():
     """The oldest silent socket makes room: the server never runs out of files, and the log says nothing."""
-    with served("bounded.make_protocols(bounded.raise_file_limit() // 2, (30.0, 30.0))", 64) as server, ExitStack() as opened:
+    with served("bounded.make_bounded_protocols(bounded.raise_file_limit() // 2, (30.0, 30.0))", 64) as server, ExitStack() as opened:
         port = int(server.stdout.readline())
         silent = [opened.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(150)]
         for each in silent[:5]:
@@ -74,7 +74,7 @@ def test_more_sockets_than_files_let_others_in():
 
 def test_a_request_that_does_not_end_is_ended():
     with (
-        served("bounded.make_protocols(100, (0.2, 0.3))", 256) as server,
+        served("bounded.make_bounded_protocols(100, (0.2, 0.3))", 256) as server,
         socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as slow,
     ):
         slow.sendall(b"GET / HTTP/1.1\r\nHost: x\r\nX: ")
@@ -102,7 +102,7 @@ def is_closed(client):
 def test_a_client_that_reads_no_answer_is_closed(request_text):
     """The answer is larger than the buffers of the system, and so it stays in the server's memory."""
     with (
-        served("bounded.make_protocols(100, (0.2, 0.3))", 256, "bytes(2**23)") as server,
+        served("bounded.make_bounded_protocols(100, (0.2, 0.3))", 256, "bytes(2**23)") as server,
         socket.create_connection(("127.0.0.1", int(server.stdout.readline()))) as client,
     ):
         client.sendall(request_text)
@@ -112,7 +112,7 @@ def test_a_client_that_reads_no_answer_is_closed(request_text):
 @pytest.mark.skipif(not hasattr(select, "POLLRDHUP"), reason="the end of an unread connection is seen on Linux only")
 def test_unread_answers_take_a_bounded_amount_of_memory():
     """The third client that does not read takes the place of the first one, long before the deadline."""
-    with served("bounded.make_protocols(100, (600.0, 600.0), 2)", 256, "bytes(2**23)") as server, ExitStack() as opened:
+    with served("bounded.make_bounded_protocols(100, (600.0, 600.0), 2)", 256, "bytes(2**23)") as server, ExitStack() as opened:
         port = int(server.stdout.readline())
         clients = [opened.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(3)]
         for client in clients:
@@ -123,7 +123,7 @@ def test_unread_answers_take_a_bounded_amount_of_memory():
 def test_a_slow_reader_gets_the_whole_answer():
     """Several deadlines pass while it reads."""
     with (
-        served("bounded.make_protocols(100, (0.2, 0.2))", 256, "bytes(2**23)") as server,
+        served("bounded.make_bounded_protocols(100, (0.2, 0.2))", 256, "bytes(2**23)") as server,
         socket.create_connection(("127.0.0.1", int(server.stdout.readline())), timeout=30) as client,
     ):
         client.sendall(GET + b"Connection: close\r\n\r\n")

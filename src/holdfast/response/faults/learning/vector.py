@@ -209,7 +209,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         positions, rotations = goals[:, :3, 3], goals[:, :3, :3].reshape(count, 9)
         self._episodes[rows] = np.concatenate([q_start, positions, rotations, faults], axis=1)
         if self._on_gpu:
-            self._episode_table.update(rows, self._episodes)
+            self._episode_table.upload_rows(rows, self._episodes)
         self._event_ids[rows] = [episode_events.id for episode_events in events]
         self._episode_numbers[rows], self._has_begun = episodes, True
 
