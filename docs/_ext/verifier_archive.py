@@ -15,7 +15,7 @@ _MAIN = "import sys\n\nfrom verifier import main\n\nif __name__ == '__main__':\n
 def zipped(file: Path) -> Path:
     """Write the archive, the same bytes from the same files."""
     source = Path(__file__).parents[2] / "src" / "holdfast" / "certificates"
-    parts = [source / "verifier.py", *sorted((source / "verified").glob("*.py"))]
+    parts = [source / "verifier.py", *sorted((source / "verifier_parts").glob("*.py"))]
     texts = {str(part.relative_to(source)): part.read_text(encoding="utf-8") for part in parts} | {"__main__.py": _MAIN}
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, text in texts.items():
