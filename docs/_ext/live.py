@@ -32,7 +32,7 @@ import textwrap
 import traceback
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
@@ -41,8 +41,7 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
-if TYPE_CHECKING:
-    from holdfast.core.registry import Registry
+from holdfast import registry
 
 WIDTH = 92
 TERMINAL: dict[str, Any] = {"drop_whitespace": True, "replace_whitespace": False, "break_on_hyphens": False, "tabsize": 8}
@@ -224,10 +223,8 @@ class CasadiOperations(SphinxDirective):
         return [_codes(have), nodes.paragraph("", "Not available:"), _codes(lack)]
 
 
-def registry_of_kind(kind: str) -> Registry:
+def registry_of_kind(kind: str) -> registry.Registry:
     """The registry of indices, control laws, or susceptibilities."""
-    from holdfast.core import registry
-
     registries = {
         "index": registry.INDEX_REGISTRY,
         "law": registry.LAW_REGISTRY,
