@@ -37,33 +37,29 @@ exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
-    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent|fractions)\..*"),
-    (
-        r"py:.*",
-        r"(AccelerationsLike|Array|Fraction|How|ArrayLike|CellLike|KeepLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
-    ),
-    (r"py:.*", r"Locked(At|Anywhere)?"),
-    (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
-    (r"py:.*", r"(optional|default.*)"),
-    (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
-    (r"py:.*", r"holdfast\.(engine|shapes)\..*"),
-    (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
-    (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
-    (r"py:class", r"P|holdfast\.kernels\.recall\.K|holdfast\.typing\.[PT]"),
-    # What a run keeps so that it can be run again.
-    (
-        r"py:class",
-        r"_?Motion|Setting|RestSystem|React|Ended|holdfast\.simulation\.closed_loop\.Locking|holdfast\.endurance\.problem\.Problem",
-    ),
-    (r"py:class", r"holdfast\.control\.export\._Law"),
-    (r"py:class", r"(holdfast\.certificates\.kinds\.)?Claim"),
-    (r"py:class", r"holdfast\.certificates\.proof\.(BisectionResult|CompositeResult)"),
+    (r"py:class", r"(np|numpy|xr|xarray|pd|pathlib|collections|types|concurrent|fractions|sqlite3)\..*"),
+    (r"py:class", r"ArrayLike|DataFrame|Figure|Fraction|Mapping\[str|NDArray"),
+    # Names of types in annotations, which have no entry in the documentation.
+    (r"py:class", r"(Float|Bool|Index)Array|P|holdfast\.core\.typing\.T|holdfast\.kernels\.disk_cache\.K"),
+    (r"py:class", r"AccelerationsLike|Aim|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
+    (r"py:class", r"Locked(At|Anywhere)?|MetricName|Missing|Progress|React|RestSystem|Tolerance|Vary|Why"),
+    # Classes that users do not construct.
+    (r"py:class", r"(holdfast\.certificates\.kinds\.)?Claim|RunSettings|_Simulator|holdfast\.control\.laws\.export\._Law"),
+    (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Composite)Result|tool_paths\.march\.LockedPath)"),
+    (r"py:class", r"holdfast\.control\.simulation\.closed_loop\.LockSchedule"),
+    (r"py:class", r"holdfast\.core\.(probability\.intervals\.WeightSums|sweeps\.journal\.JournalEntry)"),
+    (r"py:class", r"holdfast\.interface\.(presentation\.arm\.body\.MeshPart|report\.viewer\.ViewerScene)"),
+    (r"py:class", r"holdfast\.interface\.studio\.scene\.machine\.CompiledArm"),
     (
         r"py:class",
-        r"holdfast\.(faults\.(scheme\.Jointed|spread\.Spread|kinds\.When)|diagnosis\.signals\.(Scaled|Signals)|ceilings\.(ceiling\.OfFailures|least_singular_values\.OfSingularValue)|designs\.book\.entries\.RecordFile|certificates\.tool_paths\.march\.LockedPath)|Tolerance",
+        r"holdfast\.kinematics\.index_bounds\.(manipulability_bounds\.Failure|least_singular_values\.SingularValue)Problem",
     ),
-    (r"py:.*", r"TypeAliasForwardRef"),
-    (r"py:attr", r"failures"),
+    (r"py:class", r"holdfast\.model\.shapes\.pieces\.(Missing|Piece)"),
+    (r"py:class", r"holdfast\.response\.diagnosis\.signals\.(ScaledResiduals|Signals)"),
+    (r"py:class", r"holdfast\.response\.faults\.(distributions\.ParameterDistribution|entry\.FaultTiming)"),
+    (r"py:class", r"holdfast\.response\.faults\.fault_model\.HasJointNames"),
+    (r"py:class", r"holdfast\.response\.lock_survival\.problem\.SurvivalProblem"),
+    (r"py:class", r"holdfast\.studies\.designs\.record_book\.entries\.RecordFile"),
 ]
 suppress_warnings = ["ref.python"]  # a plain Kind or Path in a signature has namesakes in other packages
 

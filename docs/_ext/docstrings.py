@@ -12,7 +12,7 @@ from sphinx.ext.napoleon import GoogleDocstring
 
 _VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
-_SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
+_SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.core\.registry\.Parameter\(.*?\)\]")
 _ARRAY = re.compile(r"[~\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]")
 _PARAMETERS = re.compile(r'(<span class="sig-paren">\(</span>)\s*<dl>(.*?)</dl>\s*(<span class="sig-paren">\))', re.S)
 _THUMBNAIL = re.compile(r'(<a class="reference internal" href="[^"]*")(><span class="doc">)([^<"]*)')

@@ -9,8 +9,8 @@ Every page has one Python session and one temporary folder, shared by its direct
 ``file``: text that is shown and saved under the name given.
 ``module-example``: the example in a module's docstring.
 ``casadi-operations``: the CasADi operations that the compiled backend translates, found by trying.
-``registered``: the documented constructors of a registry, ``INDICES``, ``LAWS`` or ``SUSCEPTIBILITIES``.
-``registry``: everything of a kind that has a name (``index``, ``law`` or ``susceptibility``), as a table.
+``registered``: the documented constructors of a kind (``index``, ``law`` or ``susceptibility``).
+``registry``: a table of all registered names of a kind.
 
 The role ``cite`` refers to an entry of the list of references. ``-D live_run=0`` runs nothing, to look at pages while writing.
 """
@@ -40,6 +40,8 @@ from forked import Program
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
+
+from holdfast import registry
 
 WIDTH = 92
 TERMINAL: dict[str, Any] = {"drop_whitespace": True, "replace_whitespace": False, "break_on_hyphens": False, "tabsize": 8}
@@ -221,18 +223,21 @@ class CasadiOperations(SphinxDirective):
         return [_codes(have), nodes.paragraph("", "Not available:"), _codes(lack)]
 
 
+def registry_of_kind(kind: str) -> registry.Registry:
+    """The registry of indices, control laws, or susceptibilities."""
+    registries = {
+        "index": registry.INDEX_REGISTRY,
+        "law": registry.LAW_REGISTRY,
+        "susceptibility": registry.SUSCEPTIBILITY_REGISTRY,
+    }
+    return registries[kind]
+
+
 class Registered(SphinxDirective):
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        from holdfast import registry
-
-        kinds = {
-            "index": registry.INDEX_REGISTRY,
-            "law": registry.LAW_REGISTRY,
-            "susceptibility": registry.SUSCEPTIBILITY_REGISTRY,
-        }
-        known = kinds[self.arguments[0]]
+        known = registry_of_kind(self.arguments[0])
         formulas = any(entry.formula for entry in known.values())
         lines = ["| name | equation | |", "|---|---|---|"] if formulas else ["| name | |", "|---|---|"]
         for entry in known.values():
@@ -248,9 +253,7 @@ class Constructors(SphinxDirective):
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        from holdfast import registry
-
-        known: registry.Registry = getattr(registry, self.arguments[0])
+        known = registry_of_kind(self.arguments[0])
         text = "\n\n".join(f".. autofunction:: {known.package}.{entry.function}" for entry in known.values())
         return self.parse_text_to_nodes(text)
 

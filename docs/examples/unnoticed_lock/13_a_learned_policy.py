@@ -18,7 +18,7 @@ repository = Path.cwd().parents[2]
 sys.path.insert(0, str(repository))
 from measurements.faults.policy import network, task
 
-policy = network.load(repository / "papers" / "faults" / "policy" / "healthy.npz")
+policy = network.load(repository / "measurements" / "faults" / "policy" / "healthy.npz")
 figure, panels = plt.subplots(1, 3, figsize=(10, 4.2), sharex=True, sharey=True)
 joints = [None, "r_shoulder_lift_joint", "r_wrist_roll_joint"]
 for axes, joint in zip(panels, joints, strict=True):

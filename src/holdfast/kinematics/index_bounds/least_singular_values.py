@@ -168,7 +168,7 @@ def bound_singular_value_of_index(index: SingularValueProblem) -> SingularValueB
         index: Of the least singular value, :func:`holdfast.kinematics.indices.minimum_singular_value`.
 
     Returns:
-        SingularValueCeiling, or None: Not every set of so many joints is among the failures, or a prismatic joint has no limit.
+        SingularValueBound, or None: Not every set of so many joints is among the failures, or a prismatic joint has no limit.
 
     Source: derived here.
     """

@@ -221,7 +221,7 @@ def bound_of_index(index: FailureProblem) -> UpperBound | None:
     Of failures of several sizes the largest counts: what locks besides only takes more.
 
     Returns:
-        Ceiling, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
+        UpperBound, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
     """
     k = max_simultaneous_failures(index)
     return None if k is None else upper_bound(n=index.arm.n, m=index.task.m, k=k)

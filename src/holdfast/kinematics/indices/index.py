@@ -249,7 +249,7 @@ class Index(Labelled, Objective):
         return [ObjectivePart(1.0, values, exact)]
 
     def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
-        """``SINGULAR`` where the value is a convention; see :meth:`Objective.statuses`."""
+        """``SINGULAR`` where the value is a convention; see :meth:`Objective.row_statuses`."""
         return self.evaluate(q).status
 
     @property

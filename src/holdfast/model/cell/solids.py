@@ -114,7 +114,7 @@ class Box(PrimitiveSolid):
         object.__setattr__(self, "size", size)
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return the terms of the distance formula; see :meth:`PrimitiveSolid.formula`."""
+        """Return the terms of the distance formula; see :meth:`holdfast.model.cell.solids.PrimitiveSolid.formula`."""
         x, y, z = (float(edge) / 2 for edge in self.size)
         return (x, y, z), 0.0, False, False
 
@@ -138,7 +138,7 @@ class Cylinder(_RoundSolid):
     """Cylinder along its own z axis with flat ends; ``radius`` and ``length`` in m, as in URDF."""
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return the terms of the distance formula; see :meth:`PrimitiveSolid.formula`."""
+        """Return the terms of the distance formula; see :meth:`holdfast.model.cell.solids.PrimitiveSolid.formula`."""
         return (self.radius, _UNBOUNDED_HALF_SIZE_M, self.length / 2), 0.0, True, False
 
 
@@ -148,7 +148,7 @@ class Capsule(_RoundSolid):
     """Cylinder along its own z axis with round ends; ``length`` is the distance between the centers of the ends, m."""
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return the terms of the distance formula; see :meth:`PrimitiveSolid.formula`."""
+        """Return the terms of the distance formula; see :meth:`holdfast.model.cell.solids.PrimitiveSolid.formula`."""
         return (0.0, 0.0, self.length / 2), self.radius, False, False
 
 
@@ -164,7 +164,7 @@ class Sphere(PrimitiveSolid):
         self._require_length(self.radius, "radius")
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return the terms of the distance formula; see :meth:`PrimitiveSolid.formula`."""
+        """Return the terms of the distance formula; see :meth:`holdfast.model.cell.solids.PrimitiveSolid.formula`."""
         return (0.0, 0.0, 0.0), self.radius, False, False
 
 
@@ -174,7 +174,7 @@ class HalfSpace(PrimitiveSolid):
     """Half space below the plane through its own origin, for example a floor: its own z axis points out of it."""
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return the terms of the distance formula; see :meth:`PrimitiveSolid.formula`."""
+        """Return the terms of the distance formula; see :meth:`holdfast.model.cell.solids.PrimitiveSolid.formula`."""
         return (_UNBOUNDED_HALF_SIZE_M, _UNBOUNDED_HALF_SIZE_M, 0.0), 0.0, False, True
 
 

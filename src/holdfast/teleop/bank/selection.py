@@ -264,7 +264,7 @@ def choose_tasks(
     special: bool = True,
     seed: int = 0,
 ) -> TaskChoice:
-    """Choose tasks of a bank for an experiment: those of :func:`select`, and two special ones.
+    """Choose tasks of a bank for an experiment: those of :func:`select_tasks`, and two special ones.
 
     Args:
         bank: The tasks as the computer did them.
