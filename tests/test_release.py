@@ -33,7 +33,13 @@ def test_the_wheel_holds_the_package_and_nothing_else(tmp_path):
     assert release.amiss(ROOT, wheel) == []
     with zipfile.ZipFile(wheel) as pack:
         names = pack.namelist()
-    needed = {"py.typed", "__init__.pyi", "model/arm/__init__.pyi", "model/arms/data/panda.urdf", "model/arms/data/licenses/Apache-2.0.txt"}
+    needed = {
+        "py.typed",
+        "__init__.pyi",
+        "model/arm/__init__.pyi",
+        "model/arms/data/panda.urdf",
+        "model/arms/data/licenses/Apache-2.0.txt",
+    }
     needed |= {"interface/report/templates/page.html", "teleop/protocol/goel2003.yaml", "teleop/serve/texts/en.yaml"}
     needed |= {f"teleop/serve/static/{name}" for name in ("index.html", "station.js", "worker.js", "licences.txt", "icon.svg")}
     assert {f"holdfast/{name}" for name in needed} <= set(names)

@@ -24,9 +24,9 @@ def test_a_scale_is_the_last_test_that_passes(forms, rng):
     assert (passes[:-1] >= passes[1:]).all()  # less of a cell is never harder
     most = passes.sum(axis=0) / 16
     assert len(set(most.tolist())) > 3
-    np.testing.assert_array_equal(form.find_provable_fraction(cells), most)
+    np.testing.assert_array_equal(form.find_provable_width_fraction(cells), most)
     least = rng.integers(0, 16, 60) / 16
-    np.testing.assert_array_equal(form.find_provable_fraction(cells, least), np.maximum(most, least))
+    np.testing.assert_array_equal(form.find_provable_width_fraction(cells, least), np.maximum(most, least))
 
 
 def test_cells_may_be_as_small_as_one_likes(forms):

@@ -57,7 +57,7 @@ def reacting_cycle(arm, q, body):
         robot.data.qpos[:], robot.data.qvel[:] = np.split(state, 2)
         robot.reference = q.copy()
         told, _ = robot.measure_joints_and_pose(0)
-        robot.move(told, np.zeros(arm.n), np.ones(arm.n))
+        robot.advance_cycle(told, np.zeros(arm.n), np.ones(arm.n))
         return np.concatenate([robot.data.qpos, robot.data.qvel])
 
     return cycle, robot.drives.stiffness, robot.drives.damping
@@ -125,7 +125,7 @@ def test_a_recorded_torque_is_what_moved_the_arm():
     q = np.array([0.3, -0.4, 0.5, -1.8, 0.2, 1.7, 0.4])
     robot = reacting_robot(arm, q, body)
     told, _ = robot.measure_joints_and_pose(0)
-    torque = robot.move(told, 0.1 * np.array([0.4, -0.2, 0.2, 0.4, -0.6, 0.4, 0.2]), np.ones(7))
+    torque = robot.advance_cycle(told, 0.1 * np.array([0.4, -0.2, 0.2, 0.4, -0.6, 0.4, 0.2]), np.ones(7))
     acceleration = robot.data.qvel * 1000.0
     rotors = np.array([joint.armature or body.rotor for joint in arm.joints])
     assert torque == pytest.approx(arm.inverse_dynamics(q, np.zeros(7), acceleration) + rotors * acceleration, abs=1e-6)
@@ -151,7 +151,7 @@ def test_a_weak_motor_is_asked_for_no_more_than_its_effort():
     q, rates = np.array([0.3, -0.4, 0.5, -1.8, 0.2, 1.7, 0.4]), np.array([0.0, 2.0, 0, 0, 0, 0, 0])
     robot = reacting_robot(arm, q, body, faults=[FaultEvent("weak", "panda_joint2", 0.0, parameters={"gain": 0.25})])
     told, _ = robot.measure_joints_and_pose(0)
-    torque = robot.move(told, rates, np.ones(7))
+    torque = robot.advance_cycle(told, rates, np.ones(7))
     effort = arm.joints[1].effort
     assert 0.8 * effort < torque[1] <= effort  # the rate that it reaches in the cycle takes something off
     acceleration = robot.data.qvel * 1000.0

@@ -71,7 +71,7 @@ def test_a_step_is_one_launch_and_nothing_is_copied_but_what_is_over(gpu, rng):
     some = np.array([0, 1, 4])
     env._episodes[some] = 7.0
     gpu.calls.clear()
-    env._episode_table.update(some, env._episodes)
+    env._episode_table.upload_rows(some, env._episodes)
     assert [size for _, _, size, _ in gpu.asked("cuMemcpyHtoDAsync")] == [2 * numbers, numbers]  # rows side by side at once
     assert (read(env._episode_table, stream=77) == env._episodes).all()
 

@@ -298,7 +298,10 @@ def test_labels_say_what_the_functions_say():
         (lambda: tool_constraints.by_label("upright"), "write for example upright:10deg"),
         (lambda: tool_constraints.by_label("upright:ten"), "not a number"),
         (lambda: tool_constraints.by_label("rail:direction=0,0,1,angle=3"), "setting 'angle' is not known"),
-        (lambda: hf.recover(hf.arms.load("planar-3r"), [1], np.ones(3), keep=[3.0]), "give a constraint of hf.tool_constraints"),
+        (
+            lambda: hf.recover(hf.arms.load("planar-3r"), [1], np.ones(3), keep=[3.0]),
+            "it must be a ToolConstraint",
+        ),
         (lambda: hf.recover(hf.arms.load("planar-3r"), [1], np.ones(3), keep=3.0), "keep is 3.0"),
     ],
 )

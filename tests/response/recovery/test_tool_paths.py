@@ -89,7 +89,7 @@ def test_the_self_motion_is_used_where_following_alone_ends_early(three, draw, m
     assert result.rest.graph > 0
     monkeypatch.setattr(continuation, "search_ladder_graph", lambda *_: LadderGraph([], 0, 0))
     monkeypatch.setattr(continuation, "_REFINEMENT_FACTOR", 1)
-    for name in ("follow_to_furthest_point", "relax_fewest_rows"):
+    for name in ("follow_to_furthest_point", "follow_with_relaxed_rows"):
         monkeypatch.setattr(attempt, name, lambda made, *_: (made, []))
     alone = finished(three, low, high, here, path)
     assert not alone.ok

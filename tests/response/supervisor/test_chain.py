@@ -100,7 +100,9 @@ def test_where_the_law_would_end_off_its_target_it_goes_by_another_posture_or_al
     options = {"faults": [FaultEvent("locked", "panda_joint3", 0.3)], "body": BODY, "react": "known"}
     detour = hf.simulate_faults(law, start, goal, plan=False, **options).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
-    monkeypatch.setattr("holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None)
+    monkeypatch.setattr(
+        "holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None
+    )
     alone = hf.simulate_faults(law, start, goal, plan=False, **options)
     assert (alone.outcome, [a.what for a in alone.actions]) == ("missed", ["alarm", "brake"])
     assert alone.position_error[-1] > 0.02
@@ -124,7 +126,9 @@ def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
     detour = run(law, LOCKED, react="known", cell=ball, plan=False).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
     assert "the law would not get there clear of the cell" in detour.actions[-1].why
-    monkeypatch.setattr("holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None)
+    monkeypatch.setattr(
+        "holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None
+    )
     route, stopped = (run(law, LOCKED, react="known", cell=ball, plan=plan) for plan in (True, False))
     assert [a.what for a in route.require_ok().actions] == ["alarm", "brake", "plan"]
     assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no other posture helps")

@@ -61,7 +61,10 @@ Server(config).run()
 
 def test_more_sockets_than_files_let_others_in():
     """The oldest silent socket makes room: the server never runs out of files, and the log says nothing."""
-    with served("bounded.make_bounded_protocols(bounded.raise_file_limit() // 2, (30.0, 30.0))", 64) as server, ExitStack() as opened:
+    with (
+        served("bounded.make_bounded_protocols(bounded.raise_file_limit() // 2, (30.0, 30.0))", 64) as server,
+        ExitStack() as opened,
+    ):
         port = int(server.stdout.readline())
         silent = [opened.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(150)]
         for each in silent[:5]:
