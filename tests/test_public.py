@@ -41,7 +41,7 @@ MODULES = [
 
 
 def test_version_is_that_of_the_package():
-    assert hf.__version__ == version("holdfast")
+    assert hf.__version__ == version("holdfast-arms")
 
 
 @pytest.mark.parametrize("name", MODULES)
