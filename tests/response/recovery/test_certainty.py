@@ -139,7 +139,7 @@ def test_a_certain_contact_is_one_for_mujoco_too(panda):
     cell = geometry.of_primitives()
     clearance, mujoco = hf.Clearance(panda, cell=cell), geometry.InMujoco(cell)
     q = np.random.default_rng(1).uniform(panda.lower, panda.upper, (600, 7))
-    q = q[clearance.alone.exact(q) > 0]  # MuJoCo looks at objects alone here
+    q = q[clearance.self_only.exact(q) > 0]  # MuJoCo looks at objects alone here
     touches = mujoco.touches(q)
     certain = np.array([bool(name) for name in name_certain_contacts(clearance, q)])
     assert not (certain & ~touches).any()

@@ -201,7 +201,7 @@ class Ascent:
         """Kernel of the step that also keeps the arm collision-free, compiled at first use and reused for a changed cell."""
         assert self.clearance is not None
         around = self.clearance.obstacles is not None
-        return compile_ascent_step(self.objective, self.task, self.clearance.alone, self.margin, around, self.free)
+        return compile_ascent_step(self.objective, self.task, self.clearance.self_only, self.margin, around, self.free)
 
     def ascend(
         self, collision_free: bool, q: FloatArray, poses: FloatArray, steps: int, radius: FloatArray | None = None

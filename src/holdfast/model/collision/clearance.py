@@ -250,7 +250,7 @@ class Clearance:
         return best_distance, best_derivatives
 
     @cached_property
-    def alone(self) -> Clearance:
+    def self_only(self) -> Clearance:
         """The clearance without the cell, from which kernels are compiled, so that a changed cell needs no new kernel."""
         return self if self.cell is None else self._copy_with_cell(None)
 
@@ -305,7 +305,7 @@ class Clearance:
     def by_pair(self, q: ArrayLike) -> FloatArray:
         """Return the distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
-        values = self.alone._pair_distances_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
+        values = self.self_only._pair_distances_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         if self.obstacles is not None:
             values = np.concatenate([values, self.obstacles.pair_distances(rows)], axis=1)
         return values[0] if single else values
@@ -317,7 +317,7 @@ class Clearance:
         )
 
     def _smallest_value(self, q: FloatArray, obstacle_values: Callable[[FloatArray], FloatArray] | None) -> FloatArray:
-        values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant_if_finite(q, np.inf)
+        values = self.self_only._value_kernel.rows(q)[:, 0] if self.pairs else _constant_if_finite(q, np.inf)
         return values if obstacle_values is None else np.minimum(values, obstacle_values(q))
 
     @cached_property
@@ -325,7 +325,7 @@ class Clearance:
         """Exact collision queries, answered by a library."""
         ignored, self_clearance, held_objects = (
             [ignored_pair.pair for ignored_pair in self.ignored],
-            self.alone,
+            self.self_only,
             () if self.cell is None else self.cell.held,
         )
         from holdfast.model.collision.exact.exactness import ExactQueries  # takes long to import
@@ -383,7 +383,7 @@ class Clearance:
         """Return the margin (N,) m and its gradient (N, n) of configurations (N, n)."""
         margin, gradient = _constant_if_finite(q, np.inf), np.repeat(_constant_if_finite(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
-            margin, gradient = self.alone._value_kernel.rows(q)[:, 0], self.alone._gradient_kernel.rows(q)
+            margin, gradient = self.self_only._value_kernel.rows(q)[:, 0], self.self_only._gradient_kernel.rows(q)
         if self.obstacles is not None:
             obstacle_margin, _, obstacle_gradient = self.obstacles.nearest_margin_and_gradient(q)
             closer = ~(margin <= obstacle_margin)

@@ -107,7 +107,7 @@ def _measure_clearance(plan: AssessmentPlan, q: FloatArray) -> tuple[Rows, NDArr
     """Return the distances of the arm from itself and its cell at q (N, n), and whether they are sufficient (N,)."""
     clearance = plan.clearance
     assert clearance is not None
-    own_distance = clearance.alone(q)
+    own_distance = clearance.self_only(q)
     obstacles = clearance.obstacles
     if obstacles is None:
         return {"clearance": own_distance}, np.asarray(own_distance >= plan.margin)

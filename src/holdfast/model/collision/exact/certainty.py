@@ -27,7 +27,7 @@ def name_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0
     names, exactness, arm = [""] * len(q), clearance.exactness, clearance.arm
     own_count = len(clearance.capsules) - clearance.capsules.held
     if clearance.capsules.shape is None and exactness.are_all_shapes_known:
-        distances = clearance.alone.by_pair(q)
+        distances = clearance.self_only.by_pair(q)
         for index, pair in enumerate(clearance.pairs):
             for touching in np.flatnonzero(distances[:, index] < margin - _ROUNDING_M) if max(pair) < own_count else ():
                 names[touching] = clearance.pair_names[index]

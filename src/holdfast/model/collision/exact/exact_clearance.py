@@ -52,14 +52,14 @@ class ExactClearance(Clearance):
 
     def __init__(self, bound: Clearance, margin: float) -> None:
         vars(self).update(
-            {attribute: value for attribute, value in vars(bound).items() if attribute not in ("alone", "exactness")}
+            {attribute: value for attribute, value in vars(bound).items() if attribute not in ("self_only", "exactness")}
         )
         self._bound, self._near = bound, margin + _EXACT_BELOW_M
 
     @property
-    def alone(self) -> Clearance:
+    def self_only(self) -> Clearance:
         """The bound without the cell."""
-        return self._bound.alone
+        return self._bound.self_only
 
     @property
     def exactness(self) -> ExactQueries:

@@ -16,7 +16,7 @@ class SingleConfigurationClearance:
     """
 
     def __init__(self, clearance: Clearance) -> None:
-        self._clearance, obstacles, self_clearance = clearance, clearance.obstacles, clearance.alone
+        self._clearance, obstacles, self_clearance = clearance, clearance.obstacles, clearance.self_only
         self._self_kernels = (
             [kernel.single_row() for kernel in (self_clearance._value_kernel, self_clearance._gradient_kernel)]
             if clearance.pairs

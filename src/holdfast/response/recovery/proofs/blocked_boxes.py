@@ -46,7 +46,7 @@ class BlockedBoxes:
         extents = np.linalg.norm(balls.center, axis=1) + balls.radius
         self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
         self._axes = np.array([joint.axis for joint in self._arm.joints])
-        self._self_clearance, self._margin = clearance.alone, margin
+        self._self_clearance, self._margin = clearance.self_only, margin
         self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
 
     def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
@@ -142,7 +142,7 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
     """Return the links that may touch each other, with balls that are certainly inside them."""
     self_pairs, arm, capsules = [], clearance.arm, clearance.capsules
     if capsules.shape is None:
-        lipschitz_bounds, arm_capsule_count = clearance.alone.lipschitz_bounds(*limits), len(capsules) - capsules.held
+        lipschitz_bounds, arm_capsule_count = clearance.self_only.lipschitz_bounds(*limits), len(capsules) - capsules.held
         parts_known = clearance.exactness.are_all_shapes_known
         indices = [index for index, pair in enumerate(clearance.pairs) if parts_known and max(pair) < arm_capsule_count]
         return [_SelfCollisionPair(clearance.pair_names[index], [index], lipschitz_bounds[[index]]) for index in indices]
