@@ -222,7 +222,8 @@ def test_every_package_that_computes_is_in_the_contract():
         "holdfast.__main__",
         "holdfast.interface",
     }
-    assert all(contract["exhaustive"] for name, contract in contracts.items() if name != "drawing")
+    some = {"kernels", "certificates"}  # their contracts order some of their modules
+    assert all(contract["exhaustive"] for name, contract in contracts.items() if name not in {"drawing", *some})
 
 
 def test_the_command_line():

@@ -1,4 +1,8 @@
-"""Certificates: claims about every target of a box, proved cell by cell and checked by an independent verifier."""
+"""Certificates: claims about every target of a box or every instant of a path, with proofs that other code verifies.
+
+A module belongs here if it states, proves, suggests, or stores a claim. The verifier in ``verifier.py`` and ``verifier_parts``
+imports nothing of holdfast, so that it can be read and run alone.
+"""
 
 from holdfast.core._lazy import offer
 

@@ -1,20 +1,20 @@
 """Kinds of claims: how a claim of each kind is searched for and written.
 
-A claim names its kind. Registered are the :class:`ClaimKind` objects of the modules from which the stub of the package exports;
-nothing else lists them. The verifier has its own table, ``verifier_parts/kinds.py``, because it must work without holdfast.
+A claim names its kind. The registry contains the :class:`ClaimKind` objects of the modules from which the stub of the package
+exports; no other file lists them. The verifier has its own table, ``verifier_parts/kinds.py``, because it must work without
+holdfast.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.errors import InputError
+from holdfast.core.registry import read_exports
 
 if TYPE_CHECKING:
     from holdfast.certificates.search_pool import SearchBudget
@@ -65,8 +65,7 @@ class ClaimKind:
 @cache
 def find_claim_kinds() -> dict[str, ClaimKind]:
     """Return all kinds of claims by name."""
-    stub = Path(__file__).with_name("__init__.pyi").read_text(encoding="utf-8")
-    modules = [import_module(name) for name in dict.fromkeys(re.findall(r"^from (\S+) import", stub, re.MULTILINE))]
+    modules = [import_module(name) for name in read_exports("certificates")]
     kinds = [value for module in modules for value in vars(module).values() if isinstance(value, ClaimKind)]
     return {kind.name: kind for kind in kinds}
 

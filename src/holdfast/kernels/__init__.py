@@ -1,5 +1,7 @@
-"""Compile expression graphs to batched functions; the only package that uses LLVM and the CasADi virtual machine, without
-knowledge of robots.
+"""Compilation of expression graphs to functions of batches, with caches, small linear algebra, and array frameworks.
+
+A module belongs here if it turns CasADi expressions into machine code, C, JavaScript, or GPU code, or runs that code. Only this
+wing uses LLVM and the CasADi virtual machine. It contains nothing about robots.
 """
 
 from holdfast.core._lazy import offer

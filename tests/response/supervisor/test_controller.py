@@ -30,7 +30,7 @@ class Robot:
             arm,
         )  # it ends elsewhere, wherever it begins
         law.whole, law.clearance, law.is_collision_free = SimpleNamespace(arm=arm, speed_limit=None), None, lambda q: True
-        self.controller = Controller(law, bounds=BOUNDS, brakes=self, watch=self, react=react, plan=plan)
+        self.controller = Controller(law, bounds=BOUNDS, brakes=self, monitor=self, react=react, plan=plan)
 
     def brake(self, joint):
         self.braked.append(joint)

@@ -67,7 +67,7 @@ class Driven:
             self.masked,
             bounds=self.bounds,
             brakes=self,
-            watch=self.monitor,
+            monitor=self.monitor,
             react="chain",
             plan=False,
         )

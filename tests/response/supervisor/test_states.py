@@ -121,7 +121,7 @@ def run_random_events(seed):
     ignore = SimpleNamespace(
         brake=lambda joint: None, release=lambda joint: None, rearm=lambda: None, exclude=lambda joint: None
     )
-    controller = Controller(law, bounds=BOUNDS, brakes=ignore, watch=ignore, react=react, plan=bool(rng.random() < 0.8))
+    controller = Controller(law, bounds=BOUNDS, brakes=ignore, monitor=ignore, react=react, plan=bool(rng.random() < 0.8))
     q, verdict = np.array([0.1, 0.4, 0.0, -1.5, 0.0, 1.5, 0.0]), FaultVerdict(False, 0.0)
     for cycle in range(1200):
         if controller.is_stopped and react != "known":

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, Index, require_feasible_box_count
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
 from holdfast.certificates.joint_boxes.jobs import bisect_box
 from holdfast.certificates.joint_boxes.rows import TaskErrorBound
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12
@@ -136,14 +136,19 @@ class _ExclusionTest:
         self.n, self.m, self.lemmas, self.error_bound = len(chain.lengths), error_bound.reach.linear, lemmas, error_bound
         self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
-    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         count, n = len(middle), self.n
         tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
         targets, target_half = np.zeros((count, 3)), np.zeros((count, 3))
         targets[:, : self.m], target_half[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
 
         def record_test(
-            rows: Index, token: int, margins: FloatArray, center_margins: FloatArray, axis_costs: FloatArray, joint_count: int
+            rows: IndexArray,
+            token: int,
+            margins: FloatArray,
+            center_margins: FloatArray,
+            axis_costs: FloatArray,
+            joint_count: int,
         ) -> None:
             """Record one test: its margins, the margins at the centers, and the cost of each axis."""
             tokens[rows[margins > _DISTANCE_MARGIN_M]] = token
@@ -244,7 +249,7 @@ def _test_distance_range(
     upper: float,
     middle: FloatArray,
     half: FloatArray,
-) -> tuple[Index, FloatArray]:
+) -> tuple[IndexArray, FloatArray]:
     """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; ``ignored_joints`` do not count."""
     half = np.where(ignored_joints, 0.0, half)
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))

@@ -6,15 +6,13 @@ from collections.abc import Callable
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN
 from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 
-Index = NDArray[np.int64]
-BoxTest = Callable[[FloatArray, FloatArray], tuple[Index, FloatArray]]
+BoxTest = Callable[[FloatArray, FloatArray], tuple[IndexArray, FloatArray]]
 
 OPEN_TOKEN = -1  # what is not decided yet
 DEFERRED_TOKEN = 1  # token of what others look at
@@ -36,7 +34,7 @@ class BoxBisection:
         proved, undecided: Parts of the whole.
     """
 
-    def __init__(self, box: FloatArray, halvings: int, boxes: tuple[FloatArray, Index] | None = None) -> None:
+    def __init__(self, box: FloatArray, halvings: int, boxes: tuple[FloatArray, IndexArray] | None = None) -> None:
         self.box, self.halvings = box, halvings
         self.width = box[:, 1] - box[:, 0]
         middle, depth = boxes or (box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64))
@@ -86,8 +84,8 @@ class BoxBisection:
         return True
 
     def _split_boxes(
-        self, node_ids: Index, middle: FloatArray, depth: Index, half: FloatArray, axis: Index
-    ) -> tuple[Index, FloatArray, Index]:
+        self, node_ids: IndexArray, middle: FloatArray, depth: IndexArray, half: FloatArray, axis: IndexArray
+    ) -> tuple[IndexArray, FloatArray, IndexArray]:
         """Return the node numbers, middles and depths of the halves."""
         count = len(node_ids)
         while self.nodes + 2 * count > len(self._token):

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 _BOUND_MARGIN = 1e-9
 _SECTION_ROUNDS = 12
@@ -33,7 +33,7 @@ class ManipulabilityFloorTest:
     def __init__(self, chain: CertificateChain, screw_rows: list[int], locks: tuple[int, ...], threshold: float) -> None:
         self.screws, self.screw_rows, self.locks, self.threshold = ScrewModel(chain), screw_rows, locks, threshold
 
-    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the tokens of boxes, 0 where the bound holds after all locks, and the gain of halving each joint."""
         count, n = half.shape
         screws, brackets, links, distances = self.screws(middle)

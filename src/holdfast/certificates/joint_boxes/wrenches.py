@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, Index
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN
 from holdfast.certificates.joint_boxes.screws import ScrewModel
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 FIRST_LOCK_TOKEN = 128  # token of a box in which joint 0 costs enough
 _BOUND_MARGIN = 1e-9
@@ -35,7 +35,7 @@ class ManipulabilityCeilingTest:
         self.screws, self.locks = ScrewModel(chain), locks
         self.max_ratio = threshold / np.sqrt(1 - threshold**2)
 
-    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
         screws, brackets, links, distances = self.screws(middle)
         gram, count = np.einsum("nla,nlb->nab", screws, screws), len(middle)
@@ -58,7 +58,7 @@ class ManipulabilityCeilingTest:
 
     def _bound_moment_ratio(
         self,
-        locked_joints: Index,
+        locked_joints: IndexArray,
         screws: FloatArray,
         gram: FloatArray,
         brackets: FloatArray,

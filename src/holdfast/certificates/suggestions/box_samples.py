@@ -12,7 +12,14 @@ from holdfast.model.arm.urdf import rpy_rotation
 
 
 def sample_box_poses(claim: TolerantClaim, count: int, seed: int, sample: int) -> FloatArray:
-    """Return poses (N, 4, 4) of the corners of a claim's box, and of ``count`` targets inside; each sample is another one."""
+    """Return poses (N, 4, 4) of the corners of a claim's box and of ``count`` random targets inside.
+
+    Args:
+        claim: Claim about every target of the box.
+        count: Number of targets inside.
+        seed: Seed of all samples.
+        sample: Number of the sample; each number gives other targets.
+    """
     from scipy.stats import qmc
 
     box = claim.box

@@ -1,4 +1,4 @@
-"""A search by samples for working ranges under which a box of targets stays reachable wherever one joint locks."""
+"""Search by samples for working ranges within which a box of targets stays reachable after a lock of one joint."""
 
 from __future__ import annotations
 

@@ -6,11 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import BoolArray, FloatArray
-
-Ints = NDArray[np.int64]
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 SEGMENT_INSTANTS = 1 << 20  # instants to a segment
 PATH_CENTER_UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
@@ -26,11 +23,11 @@ class PathCellBatch:
         width: (N,) half widths of those along the tangent of the motion, in units of the file; 0: not turned.
     """
 
-    begin: Ints
-    stop: Ints
-    start: Ints
-    end: Ints
-    width: Ints
+    begin: IndexArray
+    stop: IndexArray
+    start: IndexArray
+    end: IndexArray
+    width: IndexArray
 
     @property
     def half_widths(self) -> FloatArray:
@@ -62,7 +59,7 @@ class PathFormBatch:
     only: FloatArray
     good: BoolArray
 
-    def select(self, rows: Ints) -> PathFormBatch:
+    def select(self, rows: IndexArray) -> PathFormBatch:
         """Return the forms of some rows."""
         return PathFormBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
 
@@ -82,7 +79,7 @@ class PathFormBatch:
         """Return these forms followed by others."""
         return PathFormBatch.concatenate([self, others])
 
-    def replace_rows(self, rows: Ints, others: PathFormBatch) -> PathFormBatch:
+    def replace_rows(self, rows: IndexArray, others: PathFormBatch) -> PathFormBatch:
         """Return the forms with other forms in place of some rows."""
         order = np.arange(len(self.q))
         order[rows] = len(self.q) + np.arange(len(rows))

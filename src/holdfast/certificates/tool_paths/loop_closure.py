@@ -13,13 +13,13 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, Index
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
 from holdfast.certificates.taylor import CertificateChain
-from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, Ints
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 Point = tuple[int, FloatArray]  # link, and where in its frame, m
 
@@ -65,7 +65,7 @@ class _LoopBranch:
     """
 
     segment: ChainSegment
-    joints: Ints
+    joints: IndexArray
     start: FloatArray
     moves: BoolArray
 
@@ -196,7 +196,7 @@ class LoopClosureExclusion:
                 )
         return None, may_split, 0
 
-    def _has_reaching_configuration(self, locks: Ints, path_instant: int) -> BoolArray:
+    def _has_reaching_configuration(self, locks: IndexArray, path_instant: int) -> BoolArray:
         """Return a mask of locks for which Newton's method finds configurations within the limits with the tool at a path
         instant.
         """
@@ -266,7 +266,7 @@ class _LoopExclusionTest:
     def __init__(self, pairs: list[tuple[_LoopBranch, _LoopBranch]]) -> None:
         self._pairs = pairs
 
-    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[Index, FloatArray]:
+    def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
         tokens, best_ratios, gain = (
             np.full(len(middle), OPEN_TOKEN, dtype=np.int64),

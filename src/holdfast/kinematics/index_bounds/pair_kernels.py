@@ -22,10 +22,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-Integers = NDArray[np.int64]
+from holdfast.core.typing import IndexArray
+
 Exact = NDArray[np.object_]  # of fractions
 Term = tuple[list[Exact], Exact, Exact]  # functions of one length, their weights, a polynomial in s
-Boxes = tuple[Integers, Integers, Integers, Integers]  # coefficients of both polynomials, lower corners, edges
+Boxes = tuple[IndexArray, IndexArray, IndexArray, IndexArray]  # coefficients of both polynomials, lower corners, edges
 
 _LARGEST_COEFFICIENT = 1 << 56  # coefficients as integers: sums of two stay below the 63 bits
 _BATCH_BOXES = 4000
@@ -186,7 +187,7 @@ def _bernstein_coefficients(polynomial: Exact) -> Exact:
     return polynomial
 
 
-def _round_up(coefficients: Exact) -> Integers:
+def _round_up(coefficients: Exact) -> IndexArray:
     """Return a positive multiple, rounded upwards to integers."""
     scale = _LARGEST_COEFFICIENT / max(abs(x) for x in coefficients.ravel())
     return np.array([-((-x * scale).__floor__()) for x in coefficients.ravel()], dtype=np.int64).reshape(coefficients.shape)
@@ -250,7 +251,7 @@ def _batch_slices(count: int) -> list[slice]:
     return [slice(i, i + _BATCH_BOXES) for i in range(0, count, _BATCH_BOXES)]
 
 
-def _bisect_coefficients(coefficients: Integers, axis: int) -> tuple[Integers, Integers]:
+def _bisect_coefficients(coefficients: IndexArray, axis: int) -> tuple[IndexArray, IndexArray]:
     """Return the coefficients on both halves of a direction, each rounded upwards."""
     remaining = np.moveaxis(coefficients, axis, 0).copy()
     low, high = np.empty_like(remaining), np.empty_like(remaining)

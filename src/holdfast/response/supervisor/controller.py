@@ -2,8 +2,7 @@
 
 The controller is three state machines (:mod:`holdfast.response.supervisor.states`) with a table of their transitions. Its four
 events are a control cycle (``rates``), a verdict of the monitor (``on_verdict``), a measured tool pose (``on_tool_pose``), and,
-without a
-monitor, a fault that is known when it begins (``on_known_fault``).
+without a monitor, a fault that is known when it begins (``on_known_fault``).
 
 Source: derived here; braking turns a free-swinging joint into a locked one, English and Maciejewski 2001.
 """
@@ -50,7 +49,7 @@ class Controller:
         law: Control law; the controller masks the braked joints.
         bounds: Bounds of the monitor; None without a monitor.
         brakes: Brakes of the joints.
-        watch: The monitor; None without one.
+        monitor: Fault monitor; None without one.
         react: Response, as for :func:`holdfast.simulate_faults`.
         plan: True if a route may be planned where the masked law would miss the target and no intermediate configuration
             helps.
@@ -65,10 +64,10 @@ class Controller:
     """
 
     def __init__(
-        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, watch: FaultMonitor | None, react: React, plan: bool
+        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, monitor: FaultMonitor | None, react: React, plan: bool
     ) -> None:
         self.law, self.arm = law, law.arm
-        self._bounds, self._brakes, self._watch, self._react = bounds, brakes, watch, react
+        self._bounds, self._brakes, self._monitor, self._react = bounds, brakes, monitor, react
         self._attempts: tuple[Attempt, ...] = ("detour", "plan") if plan else ("detour",)
         self.motion = StateMachine[MotionState]("motion", FollowingLaw())
         self.supervision = StateMachine[SupervisionState]("supervision", Watching())
@@ -292,11 +291,11 @@ class Controller:
 
     def _resume_monitoring(self, joint: str | None, event: str) -> None:
         """Resume monitoring without a joint, or with all joints for None, at the pace that the failures allow."""
-        assert self._watch is not None
+        assert self._monitor is not None
         if joint is None:
-            self._watch.rearm()
+            self._monitor.rearm()
         else:
-            self._watch.exclude(joint)
+            self._monitor.exclude(joint)
             if self.law.mask[self.arm.joint_index(joint)] > 0:
                 self._pace.allowed = min(self._pace.allowed, thresholds.REDUCED_PACE)
         self._pace.target = self._pace.allowed

@@ -140,7 +140,7 @@ def simulate_faults(
         law, start, robot_body, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose
     )
     bounds = None if monitor is None else monitor.bounds
-    controller = Controller(masked, bounds=bounds, brakes=robot.injector, watch=monitor, react=response, plan=plan)
+    controller = Controller(masked, bounds=bounds, brakes=robot.injector, monitor=monitor, react=response, plan=plan)
     outcome = _run_cycles(robot, controller, masked, monitor if response in ("stop", "chain") else None, response, time_limit)
     places = np.full(law.arm.n, np.nan)
     for event, position in robot.began.items():

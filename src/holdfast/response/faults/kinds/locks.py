@@ -48,7 +48,7 @@ class LockedKind(_HoldingKind):
             fault.is_pending, fault.memory = distance != 0, math.copysign(1.0, distance)
 
     def take_delayed_effect(self, fault: ActiveFault) -> bool:
-        """See :meth:`FaultKind.take_hold`."""
+        """See :meth:`FaultKind.take_delayed_effect`."""
         position = fault.number("at")
         has_arrived: bool = (fault.joint.q - position) * fault.memory <= 0
         if has_arrived:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.interval_search.boxes import Blocked
 from holdfast.kinematics.solvers import joint_space
 from holdfast.model.arm.model import Arm
@@ -36,7 +36,6 @@ from holdfast.response.recovery.task_rows import TaskRows
 if TYPE_CHECKING:
     from holdfast.model.collision.exact.narrow_phase import ArmBody
 
-Cells = NDArray[np.int64]
 Indices = NDArray[np.intp]
 CellTest = Callable[[FloatArray, FloatArray], BoolArray]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
@@ -109,7 +108,7 @@ def _joint_sets_between_links(clearance: Clearance, joints: Indices) -> list[Ind
 
 @dataclass(frozen=True, eq=False)
 class ConnectedCells:
-    """Cells that may be connected to the start.
+    """IndexArray that may be connected to the start.
 
     Attributes:
         names: Of the joints of which they are cells.
@@ -127,7 +126,7 @@ class ConnectedCells:
     cell_widths: FloatArray
     is_unlimited: BoolArray
     cells_per_joint: int
-    cells: Cells
+    cells: IndexArray
     middle: FloatArray
     half_widths: FloatArray
     checked_cells: int
@@ -268,7 +267,7 @@ def _bound_joints(space: FreeSpace, free: Indices) -> tuple[FloatArray, FloatArr
     return (lower, upper, is_unlimited) if np.isfinite([lower, upper]).all() and (upper > lower).all() else None
 
 
-def _connect_cells(cells: Cells, holds_start: BoolArray, cells_per_joint: int, is_unlimited: BoolArray) -> BoolArray:
+def _connect_cells(cells: IndexArray, holds_start: BoolArray, cells_per_joint: int, is_unlimited: BoolArray) -> BoolArray:
     """Return (N,) True for cells (N, f) connected to a start cell, also through corners and around unlimited joints."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
