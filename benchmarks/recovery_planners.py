@@ -1,7 +1,7 @@
 """W16, part F: degraded Pandas finish tasks with and without a cell, beside usual planners; proofs that they cannot.
 
-The suite is that of ``holdfast bench fail-active``. ``--suite FOLDER`` shows a run that was made before; ``--before CHECKOUT``
-asks the ``recover`` of another checkout the same cases, in a process of its own.
+The suite is that of ``python -m benchmarks.planners``. ``--suite FOLDER`` shows a run that was made before;
+``--before CHECKOUT`` asks the ``recover`` of another checkout the same cases, in a process of its own.
 """
 
 from __future__ import annotations
@@ -20,24 +20,29 @@ from scipy.spatial.transform import Rotation
 
 import harness
 
-CELL = Path(__file__).parents[1] / "examples" / "cells" / "fail-active.yaml"
+ROOT = Path(__file__).parents[1]
+sys.path.append(str(ROOT))
+
+CELL = ROOT / "examples" / "cells" / "fail-active.yaml"
 CASES, TARGETS = 200, 200
 STARTS, STEPS = 200, 40  # of Newton's method
 PLANNERS = ("recover", "differential-ik", "differential-ik-8-starts", "rrt-connect")
 
 
 def suite(chosen: argparse.Namespace) -> str:
+    from benchmarks.planners.suite import FailActive, fail_active
+
     import holdfast as hf
 
     if chosen.suite:
-        found = [hf.planner_benchmark.FailActive(hf.sweeps.Study.open(folder)) for folder in chosen.suite]
+        found = [FailActive(hf.sweeps.Study.open(folder)) for folder in chosen.suite]
     else:
         folder, cases = tempfile.mkdtemp(prefix="fail-active-"), 20 if chosen.quick else chosen.cases
         planners = chosen.planner or PLANNERS
         panda = hf.arms.load("panda")
-        found = [hf.planner_benchmark.fail_active(panda, folder, cell=CELL, cases=cases, tasks=chosen.task, planners=planners)]
+        found = [fail_active(panda, folder, cell=CELL, cases=cases, tasks=chosen.task, planners=planners)]
         if chosen.before:
-            found.append(hf.planner_benchmark.FailActive(hf.sweeps.Study.open(before(chosen, folder, cases))))
+            found.append(FailActive(hf.sweeps.Study.open(before(chosen, folder, cases))))
     lines = []
     for k, s in ((k, score) for k, one in enumerate(found) for score in one.scores):
         named = f"{s.method} of {chosen.before}" if chosen.before and k == 1 else s.method
@@ -49,7 +54,7 @@ def suite(chosen: argparse.Namespace) -> str:
         )
     return (
         "### W16 F: a degraded Panda finishes its task\n\n"
-        "Seed 1; cases, cell and tolerances: `holdfast bench fail-active`. A contradiction is a case solved within 1 mm and "
+        "Seed 1; cases, cell and tolerances: `python -m benchmarks.planners`. A contradiction is a case solved within 1 mm and "
         "0.5 deg that is proved infeasible within them. Seconds of the processor.\n\n"
         "| task | planner | cases | solved | proved infeasible | so within 1 mm, 0.5 deg | argued | undecided | refused "
         "| contradictions | solved of those not proved infeasible within | median, s | 95 %, s | longest, s |\n"
@@ -61,11 +66,13 @@ def before(chosen: argparse.Namespace, folder: str, cases: int) -> str:
     """The folder of a suite that another checkout has run; its cases are those of ``folder``."""
     other = tempfile.mkdtemp(prefix="fail-active-before-")
     tasks = [word for task in chosen.task or () for word in ("--task", task)]
-    words = ["bench", "fail-active", "panda", "--cell", str(CELL), "--cases", str(cases), *tasks, "--planner", "recover"]
-    path = {"PYTHONPATH": str(Path(chosen.before).resolve() / "src")}
+    checkout = Path(chosen.before).resolve()
+    is_command = not (checkout / "benchmarks" / "planners").is_dir()  # of checkouts before the suite left the package
+    module = ["holdfast", "bench", "fail-active"] if is_command else ["benchmarks.planners"]
+    words = [*module, "panda", "--cell", str(CELL), "--cases", str(cases), *tasks, "--planner", "recover"]
     subprocess.run(
-        [sys.executable, "-m", "holdfast", *words, "--out", other],
-        env={**os.environ, **path},
+        [sys.executable, "-m", *words, "--out", other],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (checkout / "src", checkout)))},
         stdout=subprocess.DEVNULL,
         check=True,
     )

@@ -90,7 +90,6 @@ from holdfast.response.recovery import recover as recover
 from holdfast.response.supervisor import FaultRun as FaultRun
 from holdfast.response.supervisor import simulate_faults as simulate_faults
 from holdfast.studies import designs as designs
-from holdfast.studies import planner_benchmark as planner_benchmark
 from holdfast.studies.assessment import Assessment as Assessment
 from holdfast.studies.assessment import Comparison as Comparison
 from holdfast.studies.assessment import assess as assess

@@ -33,7 +33,6 @@ RESULTS = named(
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
         "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
-        "studies.planner_benchmark": "FailActive",
         "kinematics.index_bounds": "UpperBound UpperBoundSearch UpperBoundTable SingularValueBound",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
@@ -55,7 +54,6 @@ VALUES = named(
         "": "BrakedDrop PoseSolutions",
         "model.arms": "Builtin DHTable",
         "studies.assessment": "Structure Upgrade WeakJoint",
-        "studies.planner_benchmark": "BenchmarkMotion Score",
         "control": "Deviations",
         "model.collision": "CheckedObject Contact",
         "kinematics.index_bounds": "AverageBound",
@@ -89,7 +87,6 @@ INPUTS = named(
     {
         "": "Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
         "model.arm": "Chain",
-        "studies.planner_benchmark": "BenchmarkCase",
         "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "model.cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "model.collision": "IgnoredPair LinkCapsule",

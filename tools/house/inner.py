@@ -13,6 +13,8 @@ from tools.house.imports import File
 FOLDERS = ("benchmarks", "docs", "examples", "papers", "tools/recorded")
 # Runs checkouts of any age in turn, each by the names that it had: their inner modules included.
 OLD = {"benchmarks/side_by_side.py"}
+# Measures planners with parts of the planner of holdfast in their place, so it uses inner modules as measurements do.
+PARTS = "benchmarks/planners/"
 _BLOCK = re.compile(r"^```(?:python|\{run\})\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _OPTION = re.compile(r"^:.*\n", re.MULTILINE)
 _OF_THE_SOURCE = ("# src/", "# tests/")  # a block that shows a file of holdfast itself
@@ -24,7 +26,13 @@ def sources(root: Path) -> Iterator[tuple[str, str]]:
     for path in paths:
         inside = path.relative_to(root)  # the checkout itself may lie anywhere
         name = inside.as_posix()
-        if path.suffix not in (".py", ".md") or name in OLD or {"_build", "gallery"} & set(inside.parts) or not path.exists():
+        if (
+            path.suffix not in (".py", ".md")
+            or name in OLD
+            or name.startswith(PARTS)
+            or {"_build", "gallery"} & set(inside.parts)
+            or not path.exists()
+        ):
             continue
         text = path.read_text(encoding="utf-8")
         blocks = [text] if path.suffix == ".py" else [_OPTION.sub("", found) for found in _BLOCK.findall(text)]

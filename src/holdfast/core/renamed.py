@@ -1,4 +1,4 @@
-"""Names that changed before the first release, with their successors, for error messages."""
+"""Names that changed or left the package before the first release, with their successors, for error messages."""
 
 import re
 
@@ -11,6 +11,7 @@ COMMAND_SUCCESSORS = {
     "records": "record-designs",
     "rehearse": "simulate-logs",
 }
+REPOSITORY_COMMANDS = {"bench": "python -m benchmarks.planners"}
 OPTION_SUCCESSORS = {
     "--anywhere": "--any-pose",
     "--body": "--robot",
@@ -20,11 +21,10 @@ OPTION_SUCCESSORS = {
     "--notice": "--monitor",
 }
 _PUBLIC_NAMES = """
-holdfast: bench=planner_benchmark ceilings=index_bounds clearance=collision engine=sweeps keep=tool_constraints
+holdfast: ceilings=index_bounds clearance=collision engine=sweeps keep=tool_constraints
   motion=path_following reaction=supervisor Endurance=LockSurvival Reach=PoseSolutions endurance_of=evaluate_motion
   endure=plan_motion
   endure_to=plan_motion_to
-holdfast.studies.planner_benchmark: Case=BenchmarkCase Motion=BenchmarkMotion trouble=find_violation
 holdfast.kinematics.index_bounds: Average=AverageBound Ceiling=UpperBound CeilingSearch=UpperBoundSearch
   CeilingTable=UpperBoundTable SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound
   of_index=bound_of_index
@@ -73,8 +73,20 @@ holdfast.teleop.trials: Computer=ComputerOperator Plant=JoystickPlant Recorded=R
 """
 
 
+_REPOSITORY_NAMES = """
+holdfast: bench=benchmarks.planners planner_benchmark=benchmarks.planners
+holdfast.studies: planner_benchmark=benchmarks.planners
+"""
+
+
 def find_successor(package: str, name: str) -> str | None:
-    """Return the full new name of a public function or class that was renamed; None for any other name."""
-    table = re.search(rf"^{re.escape(package)}:(.*(?:\n  .*)*)", _PUBLIC_NAMES, re.MULTILINE)
-    pairs = dict(pair.split("=") for pair in table.group(1).split()) if table else {}
-    return f"{package}.{pairs[name]}" if name in pairs else None
+    """Return the full new name of a public function or class that was renamed or moved; None for any other name."""
+    if name in (moved := _read_pairs(_REPOSITORY_NAMES, package)):
+        return f"{moved[name]}, which is not installed; it is in the repository"
+    renamed = _read_pairs(_PUBLIC_NAMES, package)
+    return f"{package}.{renamed[name]}" if name in renamed else None
+
+
+def _read_pairs(table: str, package: str) -> dict[str, str]:
+    line = re.search(rf"^{re.escape(package)}:(.*(?:\n  .*)*)", table, re.MULTILINE)
+    return dict(pair.split("=") for pair in line.group(1).split()) if line else {}

@@ -1,4 +1,4 @@
-"""Larger computations over regions, designs, and laws: assessments, designs, study files, and a benchmark of planners.
+"""Larger computations over regions, designs, and laws: assessments, designs, and study files.
 
 A module belongs here if it combines many results of other wings into one answer. The names of ``study_files`` are offered
 here, too.

@@ -55,7 +55,6 @@ FIRST = {  # commands before
 CHEAPER = {  # options at the end, the last of which counts
     "assess": "--poses 16",
     "basins": "--grid 4",
-    "bench fail-active": "--cases 2",
     "best-law": "--starts 2 --configurations 2 --time-limit 60",
     "compare-laws": "--motions 2",
     "convergence-map": "--starts 2 --configurations 2 --time-limit 60",

@@ -16,7 +16,7 @@ import typer
 from typer.exceptions import TyperException
 
 from holdfast.core.errors import ArmError, HoldfastError
-from holdfast.core.renamed import COMMAND_SUCCESSORS, OPTION_SUCCESSORS
+from holdfast.core.renamed import COMMAND_SUCCESSORS, OPTION_SUCCESSORS, REPOSITORY_COMMANDS
 from holdfast.interface.cli.completion import find_command_name
 from holdfast.interface.cli.declaration import as_typer
 from holdfast.interface.cli.interrupt import STOPPED_EXIT_CODE
@@ -68,7 +68,6 @@ COMMAND_MODULES = {  # the module of each, in the order of the help; what it def
     "tolerant-workspace": "known.tolerant_workspace",
     "free-swing": "known.free_swing",
     "study": "larger.study",
-    "bench": "larger.bench",
     "teleop": "larger.teleop",
     "export": "larger.export",
 }
@@ -189,6 +188,8 @@ def _format_renaming_hint(message: str) -> str:
     """
     unknown = re.search(r"No such (?:command|option):? '?([\w-]+)", message)
     name = unknown.group(1) if unknown else ""
+    if name in REPOSITORY_COMMANDS:
+        return f"; it is now '{REPOSITORY_COMMANDS[name]}' in a checkout of the repository"
     successor = COMMAND_SUCCESSORS.get(name) or OPTION_SUCCESSORS.get(name)
     return f"; it is now '{successor}'" if successor else ""
 

@@ -14,7 +14,6 @@ PRESENTER_MODULES = {
     "model.arm.task.Task": ("arm.task", ""),
     "studies.assessment.assessment.Assessment": ("assessment.console", "assessment.page"),
     "studies.assessment.comparison.Comparison": ("assessment.comparison_console", "assessment.comparison"),
-    "studies.planner_benchmark.suite.FailActive": ("planner_benchmark.console", "planner_benchmark.page"),
     "kinematics.index_bounds.manipulability_bounds.UpperBound": ("index_bounds.console", ""),
     "kinematics.index_bounds.manipulability_bounds.UpperBoundTable": ("index_bounds.console", ""),
     "kinematics.index_bounds.least_singular_values.SingularValueBound": ("index_bounds.console", ""),

@@ -6,12 +6,12 @@ import pickle
 
 import numpy as np
 import pytest
+from benchmarks.planners.cases import CASE_MAKERS, CaseSampler, sample_failure
+from benchmarks.planners.suite import Score, _study_cell, fail_active
+from benchmarks.planners.verdicts import BenchmarkMotion, find_violation
 
 import holdfast as hf
 from holdfast.kinematics.paths import line
-from holdfast.studies.planner_benchmark.cases import CASE_MAKERS, CaseSampler, sample_failure
-from holdfast.studies.planner_benchmark.suite import _study_cell
-from holdfast.studies.planner_benchmark.verdicts import BenchmarkMotion, find_violation
 
 pytest.importorskip("fcl")
 
@@ -105,9 +105,7 @@ def test_the_arms_own_meshes_are_kept_clear_and_go_with_the_job(draw, rng):
 def test_where_every_case_is_proved_infeasible_there_is_no_share_of_the_others():
     counts = {"solved": 0, "refused": 0, "proved": 4, "within": 4, "argued": 0, "undecided": 0, "feasible": 0}
     times = {"seconds": np.ones(4), "processor": np.ones(4)}
-    score = hf.planner_benchmark.Score(
-        task="line", method="recover", in_cell=False, cases=4, contradictions=0, **times, **counts
-    )
+    score = Score(task="line", method="recover", in_cell=False, cases=4, contradictions=0, **times, **counts)
     assert score.success_of_feasible is None
     assert score.success.value == 0
     assert score.decided_fraction.value == 1
@@ -124,5 +122,5 @@ def test_where_every_case_is_proved_infeasible_there_is_no_share_of_the_others()
 )
 def test_bad_input_writes_nothing(draw, tmp_path, options, sentence):
     with pytest.raises(hf.InputError, match=sentence):
-        hf.planner_benchmark.fail_active(draw.arm, tmp_path / "fa", **options)
+        fail_active(draw.arm, tmp_path / "fa", **options)
     assert not (tmp_path / "fa").exists()

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
+from benchmarks.planners.cases import BenchmarkCase
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotation_vectors
-from holdfast.model.collision.clearance import Clearance
-from holdfast.studies.planner_benchmark.cases import BenchmarkCase
+from holdfast.model.collision import Clearance
 
 # POSITION_TOLERANCE_M and ORIENTATION_TOLERANCE_RAD: m and rad within which rows count as met
 POSITION_TOLERANCE_M = 1e-3

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.paths.path import Path, line, sequence
-from holdfast.kinematics.tool_constraints.constraint import ToolConstraint, upright
+from holdfast.kinematics.paths import Path, line, sequence
+from holdfast.kinematics.tool_constraints import ToolConstraint, upright
+from holdfast.model.arm import Arm
 from holdfast.model.arm.configurations import sampling_limits
-from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, task_from_rows
-from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision import Clearance
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.task_rows import make_row_solver
 

@@ -9,25 +9,24 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from benchmarks.planners import methods
+from benchmarks.planners.cases import CASE_MAKERS
+from benchmarks.planners.job import VERDICT_NAMES, FailActiveJob, case_digest
 from numpy.typing import NDArray
 
 from holdfast.core import registry
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files.output import replace_file
-from holdfast.core.probability.intervals import Interval
-from holdfast.core.result import Result
-from holdfast.core.sweeps.job import SweepCell as StudyCell
-from holdfast.core.sweeps.runner import Runner, Stop, ThreadRunner
-from holdfast.core.sweeps.study import Study
+from holdfast.core.probability import Interval
+from holdfast.core.sweeps import Runner, Study, SweepCell, ThreadRunner
+from holdfast.core.sweeps.runner import Stop
 from holdfast.core.sweeps.work import Progress
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.model import Arm
+from holdfast.model.arm import Arm
 from holdfast.model.arms.serial import to_dict
-from holdfast.model.cell.cell import Cell, as_cell
-from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance, encode_clearance
-from holdfast.studies.planner_benchmark import methods
-from holdfast.studies.planner_benchmark.cases import CASE_MAKERS
-from holdfast.studies.planner_benchmark.job import VERDICT_NAMES, FailActiveJob, case_digest
+from holdfast.model.cell import Cell, as_cell
+from holdfast.model.collision import chosen_clearance
+from holdfast.model.collision.clearance_argument import CellLike, encode_clearance
 from holdfast.studies.study_files.results import read_chunks
 
 Rows = dict[str, NDArray[Any]]
@@ -87,7 +86,7 @@ class Score:
         return Interval.from_counts(self.solved + self.proved, self.cases)
 
 
-class FailActive(Result):
+class FailActive:
     """Results of the suite so far; see :func:`fail_active`.
 
     Attributes:
@@ -100,7 +99,7 @@ class FailActive(Result):
         rows = {index: _read_rows(study, index) for index in range(len(study.cells))}
         labels = [study_cell["labels"] for study_cell in study.cells]
         if any(label.get("job") != SUITE_NAME for label in labels):
-            raise StoreError(f"'{study.path}' is not a suite; give the folder that 'holdfast bench {SUITE_NAME} --out' wrote")
+            raise StoreError(f"'{study.path}' is not a suite; give the folder that 'python -m benchmarks.planners --out' wrote")
         proofs = {
             (label["task"], label["around"]): _proved_infeasible_cases(rows[index])
             for index, label in enumerate(labels)
@@ -186,7 +185,7 @@ def fail_active(
         out: Folder of the study, whose cases are written to ``cases.jsonl``.
         cell: Objects around the arm, or their file; every task is then done in it and without it.
         cases: Of each task that reaches a pose; of the others a tenth.
-        tasks: Some of ``holdfast.studies.planner_benchmark.cases.CASE_MAKERS``; all if not given.
+        tasks: Some of ``benchmarks.planners.cases.CASE_MAKERS``; all if not given.
         planners: Some of ``recover``, ``differential-ik``, ``differential-ik-8-starts``, ``rrt-connect`` and
             ``ompl-rrt-connect`` (needs OMPL). The last two are asked to reach poses alone.
         seconds: Time limit of a case, on one thread.
@@ -225,7 +224,7 @@ def fail_active(
     return FailActive(study)
 
 
-def _study_cell(arm: Arm, work_cell: Cell | None, task: str, method: str, cases: int, seconds: float) -> StudyCell:
+def _study_cell(arm: Arm, work_cell: Cell | None, task: str, method: str, cases: int, seconds: float) -> SweepCell:
     clearance = chosen_clearance(arm, None, work_cell)
     shape = None if clearance is None else clearance.capsules.shape
     plan = {
@@ -247,10 +246,10 @@ def _study_cell(arm: Arm, work_cell: Cell | None, task: str, method: str, cases:
     }
     rows = cases if task.startswith("reach") else max(cases // PATH_CASE_DIVISOR, 1)
     name = "-".join([task, method, *(["cell"] if work_cell is not None else [])])
-    return StudyCell(name, FailActiveJob(plan, shape), plan, rows=rows, chunk=min(rows, 5), labels=labels)
+    return SweepCell(name, FailActiveJob(plan, shape), plan, rows=rows, chunk=min(rows, 5), labels=labels)
 
 
-def _write_cases(study: Study, cells: Sequence[StudyCell], seed: int) -> None:
+def _write_cases(study: Study, cells: Sequence[SweepCell], seed: int) -> None:
     """Write every case, one JSON object per line, for other planners."""
     file = study.path / "cases.jsonl"
     if file.exists():

@@ -10,16 +10,15 @@ from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.planners import methods
+from benchmarks.planners.cases import BenchmarkCase, CaseSampler
+from benchmarks.planners.verdicts import find_violation
 from numpy.typing import NDArray
 
-from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps import Chunk, Column
 from holdfast.model.arms.serial import from_dict
 from holdfast.model.collision.clearance_argument import decode_clearance
 from holdfast.response.recovery.recovery import Answer
-from holdfast.studies.planner_benchmark import methods
-from holdfast.studies.planner_benchmark.cases import BenchmarkCase, CaseSampler
-from holdfast.studies.planner_benchmark.verdicts import find_violation
 from holdfast.studies.study_files.jobs.process import PlannedJob
 
 if TYPE_CHECKING:

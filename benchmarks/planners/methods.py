@@ -8,25 +8,25 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 import numpy as np
-
-from holdfast.core.errors import HoldfastError
-from holdfast.core.typing import FloatArray
-from holdfast.kinematics.paths.path import line
-from holdfast.model.arm.configurations import sampling_limits
-from holdfast.model.collision.clearance import Clearance
-from holdfast.response.recovery.goals import find_goal_configurations
-from holdfast.response.recovery.recovery import Answer
-from holdfast.response.recovery.routes import find_route
-from holdfast.response.recovery.search import recover
-from holdfast.response.recovery.space import FreeSpace, JointMetric
-from holdfast.response.recovery.task_rows import make_row_solver
-from holdfast.studies.planner_benchmark.cases import BenchmarkCase
-from holdfast.studies.planner_benchmark.verdicts import (
+from benchmarks.planners.cases import BenchmarkCase
+from benchmarks.planners.verdicts import (
     ORIENTATION_TOLERANCE_RAD,
     POSITION_TOLERANCE_M,
     BenchmarkMotion,
     find_violation,
 )
+
+from holdfast.core.errors import HoldfastError
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.paths import line
+from holdfast.model.arm.configurations import sampling_limits
+from holdfast.model.collision import Clearance
+from holdfast.response.recovery import recover
+from holdfast.response.recovery.goals import find_goal_configurations
+from holdfast.response.recovery.recovery import Answer
+from holdfast.response.recovery.routes import find_route
+from holdfast.response.recovery.space import FreeSpace, JointMetric
+from holdfast.response.recovery.task_rows import make_row_solver
 
 Rng = np.random.Generator
 

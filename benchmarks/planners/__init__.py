@@ -1,0 +1,1 @@
+"""Benchmark of motion planners on degraded arms; see ``README.md``."""

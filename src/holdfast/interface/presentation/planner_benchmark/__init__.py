@@ -1,1 +1,0 @@
-"""Reports and figures of planner benchmark suites."""
