@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 
 import harness
+
+sys.path.append(str(Path(__file__).parents[1]))
 
 SIZES = [(8, 6, 2), (9, 6, 2), (7, 3, 3)]
 PLAIN = 20  # arms that NumPy judges
@@ -16,14 +20,13 @@ PLAIN = 20  # arms that NumPy judges
 
 def searches(chosen: argparse.Namespace) -> str:
     """The same seconds of our search and of SciPy's on the same objective."""
+    from measurements.upper_bounds.ascent_search import search_null_space
     from scipy.optimize import minimize
-
-    import holdfast as hf
 
     seconds, rows = 3.0 if chosen.quick else 20.0, []
     for n, m, k in SIZES:
         harness.progress(f"{n}, {m}, {k}")
-        found, best = hf.index_bounds.search_null_space(n=n, m=m, k=k, seed=1, seconds=seconds), 0.0
+        found, best = search_null_space(n=n, m=m, k=k, seed=1, seconds=seconds), 0.0
         sets, rng, end = np.array(list(combinations(range(n), k))), np.random.default_rng(1), time.monotonic() + seconds
 
         def least(x: np.ndarray, sets: np.ndarray = sets, shape: tuple[int, int] = (n, n - m)) -> float:
@@ -40,14 +43,17 @@ def searches(chosen: argparse.Namespace) -> str:
 
 def judged(chosen: argparse.Namespace) -> str:
     """All 2,520 orders of seven lines, and some of them in NumPy."""
+    from measurements.synthesis.arms import synthesise
+    from measurements.synthesis.orders import compare_joint_orders
+
     import holdfast as hf
 
     samples = 200 if chosen.quick else 2000
-    j = hf.designs.synthesise(hf.index_bounds.upper_bound(n=7, m=6), starts=4).jacobians[0]
-    hf.designs.compare_joint_orders(j, samples=10, at_most=1)  # compiles
+    j = synthesise(hf.index_bounds.upper_bound(n=7, m=6), starts=4).jacobians[0]
+    compare_joint_orders(j, samples=10, at_most=1)  # compiles
     harness.progress("orders")
     start = time.perf_counter()
-    found = hf.designs.compare_joint_orders(j, samples=samples)
+    found = compare_joint_orders(j, samples=samples)
     ours = len(found.orders) * samples / (time.perf_counter() - start)
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (samples, 7))
     start = time.perf_counter()

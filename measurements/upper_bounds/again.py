@@ -9,6 +9,7 @@ from typing import Any
 
 import holdfast as hf
 from holdfast.kinematics.index_bounds import UpperBound
+from measurements.upper_bounds.ascent_search import search_null_space
 
 SECONDS, SEEDS = 60.0, (101, 102, 103)  # seconds of all seeds of a size together; fresh seeds
 SAME = 1e-7  # relative
@@ -32,7 +33,7 @@ def searched(c: UpperBound) -> dict[str, Any]:
     best, took, seed = 0.0, 0.0, 0
     for seed in SEEDS:
         enough = c.best_known * (1 - SAME / 10)
-        found = hf.index_bounds.search_null_space(n=c.n, m=c.m, k=c.k, seed=seed, seconds=SECONDS / len(SEEDS), enough=enough)
+        found = search_null_space(n=c.n, m=c.m, k=c.k, seed=seed, seconds=SECONDS / len(SEEDS), enough=enough)
         best, took = max(best, found.value), took + found.seconds
         if best >= enough:
             break

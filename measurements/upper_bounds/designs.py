@@ -7,6 +7,8 @@ from time import process_time
 import numpy as np
 
 import holdfast as hf
+from measurements.record_designs.self_motions import design_for_self_motion
+from measurements.record_designs.workspaces import design_for_workspace
 
 SEEDS = (0, 1, 2)
 
@@ -20,7 +22,7 @@ def table() -> list[str]:
         for seed in SEEDS:
             start = process_time()
             bounds = {f"a{k + 1}": (least, 3 - (arm.n - 1) * least) for k in range(arm.n)}
-            found = hf.designs.design_for_workspace(arm, bounds, seed=seed)
+            found = design_for_workspace(arm, bounds, seed=seed)
             took = process_time() - start
             region = hf.tolerant_workspace(found.arm(), "planar", found.limits)
             again = f"{region.size:.4g} m² ({region.size_interval[0]:.4g} to {region.size_interval[1]:.4g})"
@@ -32,7 +34,7 @@ def table() -> list[str]:
         bounds = {f"{kind}{k + 1}": (-w, w) for k in range(arm.n) for kind, w in (("a", 1.2), ("alpha", 5.0), ("d", 1.0))}
         for seed in SEEDS:
             start = process_time()
-            found = hf.designs.design_for_self_motion(arm, bounds, task=task, seed=seed)
+            found = design_for_self_motion(arm, bounds, task=task, seed=seed)
             took = process_time() - start
             assert found.q is not None
             assert found.winding is not None

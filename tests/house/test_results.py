@@ -33,10 +33,10 @@ RESULTS = named(
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
         "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
-        "kinematics.index_bounds": "UpperBound UpperBoundSearch UpperBoundTable SingularValueBound",
+        "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
-        "studies.designs": "RecordBook EvolvedDesign ArmComparison JointOrders DesignRecord RecordCheck Synthesis",
+        "studies.designs": "RecordBook ArmComparison DesignRecord RecordCheck",
         "core.sweeps": "MergeReport Study StudyVerification",
         "response.diagnosis": "Bounds Diagnosis ExportedMonitor Identification Observability ProbingMotion",
         "response.faults": "FaultBatch",

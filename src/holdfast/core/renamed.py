@@ -11,7 +11,7 @@ COMMAND_SUCCESSORS = {
     "records": "record-designs",
     "rehearse": "simulate-logs",
 }
-REPOSITORY_COMMANDS = {"bench": "python -m benchmarks.planners"}
+REPOSITORY_COMMANDS = {"bench": "python -m benchmarks.planners", "synthesise": "python -m measurements.synthesis"}
 OPTION_SUCCESSORS = {
     "--anywhere": "--any-pose",
     "--body": "--robot",
@@ -25,15 +25,14 @@ holdfast: ceilings=index_bounds clearance=collision engine=sweeps keep=tool_cons
   motion=path_following reaction=supervisor Endurance=LockSurvival Reach=PoseSolutions endurance_of=evaluate_motion
   endure=plan_motion
   endure_to=plan_motion_to
-holdfast.kinematics.index_bounds: Average=AverageBound Ceiling=UpperBound CeilingSearch=UpperBoundSearch
-  CeilingTable=UpperBoundTable SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound
-  of_index=bound_of_index
-  search=search_null_space singular_value=bound_singular_value singular_value_of_index=bound_singular_value_of_index
+holdfast.kinematics.index_bounds: Average=AverageBound Ceiling=UpperBound CeilingTable=UpperBoundTable
+  SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound of_index=bound_of_index
+  singular_value=bound_singular_value singular_value_of_index=bound_singular_value_of_index
   table=bound_table
 holdfast.model.collision: Capsule=LinkCapsule
 holdfast.studies.designs: Book=RecordBook Check=HeldOutCheck Checked=HeldOutResult Judgement=ArmComparison Measured=ArmMeasures
-  Orders=JointOrders Parameter=DesignParameter PlanarRest=PlanarStationarySets Record=DesignRecord judge=compare_arms
-  judge_orders=compare_joint_orders record=record_design records=record_designs written=write_dh_table
+  Parameter=DesignParameter PlanarRest=PlanarStationarySets Record=DesignRecord judge=compare_arms
+  record=record_design records=record_designs
 holdfast.response.diagnosis: Finding=Identification Probe=ProbingMotion Push=ExternalForce Verdict=FaultVerdict decide=identify
   observe=predict_detection plan_probe=plan_identification rehearse=simulate_log rehearse_many=simulate_logs
 holdfast.kinematics.interval_search: Finding=SearchOutcome parted=prove_leg_impossible
@@ -76,6 +75,22 @@ holdfast.teleop.trials: Computer=ComputerOperator Plant=JoystickPlant Recorded=R
 _REPOSITORY_NAMES = """
 holdfast: bench=benchmarks.planners planner_benchmark=benchmarks.planners
 holdfast.studies: planner_benchmark=benchmarks.planners
+holdfast.kinematics.index_bounds: CeilingSearch=measurements.upper_bounds.ascent_search.UpperBoundSearch
+  UpperBoundSearch=measurements.upper_bounds.ascent_search.UpperBoundSearch
+  search=measurements.upper_bounds.ascent_search.search_null_space
+  search_null_space=measurements.upper_bounds.ascent_search.search_null_space
+  bounds_by_arrangement=measurements.upper_bounds.minor_programmes.bounds_by_arrangement
+holdfast.studies.designs: Orders=measurements.synthesis.orders.JointOrders
+  JointOrders=measurements.synthesis.orders.JointOrders
+  judge_orders=measurements.synthesis.orders.compare_joint_orders
+  compare_joint_orders=measurements.synthesis.orders.compare_joint_orders
+  EvolvedDesign=measurements.record_designs.found.EvolvedDesign
+  design_for_self_motion=measurements.record_designs.self_motions.design_for_self_motion
+  design_for_workspace=measurements.record_designs.workspaces.design_for_workspace
+  Synthesis=measurements.synthesis.arms.Synthesis
+  synthesise=measurements.synthesis.arms.synthesise
+  written=measurements.synthesis.arms.write_dh_table
+  write_dh_table=measurements.synthesis.arms.write_dh_table
 """
 
 

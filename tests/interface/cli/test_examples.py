@@ -23,7 +23,6 @@ from holdfast.interface.presentation.results import print_result, print_results
 # ---- what an example needs beside the command ----------------------------------------------------------------------------
 
 FILES = {
-    "jacobian.csv": "-1, 0.2, 0.5, 0.1\n0, 1, 0.3, 0.4\n0.1, 0, 0.6, -0.5\n",
     "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
     "line.yaml": "angles: deg\nline: {from: {xyz: [0.45, -0.1, 0.4], urdf_rpy: [180, 0, 0]}, to: {xyz: [0.45, 0.1, 0.4]}}\n"
     "timing: {duration: 2}\n",
@@ -75,7 +74,6 @@ CHEAPER = {  # options at the end, the last of which counts
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
 QUICK = {"arms", "upper-bound", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {
-    "synthesise",
     "certify reach",
     "certify ceiling",
     "certify floor",

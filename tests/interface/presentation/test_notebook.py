@@ -86,18 +86,12 @@ MADE = {
     "ConvergenceMap": lambda: mapped(),
     "RecordBook": found(hf.designs.record_designs),
     "UpperBound": found(hf.index_bounds.upper_bound, n=8, m=6, k=2),
-    "UpperBoundSearch": found(hf.index_bounds.search_null_space, n=4, m=2, k=2, seconds=0.2),
     "UpperBoundTable": found(hf.index_bounds.bound_table, 6),
     "SingularValueBound": found(hf.index_bounds.bound_singular_value, n=7, m=3),
-    "EvolvedDesign": found(
-        lambda: hf.designs.design_for_workspace(four(), {"a1": (0.5, 1.5), "a3": (0.5, 1.5)}, generations=2, restarts=1)
-    ),
     "FaultBatch": found(lambda: hf.faults.FaultModel([hf.faults.weak(gain=0.3, onset=1.0)]).batch(arm(), episodes=2)),
-    "JointOrders": found(lambda: hf.designs.compare_joint_orders(hf.arms.load("panda").jacobian(np.full(7, 0.4)), samples=20)),
     "ArmComparison": found(lambda: hf.designs.compare_arms(arm(), task="planar", measures=["fraction-above"], samples=200)),
     "DesignRecord": found(hf.designs.record_design, "pose-9R-k2-001"),
     "RecordCheck": found(lambda: hf.designs.record_design("pose-9R-k2-001").check()),
-    "Synthesis": found(lambda: hf.designs.synthesise(hf.index_bounds.upper_bound(n=4, m=2, k=1), task="planar", starts=1)),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
     "LockSurvival": found(lambda: hf.plan_motion(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
@@ -138,15 +132,12 @@ WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "
 WITHOUT_FIGURE |= {
     "RecordBook",
     "UpperBound",
-    "UpperBoundSearch",
     "UpperBoundTable",
     "SingularValueBound",
     "FaultBatch",
     "ArmComparison",
-    "JointOrders",
     "DesignRecord",
     "RecordCheck",
-    "Synthesis",
 }
 WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
@@ -160,7 +151,6 @@ ELSEWHERE = {
     "Identification",
     "Observability",
     "ProbingMotion",
-    "FailActive",
     "FaultRun",
     "FreeSwing",
     "MergeReport",

@@ -35,13 +35,10 @@ PARTS = {
 PARTS |= {
     "RecordBook",
     "UpperBound",
-    "UpperBoundSearch",
     "UpperBoundTable",
     "FaultBatch",
-    "JointOrders",
     "DesignRecord",
     "RecordCheck",
-    "Synthesis",
 }
 PARTS |= {"SingularValueBound"}
 NAMES = [

@@ -113,15 +113,6 @@ def test_bounds_are_consistent():
         assert c.bound < hf.index_bounds.upper_bound(n=n, m=m, k=k - 1).bound
 
 
-@pytest.mark.parametrize("size", [(6, 3, 2), (8, 6, 2), (5, 2, 3)])
-def test_a_search_finds_the_ceiling_again(size):
-    n, m, k = size
-    found = hf.index_bounds.search_null_space(n=n, m=m, k=k, seed=3, seconds=0.5)
-    assert found.value == pytest.approx(least(found.null_space, k), rel=1e-10)
-    assert 0.97 * found.bound < found.value <= found.bound * (1 + 1e-12)
-    assert found.describe()[0].startswith("found")
-
-
 def test_a_ceiling_of_an_index(pa10):
     two = hf.indices.relative_manipulability(pa10, "pose", 2)
     c = hf.index_bounds.bound_of_index(two)

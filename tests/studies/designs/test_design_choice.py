@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.studies.designs.ranking import choose_best_design, describe_farther_design
+from holdfast.studies.designs.designs import choose_best_design, describe_farther_design
 
 
 def test_of_guarantees_that_are_alike_the_longer_reach_is_the_best():

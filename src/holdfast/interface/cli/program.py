@@ -38,7 +38,6 @@ COMMAND_MODULES = {  # the module of each, in the order of the help; what it def
     "report": "start.assess:report",
     "index": "before.index",
     "upper-bound": "before.upper_bound",
-    "synthesise": "before.synthesise",
     "compare-arms": "before.compare_arms",
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",

@@ -1,5 +1,3 @@
-from holdfast.kinematics.index_bounds.ascent_search import UpperBoundSearch as UpperBoundSearch
-from holdfast.kinematics.index_bounds.ascent_search import search_null_space as search_null_space
 from holdfast.kinematics.index_bounds.averages import AverageBound as AverageBound
 from holdfast.kinematics.index_bounds.averages import bound_average as bound_average
 from holdfast.kinematics.index_bounds.least_singular_values import SingularValueBound as SingularValueBound
@@ -12,4 +10,3 @@ from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBoundTab
 from holdfast.kinematics.index_bounds.manipulability_bounds import bound_of_index as bound_of_index
 from holdfast.kinematics.index_bounds.manipulability_bounds import bound_table as bound_table
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound as upper_bound
-from holdfast.kinematics.index_bounds.minor_programmes import bounds_by_arrangement as bounds_by_arrangement

@@ -18,16 +18,8 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.index_bounds.closed_forms import CLOSED_FORMS
 from holdfast.kinematics.index_bounds.frames import known_null_space, orthogonal_complement
-from holdfast.kinematics.index_bounds.minor_programmes import bounds_by_arrangement
 from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
-from holdfast.kinematics.index_bounds.pair_kernels import stored_certificates
-from holdfast.kinematics.index_bounds.theorems import (
-    ARRANGEMENT_BOUNDS,
-    PAIR_BOUNDS,
-    THEOREM_TEXTS,
-    ProvedBound,
-    best_proved_bound,
-)
+from holdfast.kinematics.index_bounds.theorems import THEOREM_TEXTS, ProvedBound, best_proved_bound
 
 _ATTAINED_TOLERANCE = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
 _ORTHONORMAL_TOLERANCE = 1e-12
@@ -147,29 +139,13 @@ class UpperBound(Result):
             lines.append(f"the best that is known is {self.best_known:.10g}{form}; the bound is {above} above it")
         return lines
 
-    def verify(self, *, proof: bool = False) -> UpperBound:
+    def verify(self) -> UpperBound:
         """Recompute the value of the stored null space by singular values and compare it with the bound; return the object
-        itself.
-
-        Args:
-            proof: Also replay the certificates that the bound rests on, of R3 in integers and of R4 in ball arithmetic:
-                seconds, minutes for nine joints by R4.
+        itself. ``python -m measurements.upper_bounds.proofs`` in the repository replays the proof of the bound.
 
         Raises:
-            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong; or the
-                certificates prove less than what is said.
-            ValueError: A certificate proves nothing.
-            ImportError: The proof by R4 needs python-flint (``pip install "holdfast-arms[certify]"``).
+            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong.
         """
-        for theorem, n, p in best_proved_bound(self.n, self.m, self.k).replayed if proof else ():
-            stored_bound = ARRANGEMENT_BOUNDS[n] if theorem == "R4" else PAIR_BOUNDS[n, n - p]
-            replayed_bound = (
-                max(bounds_by_arrangement(n)) if theorem == "R4" else stored_certificates()[n, n - p].proved_bound()
-            )
-            if replayed_bound > stored_bound:
-                raise InputError(
-                    f"the certificates of {theorem} for {n} joints prove {replayed_bound:.12g} and not {stored_bound:.12g}"
-                )
         if self.null_space is None:
             return self
         orthonormality_error, value = (

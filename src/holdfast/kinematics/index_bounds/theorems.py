@@ -22,10 +22,10 @@ THEOREM_TEXTS = {
     "R4": "a geometric program for each class of pseudoline arrangements, certificates replayed in ball arithmetic",
 }
 
-# Upper bounds by :mod:`holdfast.kinematics.index_bounds.pseudolines`, replayed in balls and rounded up: n -> c(n, 3, 3).
+# Upper bounds by ``measurements/upper_bounds/minor_programmes.py``, replayed in balls and rounded up: n -> c(n, 3, 3).
 ARRANGEMENT_BOUNDS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
 
-# What the certificates of :mod:`holdfast.kinematics.index_bounds.pair_kernels` prove: (n, m) -> c(n, n - m, 2).
+# Bounds that the certificates of ``measurements/upper_bounds/pair_certificates.json`` prove: (n, m) -> c(n, n - m, 2).
 PAIR_BOUNDS = {
     (5, 2): 0.515989,
     (6, 2): 0.610416,

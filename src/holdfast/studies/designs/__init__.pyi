@@ -1,8 +1,6 @@
-from holdfast.studies.designs.arm_comparison.comparison import ArmComparison as ArmComparison
-from holdfast.studies.designs.arm_comparison.comparison import ArmMeasures as ArmMeasures
-from holdfast.studies.designs.arm_comparison.comparison import compare_arms as compare_arms
-from holdfast.studies.designs.arm_comparison.orders import JointOrders as JointOrders
-from holdfast.studies.designs.arm_comparison.orders import compare_joint_orders as compare_joint_orders
+from holdfast.studies.designs.arm_comparison import ArmComparison as ArmComparison
+from holdfast.studies.designs.arm_comparison import ArmMeasures as ArmMeasures
+from holdfast.studies.designs.arm_comparison import compare_arms as compare_arms
 from holdfast.studies.designs.convergence import ConvergenceDesigns as ConvergenceDesigns
 from holdfast.studies.designs.convergence import design_for_convergence as design_for_convergence
 from holdfast.studies.designs.convergence import planar_measures as planar_measures
@@ -11,9 +9,6 @@ from holdfast.studies.designs.designs import HeldOutCheck as HeldOutCheck
 from holdfast.studies.designs.designs import HeldOutResult as HeldOutResult
 from holdfast.studies.designs.evaluation import Evaluated as Evaluated
 from holdfast.studies.designs.evaluation import Evaluator as Evaluator
-from holdfast.studies.designs.evolution.found import EvolvedDesign as EvolvedDesign
-from holdfast.studies.designs.evolution.self_motions import design_for_self_motion as design_for_self_motion
-from holdfast.studies.designs.evolution.workspaces import design_for_workspace as design_for_workspace
 from holdfast.studies.designs.family import Family as Family
 from holdfast.studies.designs.gradient import Sensitivity as Sensitivity
 from holdfast.studies.designs.gradient import sensitivity as sensitivity
@@ -32,6 +27,3 @@ from holdfast.studies.designs.space import DesignParameter as DesignParameter
 from holdfast.studies.designs.space import DesignSpace as DesignSpace
 from holdfast.studies.designs.space import design_space as design_space
 from holdfast.studies.designs.space import parse_vary as parse_vary
-from holdfast.studies.designs.synthesis.arms import Synthesis as Synthesis
-from holdfast.studies.designs.synthesis.arms import synthesise as synthesise
-from holdfast.studies.designs.synthesis.arms import write_dh_table as write_dh_table

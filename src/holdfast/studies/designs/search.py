@@ -21,12 +21,11 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.arms.serial import to_dict
 from holdfast.model.failure_modes import FailureSpec
-from holdfast.studies.designs.designs import Designs, HeldOutCheck, HeldOutResult
+from holdfast.studies.designs.designs import Designs, HeldOutCheck, HeldOutResult, choose_best_design
 from holdfast.studies.designs.evaluation import Evaluated, Evaluator
 from holdfast.studies.designs.family import Family
 from holdfast.studies.designs.gradient import sensitivity
 from holdfast.studies.designs.quantile import compute_lower_quantile, compute_quantile_weights
-from holdfast.studies.designs.ranking import choose_best_design
 from holdfast.studies.designs.reach import ReachEvaluator
 from holdfast.studies.designs.space import DesignSpace, Vary, design_space
 

@@ -13,7 +13,7 @@ from holdfast.interface.cli.options import TASK_HELP, ArmArgument, FailuresOptio
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.start.assess import read_region
 from holdfast.interface.cli.values import read_failures, read_task
-from holdfast.interface.presentation.results import current_command, print_result
+from holdfast.interface.presentation.results import print_result
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
@@ -28,12 +28,11 @@ def command(
     ],
     maximise: Annotated[
         str,
-        "What to maximise: an index, of which a quantile over the region counts; convergence, how often the "
-        "arm reaches its target after a lock that its controller does not know of; self-motion-size, how far all joints "
-        "turn on one self-motion; or tolerant-workspace, the area that a planar arm keeps whatever joint locks.",
+        "What to maximise: an index, of which a quantile over the region counts; or convergence, how often the "
+        "arm reaches its target after a lock that its controller does not know of.",
     ] = "relative-manipulability",
     law: Annotated[str | None, f"With --maximise convergence: {LAW_REGISTRY.usage}. Default: pseudoinverse."] = None,
-    keep_reach: Annotated[bool, "With --maximise convergence or tolerant-workspace: link lengths keep their sum."] = False,
+    keep_reach: Annotated[bool, "With --maximise convergence: link lengths keep their sum."] = False,
     region: Annotated[Path | None, "Region file (YAML). Default: around the arm's home."] = None,
     task: Annotated[str | None, TASK_HELP] = None,
     failures: FailuresOption = "single",
@@ -74,21 +73,12 @@ def command(
         if maximise == "convergence":
             control_law = LAW_REGISTRY.make(law or "pseudoinverse", baseline, option="--law", task=rows)
             design_result = hf.design_for_convergence(control_law, space, keep_reach=keep_reach, **common)
-        elif maximise == "tolerant-workspace" and law is None:
-            design_result = hf.designs.design_for_workspace(baseline, space, keep_reach=keep_reach, seed=seed)
-        elif maximise == "self-motion-size" and law is None and not keep_reach:
-            design_result = hf.designs.design_for_self_motion(baseline, space, task=rows, seed=seed)
         elif law is not None or keep_reach:
-            raise InputError(
-                "--law belongs to --maximise convergence, --keep-reach to that and to tolerant-workspace; leave them out"
-            )
+            raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
         else:
             common |= {"level": level, "failures": read_failures(baseline, failures), "length": length}
             workspace_region = read_region(region, arm, baseline)
             design_result = hf.design(
                 baseline, space, maximise, region=workspace_region, task=rows, poses=poses, check_poses=check_poses, **common
             )
-    save_options = (
-        {"command": current_command()} if isinstance(design_result, hf.designs.EvolvedDesign) else {}
-    )  # others make theirs of what they store
-    print_result(design_result, json_, [] if out is None else design_result.save(out, **save_options), listed=True)
+    print_result(design_result, json_, [] if out is None else design_result.save(out), listed=True)

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-import numpy as np
 import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import TASK_SIZES, is_count
-from holdfast.interface.cli.options import JsonOption, SeedOption
-from holdfast.interface.cli.progress import show_status
-from holdfast.interface.presentation.printing import make_console, print_written_files
-from holdfast.interface.presentation.results import print_result, print_results
-
-if TYPE_CHECKING:
-    from holdfast.core.result import Result
+from holdfast.interface.cli.options import JsonOption
+from holdfast.interface.presentation.results import print_result
 
 
 def command(
@@ -26,9 +19,7 @@ def command(
     failures: Annotated[int, typer.Argument(metavar="FAILURES", help="Joints that fail at once.")] = 1,
     table: Annotated[bool, "All sizes that are stored instead."] = False,
     task: Annotated[str | None, "Those of one task in --table."] = None,
-    verify: Annotated[bool, "Measure the stored null space anew; replay certificates."] = False,
-    search: Annotated[float | None, "Seconds to search for a better null space."] = None,
-    arm: Annotated[Path | None, "Write a revolute arm that attains the best known value, or what --search found."] = None,
+    verify: Annotated[bool, "Compute the value of the stored null space again and compare it with the bound."] = False,
     singular_value: Annotated[
         float | None,
         typer.Option(
@@ -37,7 +28,6 @@ def command(
             help="Of the least singular value instead, for a mean lever of the joints, m (for a pose in lengths, or inf).",
         ),
     ] = None,
-    seed: SeedOption = 0,
     json_: JsonOption = False,
 ) -> None:
     """Look up the upper bound on relative manipulability for an arm of a given size.
@@ -59,34 +49,7 @@ def command(
         )
         return
     upper_bound = hf.index_bounds.upper_bound(n=joints, m=_read_row_count(rows), k=failures)
-    if arm is None and search is None:
-        print_result(upper_bound.verify(proof=True) if verify else upper_bound, json_)
-        return
-    results: list[Result] = []
-    files, null_space = list[Path](), None
-    if search is not None:
-        problem_size = {"n": upper_bound.n, "m": upper_bound.m, "k": upper_bound.k}
-        with show_status("searching") as update_status:
-            better = hf.index_bounds.search_null_space(
-                **problem_size, seed=seed, seconds=search, progress=lambda value: update_status(f"best so far {value:.8f}")
-            )
-        results.append(better)
-        null_space = better.null_space
-    if arm is not None:
-        task_name = _choose_task_name(rows, upper_bound.m)
-        synthesis = hf.designs.synthesise(
-            None if search else upper_bound, null_space=null_space, task=task_name, failures=upper_bound.k, seed=seed
-        )
-        results.append(synthesis)
-        files = [hf.designs.write_dh_table(synthesis.arms[int(np.argmin(synthesis.losses))], arm)]
-    print_results(results, json_)
-    if not json_:
-        print_written_files(make_console(), files)
-
-
-def _choose_task_name(text: str, row_count: int) -> str:
-    """Return the name of the task for which arms are constructed, from its name or its number of rows."""
-    return text if text in TASK_SIZES else {2: "planar", 3: "position", 6: "pose"}.get(row_count, text)
+    print_result(upper_bound.verify() if verify else upper_bound, json_)
 
 
 def _read_row_count(text: str) -> int:

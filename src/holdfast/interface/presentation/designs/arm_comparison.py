@@ -10,7 +10,7 @@ from holdfast.core.formatting import capitalise_first
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable, format_significant, print_table
 from holdfast.kinematics.index_bounds.manipulability_bounds import failure_phrase
-from holdfast.studies.designs.arm_comparison.comparison import ArmComparison
+from holdfast.studies.designs.arm_comparison import ArmComparison
 
 if TYPE_CHECKING:
     from rich.console import Console

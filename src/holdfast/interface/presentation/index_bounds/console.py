@@ -1,4 +1,4 @@
-"""Text, tables, and JSON of upper bounds of relative manipulability, their table, and the results of searches."""
+"""Text, tables, and JSON of upper bounds of relative manipulability, and of their table."""
 
 from __future__ import annotations
 
@@ -7,20 +7,16 @@ from typing import Any
 
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation.printing import TextTable
-from holdfast.kinematics.index_bounds.ascent_search import UpperBoundSearch
 from holdfast.kinematics.index_bounds.least_singular_values import BOUND_REASONS, SingularValueBound
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, UpperBoundTable
 
-Found = UpperBound | UpperBoundTable | UpperBoundSearch | SingularValueBound
+Found = UpperBound | UpperBoundTable | SingularValueBound
 
 
 def to_dict(bounds: Found) -> dict[str, Any]:
     """Return the bound, the best known value, and the null space; the table has no null spaces."""
     if isinstance(bounds, UpperBoundTable):
         return {"ceilings": [_bound_values(bound) for bound in bounds.ceilings]}
-    if isinstance(bounds, UpperBoundSearch):
-        numbers = _bound_values(bounds.ceiling) | {"value": bounds.value, "seed": bounds.seed, "seconds": bounds.seconds}
-        return numbers | {"null_space": bounds.null_space.tolist()}
     if isinstance(bounds, SingularValueBound):
         size = {
             "joints": bounds.n,
@@ -68,8 +64,6 @@ _HEADER_ROW = ["joints", "rows", "failures", "bound", "by", "best known", "in ro
 
 def tables(bounds: Found) -> list[TextTable]:
     """Tabulate the upper bounds, one row for each."""
-    if isinstance(bounds, UpperBoundSearch):
-        return [TextTable(_HEADER_ROW, [_format_row(bounds.ceiling)], "what was known")]
     if isinstance(bounds, SingularValueBound):
         numbers = [f"{bounds.n}", f"{bounds.m}", f"{bounds.k}", f"{bounds.lever:.4g}", f"{bounds.bound:.6f}"]
         return [
@@ -91,14 +85,9 @@ def key_table(bounds: Found) -> TextTable:
 
 
 def next_steps(bounds: Found, name: str) -> list[str]:
-    """Suggest the null space or Jacobian that attains the value, a verification, or a search."""
+    """Suggest the null space or Jacobian that attains the value, or a verification."""
     if isinstance(bounds, UpperBoundTable):
         return [f"{name}.ceilings[0].null_space  # the best that is known"]
-    if isinstance(bounds, UpperBoundSearch):
-        return [f"{name}.null_space  # attains {bounds.value:.6g}"]
     if isinstance(bounds, SingularValueBound):
         return [f"{name}.bound  # no Jacobian has more" if bounds.jacobian is None else f"{name}.jacobian  # attains it"]
-    search = (
-        f"hf.index_bounds.search_null_space(n={bounds.n}, m={bounds.m}, k={bounds.k}, seconds=60)  # is there a better one?"
-    )
-    return [f"{name}.verify()  # measures the null space anew", *([] if bounds.is_attained else [search])]
+    return [f"{name}.verify()  # measures the null space anew"]

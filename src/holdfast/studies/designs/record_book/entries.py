@@ -150,7 +150,7 @@ class DesignRecord(Result):
             InputError: It is a null space alone.
         """
         if self.arm is None:
-            raise InputError(f"'{self.id}' is a null space alone; make an arm that has it: holdfast upper-bound --arm")
+            raise InputError(f"'{self.id}' is a null space alone; measurements/synthesis in the repository makes arms from it")
         return urdf_text(self.arm)
 
     @property
@@ -424,7 +424,7 @@ def _make_null_space_record(bound: UpperBound) -> DesignRecord:
         "class": record_class,
         "value": bound.best_known,
         "proven_bound": {"value": bound.bound, "by": bound.bound_by},
-        "found": {"by": "holdfast", "date": "2026-11-25", "how": "holdfast upper-bound --search"},
+        "found": {"by": "holdfast", "date": "2026-11-25", "how": "python -m measurements.upper_bounds.null_spaces"},
         "null_space": bound.null_space.tolist(),
         "check": {"command": f"holdfast record-designs check {record_id}", "tolerance": 1e-9},
         "licence": "CC0-1.0",

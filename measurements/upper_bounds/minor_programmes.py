@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.index_bounds.pseudolines import Signs, arrangement_classes, minor_relations
+from measurements.upper_bounds.pseudolines import Signs, arrangement_classes, minor_relations
 
 _MAX_NEWTON_STEPS = 60
 _DUALITY_GAP = 1e-11

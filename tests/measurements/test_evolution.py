@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from measurements.record_designs.__main__ import main
+from measurements.record_designs.annuli import compute_tolerant_area
+from measurements.record_designs.self_motions import design_for_self_motion
+from measurements.record_designs.strategy import minimise_by_evolution
+from measurements.record_designs.sweeps import SelfMotionTracer
+from measurements.record_designs.workspaces import design_for_workspace
 
 import holdfast as hf
 from holdfast.kinematics.workspace.closed_form import ThreeLinks, workspace_area
-from holdfast.studies.designs.evolution.annuli import compute_tolerant_area
-from holdfast.studies.designs.evolution.strategy import minimise_by_evolution
-from holdfast.studies.designs.evolution.sweeps import SelfMotionTracer
 from holdfast.studies.designs.family import Family
 
 FULL = [-np.pi, np.pi]
@@ -92,7 +95,7 @@ def test_rings_of_four_joints_are_what_sampling_finds(rng):
 
 
 def test_free_links_of_three_joints_reach_a_third_of_the_disc():
-    found = hf.designs.design_for_workspace(planar(3, 1.0), LENGTHS, generations=36, restarts=1, seed=1)
+    found = design_for_workspace(planar(3, 1.0), LENGTHS, generations=36, restarts=1, seed=1)
     assert found.bound == pytest.approx(3 * np.pi)
     assert 9.40 < found.value <= found.bound * (1 + 1e-9)
     assert found.values.sum() == pytest.approx(3)
@@ -103,7 +106,7 @@ def test_free_links_of_three_joints_reach_a_third_of_the_disc():
 
 def test_four_joints_with_a_least_link():
     bounds = {f"a{k}": (0.3, 2.1) for k in (1, 2, 3, 4)}
-    found = hf.designs.design_for_workspace(planar(4, 0.75), bounds, generations=150, restarts=1)
+    found = design_for_workspace(planar(4, 0.75), bounds, generations=150, restarts=1)
     assert found.bound == pytest.approx(np.pi * 2.4**2)
     assert 18.0 < found.value <= found.bound * (1 + 1e-9)
 
@@ -129,7 +132,7 @@ def test_a_full_self_motion_of_four_joints_is_found():
     swept = sweeps(np.vstack([start, start]), np.vstack([record.q, record.q + 0.02]), 0.05)
     assert swept.is_closed.all()
     assert abs(swept.winding).tolist() == [[1, 2, 1, 1]] * 2
-    found = hf.designs.design_for_self_motion(record.arm, vary, task="position", seed=2)
+    found = design_for_self_motion(record.arm, vary, task="position", seed=2)
     assert found.value == pytest.approx(4)
     assert (found.winding != 0).all()
     arm = found.arm()
@@ -140,10 +143,22 @@ def test_a_full_self_motion_of_four_joints_is_found():
 
 def test_what_no_design_is_searched_for():
     with pytest.raises(hf.TaskError, match="the size of a self-motion is that of a curve"):
-        hf.designs.design_for_self_motion(planar(4, 1.0), {"a1": (0.5, 2)}, task="planar")
+        design_for_self_motion(planar(4, 1.0), {"a1": (0.5, 2)}, task="planar")
     with pytest.raises(hf.InputError, match="is no planar arm"):
-        hf.designs.design_for_workspace(hf.arms.load("panda"), {"a4": (-0.2, 0.2)})
+        design_for_workspace(hf.arms.load("panda"), {"a4": (-0.2, 0.2)})
     with pytest.raises(hf.InputError, match="'theta2' is no link length"):
-        hf.designs.design_for_workspace(planar(3, 1.0), {"theta2": (-1, 1)})
+        design_for_workspace(planar(3, 1.0), {"theta2": (-1, 1)})
     with pytest.raises(hf.InputError, match="give at least 1"):
-        hf.designs.design_for_workspace(planar(3, 1.0), LENGTHS, generations=0)
+        design_for_workspace(planar(3, 1.0), LENGTHS, generations=0)
+
+
+def test_the_command_searches_and_writes_the_arm(tmp_path, capsys):
+    file = tmp_path / "best.yaml"
+    words = ["tolerant-workspace", "planar-3r", "--vary", "a1=0.5..2", "--vary", "a2=0.5..2", "--restarts", "1"]
+    assert main([*words, "--generations", "3", "--out", str(file)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("tolerant-workspace: ")
+    assert "a2 = " in said
+    assert hf.arms.resolve(str(file)).n == 3
+    assert main(["self-motion-size", "self-motion-position-4R-001", "--vary", "a1=0.5..2", "--restarts", "0"]) == 2
+    assert "give at least 1" in capsys.readouterr().err

@@ -1,25 +1,29 @@
-"""Search for a null space with a larger worst case than the best one known."""
+"""Search for a null space with a larger worst case than the best one known.
+
+``python -m measurements.upper_bounds.ascent_search 9 6 2 --seconds 60 --out null-space.csv``
+"""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from time import monotonic
 
 import numpy as np
 
 from holdfast.core.errors import InputError
-from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.index_bounds.ascent import best_null_space
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, upper_bound
 from holdfast.kinematics.index_bounds.minors import worst_relative_manipulability
+from measurements.upper_bounds.ascent import best_null_space
 
 _BOUND_TOLERANCE = 1e-9  # relative
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class UpperBoundSearch(Result):
+class UpperBoundSearch:
     """Best null space that a search found.
 
     Attributes:
@@ -90,3 +94,23 @@ def search_null_space(
     return UpperBoundSearch(
         ceiling=known, null_space=null, value=worst_relative_manipulability(null, k), seed=seed, seconds=monotonic() - start
     )
+
+
+def main() -> None:
+    """Search for the given time, and write the null space for ``python -m measurements.synthesis``."""
+    parser = argparse.ArgumentParser(prog="python -m measurements.upper_bounds.ascent_search", description=__doc__)
+    parser.add_argument("joints", type=int)
+    parser.add_argument("rows", type=int, help="rows of the task")
+    parser.add_argument("failures", type=int, help="joints that fail at once")
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--out", type=Path, help="file for the null space (CSV), a row for each joint")
+    options = parser.parse_args()
+    search = search_null_space(n=options.joints, m=options.rows, k=options.failures, seed=options.seed, seconds=options.seconds)
+    print("\n".join([*search.ceiling.describe(), *search.describe()]))
+    if options.out is not None:
+        np.savetxt(options.out, search.null_space, delimiter=",", fmt="%.17g")
+
+
+if __name__ == "__main__":
+    main()

@@ -14,11 +14,11 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
-from holdfast.studies.designs.evolution.found import EvolvedDesign
-from holdfast.studies.designs.evolution.strategy import minimise_by_evolution
-from holdfast.studies.designs.evolution.sweeps import SelfMotionTracer
 from holdfast.studies.designs.family import Family
 from holdfast.studies.designs.space import Vary, design_space
+from measurements.record_designs.found import EvolvedDesign
+from measurements.record_designs.strategy import minimise_by_evolution
+from measurements.record_designs.sweeps import SelfMotionTracer
 
 _POPULATION_SIZE = 48
 _TRACE_SPACING_RAD = 0.1  # rad

@@ -7,17 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.dh_file import format_dh_file
 from holdfast.studies.designs.space import DesignSpace
 
-EVOLUTION_OBJECTIVES = ("self-motion-size", "tolerant-workspace")
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class EvolvedDesign(Result):
+class EvolvedDesign:
     """Best arm that an evolution strategy found.
 
     Attributes:

@@ -12,7 +12,6 @@ from holdfast.core.errors import InputError
 from holdfast.core.files.output import open_replacement
 from holdfast.core.formatting import capitalise_first
 from holdfast.core.labels import TASK_SIZES
-from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.index_bounds.frames import orthogonal_complement
@@ -22,7 +21,7 @@ from holdfast.model.arm.machine import Joint
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.dh_file import format_dh_file
 from holdfast.model.arms.dh_rows import DHTable, dh_table
-from holdfast.studies.designs.synthesis.axes import find_joint_axes, find_pose_jacobians
+from measurements.synthesis.axes import find_joint_axes, find_pose_jacobians
 
 _ORTHONORMALITY_TOLERANCE = 1e-9
 _TOTAL_LENGTH_M = 2.0  # m, sum of |a| and |d|
@@ -30,7 +29,7 @@ _SYNTHESIS_TASKS = ("planar", "position", "pose")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Synthesis(Result):
+class Synthesis:
     """Arms whose configuration of zeros has a given null space.
 
     Attributes:

@@ -1,4 +1,6 @@
-"""Searches for better null spaces and stores what beats the stored: ``python -m tools.null_spaces --seconds 40 --seed 1``.
+"""Search for better null spaces, and store those that beat the stored ones.
+
+``python -m measurements.upper_bounds.null_spaces --seconds 40 --seed 1``
 
 Writes ``src/holdfast/kinematics/index_bounds/null_spaces.json``; a stored value is recomputed by code that shares nothing with
 the search.
@@ -12,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.kinematics.index_bounds.ascent import best_null_space
 from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
+from measurements.upper_bounds.ascent import best_null_space
 
-FILE = Path(__file__).parents[1] / "src/holdfast/kinematics/index_bounds/null_spaces.json"
+FILE = Path(__file__).parents[2] / "src/holdfast/kinematics/index_bounds/null_spaces.json"
 CASES = [(n, m, k) for m in range(2, 7) for n in range(m + 2, 11) for k in (2, 3) if k <= n - m]
 
 

@@ -1,7 +1,8 @@
-"""Finds the certificates of theorem R3: ``python -m tools.pair_certificates [--cases 6,2]``, minutes a case.
+"""Finds the certificates of theorem R3: ``python -m measurements.upper_bounds.pair_certificates``
+(``--cases 6,2``), minutes a case.
 
-Writes ``src/holdfast/kinematics/index_bounds/pair_certificates.json``. Needs ``cvxpy`` and ``clarabel``, which holdfast does
-not: a certificate is replayed in integers by ``holdfast.kinematics.index_bounds``, whatever found it, and none is stored that
+Writes ``pair_certificates.json``. Needs ``cvxpy`` and ``clarabel``, which holdfast does
+not: a certificate is replayed in integers by ``pair_kernels``, whatever found it, and none is stored that
 is not.
 """
 
@@ -20,10 +21,10 @@ from numpy.typing import NDArray
 from scipy.special import eval_chebyt, eval_gegenbauer
 
 import holdfast as hf
-from holdfast.kinematics.index_bounds.pair_kernels import stored_certificates
+from measurements.upper_bounds.pair_kernels import stored_certificates
 
 Array = NDArray[np.float64]
-FILE = Path(__file__).parents[1] / "src/holdfast/kinematics/index_bounds/pair_certificates.json"
+FILE = Path(__file__).parent / "pair_certificates.json"
 CASES = [(5, 2), (6, 2), (7, 2), (8, 2), (9, 2), (10, 2), (7, 3), (8, 3), (9, 3), (10, 3)]
 ROW, NULL, POWERS, FREE = 4, 3, 3, 5  # degrees of the two sides, powers of the weights and of the free functions
 BACK = 0.01  # of the way from the least bound with a kernel to the mean over all pairs, so that it can be proven

@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from measurements.upper_bounds import pair_kernels
 from scipy.special import eval_gegenbauer
 
 import holdfast as hf
-from holdfast.kinematics.index_bounds import pair_kernels
 from holdfast.kinematics.index_bounds.theorems import PAIR_BOUNDS
 
 SPECIFIED = {  # what the specification's table says of c(n, n - m, 2)

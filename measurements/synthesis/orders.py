@@ -13,13 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_percent
 from holdfast.core.probability.intervals import Interval
-from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import factor_householder, gram_determinant, select_smallest
 from holdfast.model.failure_modes.sets import FailureSets
-from holdfast.studies.designs.synthesis.axes import find_joint_axes
+from measurements.synthesis.axes import find_joint_axes
 
 _MAX_ORDERS = 2520  # orders: all of seven joints
 _CHECK_SAMPLE_FACTOR = 10  # times as many samples for the front
@@ -28,7 +27,7 @@ _PARALLEL_SINE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class JointOrders(Result):
+class JointOrders:
     """Performance of each order of the columns of a pose Jacobian over its whole joint space.
 
     Attributes:

@@ -13,10 +13,10 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.workspace.closed_form import ThreeLinks, workspace_area
 from holdfast.model.arm.model import Arm
-from holdfast.studies.designs.evolution.annuli import compute_tolerant_area
-from holdfast.studies.designs.evolution.found import EvolvedDesign
-from holdfast.studies.designs.evolution.strategy import minimise_by_evolution
 from holdfast.studies.designs.space import DesignSpace, Vary, design_space
+from measurements.record_designs.annuli import compute_tolerant_area
+from measurements.record_designs.found import EvolvedDesign
+from measurements.record_designs.strategy import minimise_by_evolution
 
 _POPULATION_SIZE = 24
 # _RANGE_SAMPLES and _FINAL_RANGE_SAMPLES: of each range of a joint

@@ -1,0 +1,1 @@
+"""Searches that fill the record book of holdfast: an evolution strategy, its objectives, and the arms of null spaces."""

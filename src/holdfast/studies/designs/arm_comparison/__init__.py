@@ -1,1 +1,0 @@
-"""Compare arms as wholes, beyond the one configuration for which they were made."""

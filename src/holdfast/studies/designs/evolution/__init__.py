@@ -1,1 +1,0 @@
-"""Design search for measures without gradients: an evolution strategy and its objectives."""
