@@ -84,6 +84,6 @@ def test_the_certificates_of_a_size_are_replayed_by_the_command(capsys):
     main(["7,4,3", "8,2,2"])
     first, second = capsys.readouterr().out.splitlines()
     assert first.startswith("R4, 7 joints, 4 rows: proves 0.0867754190")
-    assert second.startswith("R3, 8 joints, 2 rows: proves 0.718915")
+    assert second.startswith("R3, 8 joints, 2 rows: proves 0.718914")
     main(["9,6,2"])
     assert capsys.readouterr().out == "these bounds rest on theorems alone\n"
