@@ -33,7 +33,7 @@ def test_the_estimate_of_a_uniform_tree_is_exact():
     require_feasible_box_count(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
     tree = BoxBisection(box, 60)
     tree.run(along_first(2.0**-11))
-    assert summarize_tree(tree.preorder_tokens(), len(box), tree.tested, True).leaves == 2**10
+    assert summarize_tree(tree.tree.preorder_tokens(), tree.tested, True).leaves == 2**10
 
 
 def test_poses_in_a_wide_box(panda):

@@ -16,6 +16,7 @@ from holdfast.certificates.claims import ReachClaim, TolerantClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
+from holdfast.certificates.taylor import CENTER_UNIT
 from holdfast.certificates.tree import compute_undecided_fraction
 from holdfast.core.caching import cached_property
 from holdfast.core.files.output import make_folder, replace_file
@@ -154,8 +155,12 @@ class TolerantProof(CompositeResult):
 
     def document(self, stem: str = "tolerant") -> dict[str, Any]:
         """Return the certificate that lists its parts, as its file contains it."""
-        parts = [part.document for part in self.parts]
-        return documents.build_bundle_document(self.claim, parts, self.parts.index(self.worst), self._part_files(stem))
+        entries = [
+            {"file": name, "digest": part.document["digest"], "locked": part.document["locked"]}
+            for name, part in zip(self._part_files(stem), self.parts, strict=True)
+        ]
+        fields = {"parts": entries, "volumes": self.worst.document["volumes"]}
+        return documents.build_document(self.claim, fields, seconds=self.seconds, nodes=self.nodes)
 
     def _part_files(self, stem: str) -> list[str]:
         """Return the file names of the parts; they contain joint numbers because joint names may contain any character."""
@@ -242,6 +247,12 @@ def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget
 
 def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
     remainder = compute_undecided_fraction(result.tree)
+    fields = {
+        "unit": CENTER_UNIT.hex(),
+        "tree": documents.compress_bytes(result.tree),
+        "centres": documents.compress_bytes(result.centers.astype("<i4").tobytes()),
+        "refutations": [],
+    }
     return Proof(
         claim=claim,
         proved=1 - remainder,
@@ -250,7 +261,7 @@ def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
         nodes=result.nodes,
         finished=result.finished,
         seconds=result.seconds,
-        document=documents.build_reach_document(claim, result, remainder),
+        document=documents.build_document(claim, fields, undecided=remainder, seconds=result.seconds, nodes=result.nodes),
     )
 
 

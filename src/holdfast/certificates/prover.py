@@ -128,6 +128,6 @@ def certify(
     memory = None
     if store is not None and kind.halvings:
         sentences = [documents.format_claim(part) for part in claim.parts]
-        memory = SearchMemory(store, {"kind": "certify", "claims": sentences, "halvings": halvings, "seed": seed})
+        memory = SearchMemory(store, {"kind": "certify", "format": 2, "claims": sentences, "halvings": halvings, "seed": seed})
     budget = SearchBudget(deadline=deadline, should_stop=stop, report_state=report_state, workers=workers, memory=memory)
     return kind.search(claim, halvings, seed, budget)

@@ -100,7 +100,8 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
         for rotation, origin in zip(rotations, origins, strict=True)
     ]
     point_texts = [f"{number.numerator}/{number.denominator}" for number in points]
-    document = documents.build_structural_zero_document(claim, frames, point_texts)
+    fields = {"snapped": frames, "points": point_texts}
+    document = documents.build_document(claim, fields, undecided=Fraction(0), seconds=0.0, nodes=n)
     rotation_error, position_error = verifier.bound_frame_errors(document)
     return StructuralZero(claim=claim, ok=True, turned=rotation_error, shifted=position_error, document=document)
 

@@ -70,7 +70,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
     """Search for a proof of a bound claim with the options of :func:`holdfast.certify`."""
     started = perf_counter()
     extreme, value = _search_extreme(claim, np.random.default_rng(seed))
-    bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), claim.arm.n, 1, True), CertificateChain.from_arm(claim.arm)
+    bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), 1, True), CertificateChain.from_arm(claim.arm)
     test: BoxTest = ManipulabilityCeilingTest(chain, claim.locks, claim.threshold)
     if claim.kind == "floor":
         test = ManipulabilityFloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
@@ -79,6 +79,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
         require_feasible_box_count(test, claim.joint_box, halvings, seed, advice)
         bisection = bisect_box(test, claim.joint_box, halvings, budget)
     seconds = perf_counter() - started
+    fields = {"tree": documents.compress_bytes(bisection.tree), "found": documents.encode_floats(extreme)}
     return ManipulabilityBound(
         claim=claim,
         proved=1 - bisection.undecided,
@@ -89,7 +90,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
         nodes=bisection.nodes,
         finished=bisection.finished,
         seconds=seconds,
-        document=documents.build_bound_document(claim, bisection, extreme, seconds=seconds),
+        document=documents.build_document(claim, fields, undecided=bisection.undecided, seconds=seconds, nodes=bisection.nodes),
     )
 
 

@@ -235,7 +235,7 @@ def _prove_distance_range(
         tested += halving.tested
         if finished and not halving.undecided:
             useful = lower > 0 or upper < max_reach
-            return (DistanceRangeLemma(link, point, lower, upper, halving.preorder_tokens()) if useful else None), tested
+            return (DistanceRangeLemma(link, point, lower, upper, halving.tree.preorder_tokens()) if useful else None), tested
         margin *= 3
         interval = max(0.0, min_distance - margin), max_distance + margin
     return None, tested

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.exclusion import search_witness_or_exclusion
+from holdfast.certificates.joint_boxes.exclusion import Exclusion, search_witness_or_exclusion
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import BisectionResult, format_early_stop
 from holdfast.certificates.search_pool import SearchBudget
@@ -65,8 +65,25 @@ def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget:
         nodes=exclusion.nodes,
         finished=exclusion.finished,
         seconds=seconds,
-        document=documents.build_exclusion_document(claim, exclusion, seconds=seconds),
+        document=build_exclusion_document(claim, exclusion, seconds),
     )
+
+
+def build_exclusion_document(claim: OutOfReachClaim, exclusion: Exclusion, seconds: float) -> documents.Document:
+    """Build the certificate of an exclusion, or of a witness that disproves the claim."""
+    lemmas = [
+        {
+            "link": lemma.link,
+            "point": documents.encode_floats(lemma.point),
+            "least": documents.encode_floats(lemma.least),
+            "most": documents.encode_floats(lemma.most),
+            "tree": documents.compress_bytes(lemma.tree),
+        }
+        for lemma in exclusion.lemmas
+    ]
+    witness = None if exclusion.witness is None else documents.encode_floats(exclusion.witness)
+    fields = {"tree": documents.compress_bytes(exclusion.tree), "lemmas": lemmas, "witness": witness}
+    return documents.build_document(claim, fields, undecided=exclusion.undecided, seconds=seconds, nodes=exclusion.nodes)
 
 
 REFUTATION_KIND = ClaimKind("refutation", prove_out_of_reach, documents.encode_target_claim, halvings=16)

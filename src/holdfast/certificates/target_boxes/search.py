@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from holdfast.certificates.target_boxes.pool import ConfigurationPool, step_self_motion
 from holdfast.certificates.taylor import CENTER_UNIT, ReachSolver, TaylorForm
-from holdfast.certificates.tree import BisectionTree, CellBatch
+from holdfast.certificates.tree import PROVED_TOKEN, BisectionTree, CellBatch, SearchState
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-
-FractionCallback = Callable[[float], None]
 
 _POOL_TRIALS = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _SELF_MOTION_TRIALS = 4  # along self-motions
@@ -48,6 +46,9 @@ class TargetBoxSearch:
         pool: Where it began.
         nodes: Cells that were looked at.
         open_fraction, proved_fraction: Shares of the root: still to be looked at, and proved.
+        split_axes, refusal: As of :class:`holdfast.certificates.target_boxes.jobs.TargetBoxResult`.
+        is_settled: Nothing is to be looked for here.
+        warning: Of targets of which no configuration was found.
     """
 
     def __init__(
@@ -55,6 +56,8 @@ class TargetBoxSearch:
     ) -> None:
         self.reach, self.root, self.halvings = reach, root, np.broadcast_to(halvings, len(root))
         self.rng, self.tree, self.nodes = np.random.default_rng(seed), BisectionTree(), 0
+        self.split_axes, self.refusal, self.warning, self.is_settled = tuple[int, ...](), "", "", False
+        self._centers = dict[int, IndexArray]()  # of each proved node, in units of 2^-24 rad
         self.width = root[:, 1] - root[:, 0]
         self.pool = ConfigurationPool(reach, root, self.rng, deadline)
         self.open_fraction = self.proved_fraction = 0.0
@@ -66,18 +69,33 @@ class TargetBoxSearch:
         zeros = np.zeros(1, dtype=np.int64)
         self._enqueue_cells(CellBatch(root_index, root_index, zeros, start, zeros), np.ones(1))
 
+    @property
+    def state(self) -> SearchState:
+        """Progress, as fractions of the root."""
+        open_fraction = min(max(self.open_fraction, 0.0), 1.0)
+        remainder = max(1 - open_fraction - self.proved_fraction, 0.0)
+        return SearchState(
+            proved=self.proved_fraction, undecided=remainder, open=open_fraction, nodes=self.nodes, warning=self.warning
+        )
+
+    @property
+    def centers(self) -> IndexArray:
+        """Centers (leaves, n) of the proved nodes, in pre-order."""
+        nodes = [node for node in self.tree.preorder_nodes() if self.tree.tokens[node] == PROVED_TOKEN]
+        return np.array([self._centers[node] for node in nodes], dtype=np.int64).reshape(-1, self.reach.n)
+
     def run(
         self,
         deadline: float = np.inf,
         should_stop: Callable[[], bool] = lambda: False,
-        report_closed: FractionCallback = lambda closed: None,
+        report_progress: Callable[[], None] = lambda: None,
     ) -> bool:
         """Search down to the smallest cells, the most promising first, until a monotonic time or a stop request.
 
         Args:
             deadline: ``monotonic``.
             should_stop: Asked before each batch of cells.
-            report_closed: Is told what share of the root is closed, of each batch.
+            report_progress: Called after each batch of cells.
 
         Returns:
             Whether nothing is left to do.
@@ -92,7 +110,7 @@ class TargetBoxSearch:
             batch = [heappop(self._open_cells) for _ in range(min(_BATCH_CELLS, len(self._open_cells)))]
             _, node_ids, *columns, barren = map(np.array, zip(*batch, strict=True))
             self._process_cells(CellBatch(columns[0], columns[1], node_ids, columns[2], barren))
-            report_closed(1 - self.open_fraction)
+            report_progress()
         return not self._open_cells
 
     def _retry_abandoned(self, deadline: float) -> bool:
@@ -146,8 +164,8 @@ class TargetBoxSearch:
         center_units = np.round(q / CENTER_UNIT).astype(np.int64)
         center_units[:, ~self.reach.free] = 0
         self.proved_fraction += cells.select(np.flatnonzero(is_proved)).root_fraction
-        for index in np.flatnonzero(is_proved):
-            self.tree.mark_proved(int(cells.name[index]), center_units[index])
+        self.tree.tokens[cells.name[is_proved]] = PROVED_TOKEN
+        self._centers |= zip(cells.name[is_proved].tolist(), center_units[is_proved], strict=True)
         self.pool.add_configurations(center[is_proved], q[is_proved])
         # Where no configuration comes nearer to the middle than the cell is wide, and none is known of another part of it, none
         # is looked for in its parts.

@@ -14,6 +14,7 @@ import numpy as np
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.tool_derivatives import (
     axial_vector,
     axial_vector_jacobian,
@@ -60,27 +61,24 @@ class LockedTrackingEnclosure:
         driven: The locked joint, then those that go on with the healthy motion.
         tube: (m,) half widths, m and rad; or none, (0,).
         limits: (n, 2) rad and m.
-        slides: (n,) which joints slide.
     """
 
     def __init__(
-        self,
-        chain: CertificateChain,
-        knots: FloatArray,
-        task: str,
-        *,
-        driven: list[int],
-        tube: FloatArray,
-        limits: FloatArray,
-        slides: BoolArray,
+        self, chain: CertificateChain, knots: FloatArray, task: str, *, driven: list[int], tube: FloatArray, limits: FloatArray
     ) -> None:
         self.chain, self.knots, self.driven, self.tube, self.limits = chain, knots, driven, tube, limits
-        self.n, self.slides, self._rows = knots.shape[1], slides, TASK_ROWS[task]
+        self.n, self.slides, self._rows = knots.shape[1], chain.slides, TASK_ROWS[task]
         self.m = len(self._rows)
         self.uses_rotation, self._pointing = self._rows[-1] > 2, task == "pointing"
         self.free = [joint for joint in range(self.n) if joint not in driven]
         self._linear = sum(row < 3 for row in self._rows)
-        self._revolute = np.tile(~slides, 2).astype(float)
+        self._revolute = np.tile(~chain.slides, 2).astype(float)
+
+    @classmethod
+    def from_claim(cls, claim: PathClaim, driven: list[int], tube: FloatArray) -> LockedTrackingEnclosure:
+        """Enclose the arm of a claim on its motion."""
+        chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
+        return cls(chain, claim.knots, claim.task, driven=driven, tube=tube, limits=limits)
 
     def healthy_joints_and_rates(
         self, doubled_instants: IndexArray, rate_instants: IndexArray

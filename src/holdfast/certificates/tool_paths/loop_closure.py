@@ -190,7 +190,7 @@ class LoopClosureExclusion:
                 self._last_position = position
                 halving, is_excluded = self._bisect_joint_ranges(begin, stop, position)
                 return (
-                    (RefutedInterval(begin, stop, position, halving.preorder_tokens()) if is_excluded else None),
+                    (RefutedInterval(begin, stop, position, halving.tree.preorder_tokens()) if is_excluded else None),
                     True,
                     halving.tested,
                 )
@@ -248,15 +248,11 @@ def make_loop_closure_exclusion(claim: PathClaim, joint: int) -> LoopClosureExcl
     """Make the loop closure test for a joint; None for an arm with unlimited slides, or one that leaves the plane
     of its task.
     """
-    chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
-    planar = claim.task.startswith("planar")
-    endless = claim.arm.prismatic & ~np.isfinite(limits).all(axis=1)
+    enclosure = LockedTrackingEnclosure.from_claim(claim, [joint], np.empty(0))
+    chain, planar = enclosure.chain, claim.task.startswith("planar")
     in_plane = not chain.slides.any() and (np.abs(chain.rotations[:, 2, 2]) == 1).all()
-    if endless.any() or (planar and not in_plane):
+    if not np.isfinite(enclosure.limits[chain.slides]).all() or (planar and not in_plane):
         return None
-    enclosure = LockedTrackingEnclosure(
-        chain, claim.knots, claim.task, driven=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic
-    )
     return LoopClosureExclusion(enclosure, "pose" in claim.task, planar)
 
 

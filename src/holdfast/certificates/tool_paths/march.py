@@ -15,6 +15,7 @@ from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.loop_closure import LoopClosureExclusion, RefutedInterval
 from holdfast.certificates.tool_paths.singular_cells import MIN_SINGULAR_HALVINGS, march_through_singularity
 from holdfast.certificates.tool_paths.slabs import LockSlab
+from holdfast.certificates.tree import SearchState
 
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 
@@ -76,6 +77,7 @@ class LockSlabSearch:
         halvings: Of slabs, at most.
         max_nodes: Cells that are looked at before no more slabs begin.
         exclusion: What refutes slabs that lead nowhere; None: nothing does.
+        claimed_instants: Instants of the claim, of which the state tells fractions.
 
     Attributes:
         proved: Slabs, in no order.
@@ -91,12 +93,13 @@ class LockSlabSearch:
         halvings: int,
         max_nodes: float = np.inf,
         exclusion: LoopClosureExclusion | None = None,
+        claimed_instants: int = 1,
     ) -> None:
         self.enclosure, self._max_halvings, self._max_nodes, self._exclusion = enclosure, halvings, max_nodes, exclusion
         self._path_end = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
         self.proved: list[LockSlab] = []
         self.refuted: list[RefutedInterval] = []
-        self.nodes, self.closed_instants = 0, 0
+        self.nodes, self.closed_instants, self._claimed_instants = 0, 0, claimed_instants
         self._waiting = deque(slab.restarted_slab for slab in slabs)
         self._active: list[LockSlab] = []
         self._failed: list[LockSlab] = []
@@ -120,9 +123,17 @@ class LockSlabSearch:
         return not (self._active or self._failed or self._hopeless or (self._waiting and self.nodes < self._max_nodes))
 
     @property
-    def deferred_slabs(self) -> list[LockSlab]:
+    def deferred_slabs(self) -> tuple[LockSlab, ...]:
         """Slabs that were not started, in order."""
-        return [slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
+        return tuple(slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin))
+
+    @property
+    def state(self) -> SearchState:
+        """Progress, as fractions of the lock instants of one joint."""
+        proved, refuted = (sum(span.stop - span.begin for span in spans) for spans in (self.proved, self.refuted))
+        instants = {"proved": proved, "refuted": refuted, "undecided": self.closed_instants - proved - refuted}
+        fractions = {key: count / self._claimed_instants for key, count in instants.items()}
+        return SearchState(**fractions, open=1 - self.closed_instants / self._claimed_instants, nodes=self.nodes)
 
     def _activate_slabs(self) -> None:
         """Activate waiting slabs while there is capacity."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -15,8 +16,10 @@ from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.proof import CompositeResult, format_early_stop, write_document
 from holdfast.certificates.search_pool import SearchBudget
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.jobs import ToolPathJob
+from holdfast.certificates.tool_paths.loop_closure import make_loop_closure_exclusion
 from holdfast.certificates.tool_paths.march import LockedPath
 from holdfast.certificates.verifier_parts import paths
 
@@ -95,15 +98,48 @@ def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathPro
     jobs = [ToolPathJob.for_lock(claim, joint, _choose_followers(claim, joint), halvings) for joint in claim.locks]
     parts = tuple(
         LockedPath(
-            joint=job.joint, followers=job.followers, slabs=tuple(result.slabs),
-            refuted_intervals=tuple(result.never),
+            joint=job.joint, followers=job.followers, slabs=result.slabs,
+            refuted_intervals=result.refuted_intervals,
             proved=Fraction(sum(slab.stop - slab.begin for slab in result.slabs), total_instants),
-            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.never), total_instants),
+            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.refuted_intervals), total_instants),
             nodes=result.nodes, finished=result.finished, seconds=result.seconds,
         )
         for job, result in zip(jobs, budget.run_jobs(jobs), strict=True)
     )  # fmt: skip
-    return PathProof(claim=claim, parts=parts, document=documents.build_path_document(claim, parts))
+    return PathProof(claim=claim, parts=parts, document=_build_document(claim, parts))
+
+
+def _build_document(claim: PathClaim, parts: Sequence[LockedPath]) -> documents.Document:
+    """Build the certificate of slabs of lock instants for all locks; its volumes are those of the worst lock."""
+    locks = []
+    for part in parts:
+        numbers = [number for slab in part.slabs for number in (slab.begin, slab.stop, len(slab.ends), *slab.ends)]
+        centers = np.array([center for slab in part.slabs for center in slab.centers], "<i4")
+        refutations = [
+            {"begin": span.begin, "stop": span.stop, "at": span.path_instant, "tree": documents.compress_bytes(span.tree)}
+            for span in part.refuted_intervals
+        ]
+        locks.append(
+            {
+                "joint": part.joint,
+                "followers": list(part.followers),
+                "proved": paths.format_fraction(part.proved),
+                "refuted": paths.format_fraction(part.refuted),
+                "refutations": refutations,
+                "cells": documents.compress_bytes(np.array(numbers, "<i8").tobytes()),
+                "centres": documents.compress_bytes(centers.tobytes()),
+            }
+        )
+    points, pairs = list[Any](), list[Any]()
+    if refuted_joints := [part.joint for part in parts if part.refuted_intervals]:  # the points of all locks are the same
+        exclusion = make_loop_closure_exclusion(claim, refuted_joints[0])
+        assert exclusion is not None
+        points = [{"link": link, "place": documents.encode_floats(position)} for link, position in exclusion.points]
+        pairs = [list(pair) for pair in exclusion.pairs]
+    volumes = paths.format_worst_fractions([(part.proved, part.refuted) for part in parts])
+    fields = {"unit": PATH_CENTER_UNIT.hex(), "locks": locks, "points": points, "pairs": pairs, "volumes": volumes}
+    seconds, nodes = sum(part.seconds for part in parts), sum(part.nodes for part in parts)
+    return documents.build_document(claim, fields, seconds=seconds, nodes=nodes)
 
 
 def _choose_followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
