@@ -73,12 +73,7 @@ class CheckStopped(HoldfastError):
 @check_arguments
 @reports_progress("checking the certificate")
 def check_certificate(
-    file: str | Path,
-    *,
-    arm: Arm | None = None,
-    sample: int | None = None,
-    workers: int = 1,
-    time_limit: float | None = None,
+    file: str | Path, *, arm: Arm | None = None, sample: int | None = None, workers: int = 1, time_limit: float | None = None
 ) -> CertificateCheck:
     """Check a certificate with the verifier, which shares nothing with the prover except the wording of the claim.
 

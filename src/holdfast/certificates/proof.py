@@ -205,10 +205,9 @@ class TolerantProof(CompositeResult):
         qualifier = "" if self.ok else f", at most, with {worst}"
         return [
             verifier.qualify_claim(self.document()["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of "
-            f"the targets "
-            f"at least; undecided "
-            f"{verifier.format_percent(self.undecided, up=True)}{qualifier}{format_early_stop(self.finished)}.",
+            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of the "
+            f"targets at least; undecided {verifier.format_percent(self.undecided, up=True)}{qualifier}"
+            f"{format_early_stop(self.finished)}.",
             f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
             f"{self.seconds:.1f} s.",
         ]

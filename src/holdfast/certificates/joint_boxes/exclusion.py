@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
+from holdfast.certificates.joint_boxes.halving import (
+    DISTANCE_MARGIN_M,
+    OPEN_TOKEN,
+    BoxBisection,
+    BoxVerdicts,
+    require_feasible_box_count,
+)
 from holdfast.certificates.joint_boxes.jobs import bisect_box
 from holdfast.certificates.joint_boxes.rows import TaskErrorBound
 from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
@@ -26,16 +32,14 @@ from holdfast.core.typing import FloatArray, IndexArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12
-_DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
 _SAMPLE_COUNT = 2048
 _LOCAL_SEARCH_COUNT = 32
 _LOCAL_SEARCH_STEPS = 60
 _MAX_LEMMA_NODES = 40_000
 _LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
 _MAX_LEMMA_HALVINGS = 40
-# _WITNESS_TOLERANCE and _WITNESS_LIMIT_MARGIN: m and rad: of a target, and from limits, of a witness
-_WITNESS_TOLERANCE = 1e-10
-_WITNESS_LIMIT_MARGIN = 1e-6
+_WITNESS_TOLERANCE = 1e-10  # m and rad, of the target of a witness
+_WITNESS_LIMIT_MARGIN = 1e-6  # rad and m, of a witness from limits
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,12 +101,8 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
-    box, lemmas, tested, error_bound = (
-        np.vstack([joints, claim.box]),
-        list[DistanceRangeLemma](),
-        0,
-        TaskErrorBound(claim, joints),
-    )
+    box, error_bound = np.vstack([joints, claim.box]), TaskErrorBound(claim, joints)
+    lemmas, tested = list[DistanceRangeLemma](), 0
     target_box = claim.box[: error_bound.reach.linear]
     for link, point in find_axis_points(chain, joints, rng)[:_MAX_LEMMAS]:
         lemma, nodes = _prove_distance_range(chain, joints, target_box, link, point, budget.deadline, rng)
@@ -137,61 +137,28 @@ class _ExclusionTest:
         self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
     def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
-        count, n = len(middle), self.n
-        tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
-        targets, target_half = np.zeros((count, 3)), np.zeros((count, 3))
-        targets[:, : self.m], target_half[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
-
-        def record_test(
-            rows: IndexArray,
-            token: int,
-            margins: FloatArray,
-            center_margins: FloatArray,
-            axis_costs: FloatArray,
-            joint_count: int,
-        ) -> None:
-            """Record one test: its margins, the margins at the centers, and the cost of each axis."""
-            tokens[rows[margins > _DISTANCE_MARGIN_M]] = token
-            ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
-            improved = ratios > best_ratios[rows]
-            rows, axis_costs = rows[improved], axis_costs[improved]
-            best_ratios[rows], gain[rows] = ratios[improved], 0.0
-            column_count = axis_costs.shape[1] if joint_count == n else joint_count + self.m
-            gain[rows, :joint_count], gain[rows, n : n + column_count - joint_count] = (
-                axis_costs[:, :joint_count],
-                axis_costs[:, joint_count:column_count],
-            )
-
-        for index, (lemma, segment) in enumerate(zip(self.lemmas, self.segments, strict=True)):
-            rows = np.flatnonzero(tokens == OPEN_TOKEN)
+        n, m, verdicts = self.n, self.m, BoxVerdicts(half)
+        targets, target_half = np.zeros((2, len(middle), 3))
+        targets[:, :m], target_half[:, :m] = middle[:, n : n + m], half[:, n : n + m]
+        for token, (lemma, segment) in enumerate(zip(self.lemmas, self.segments, strict=True), FIRST_LEMMA_TOKEN):
+            rows, joints_behind = verdicts.open_rows, [lemma.link] * (n - lemma.link)
             if not rows.size:
                 break
-            q, half_range = middle[rows, : lemma.link], half[rows, : lemma.link]
-            bound, center_distance, axis_costs = segment.lower_distance_bound(q, half_range, targets[rows], target_half[rows])
-            record_test(
-                rows, FIRST_LEMMA_TOKEN + index, bound - lemma.most, center_distance - lemma.most, axis_costs, lemma.link
-            )
-            close_rows = np.flatnonzero(
-                np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - targets[rows], axis=1) < lemma.least
-            )
-            if close_rows.size:
-                bound, center_distance, axis_costs = segment.upper_distance_bound(
-                    q[close_rows], half_range[close_rows], targets[rows[close_rows]], target_half[rows[close_rows]]
-                )
-                record_test(
-                    rows[close_rows],
-                    FIRST_LEMMA_TOKEN + index,
-                    lemma.least - bound,
-                    lemma.least - center_distance,
-                    axis_costs,
-                    lemma.link,
-                )
-        rows = np.flatnonzero(tokens == OPEN_TOKEN)
-        bound, center_distance, axis_costs = self.error_bound.lower_error_bound(
-            middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:]
+            arguments = middle[rows, : lemma.link], half[rows, : lemma.link], targets[rows], target_half[rows]
+            bound, center_distance, costs = segment.lower_distance_bound(*arguments)
+            costs = np.insert(costs[:, : lemma.link + m], joints_behind, 0, axis=1)
+            verdicts.record(rows, token, bound - lemma.most, center_distance - lemma.most, costs)
+            distances = np.linalg.norm(segment.point_axes_and_derivatives(arguments[0])[0] - targets[rows], axis=1)
+            close = np.flatnonzero(distances < lemma.least)
+            if close.size:
+                bound, center_distance, costs = segment.upper_distance_bound(*(values[close] for values in arguments))
+                costs = np.insert(costs[:, : lemma.link + m], joints_behind, 0, axis=1)
+                verdicts.record(rows[close], token, lemma.least - bound, lemma.least - center_distance, costs)
+        rows = verdicts.open_rows
+        verdicts.record(
+            rows, 0, *self.error_bound.lower_error_bound(middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:])
         )
-        record_test(rows, 0, bound, center_distance, axis_costs, n)
-        return tokens, gain
+        return verdicts.tokens, verdicts.gain
 
 
 def _prove_distance_range(
@@ -212,13 +179,9 @@ def _prove_distance_range(
     margin = max(_LEMMA_WIDENING[0] * (max_distance - min_distance), _LEMMA_WIDENING[1] * max_reach)
     interval = max(0.0, min_distance - margin), max_distance + margin
     if link == 0:  # where this alone excludes all targets, as wide as does
-        min_offsets = np.maximum(
-            np.maximum(target_box[:, 0] - point[: len(target_box)], point[: len(target_box)] - target_box[:, 1]), 0
-        )
-        max_offsets = np.maximum(
-            np.abs(target_box[:, 0] - point[: len(target_box)]), np.abs(target_box[:, 1] - point[: len(target_box)])
-        )
-        lower, upper = float(np.linalg.norm(min_offsets)), float(np.linalg.norm(max_offsets))
+        offsets = target_box - point[: len(target_box), None]
+        lower = float(np.linalg.norm(np.maximum(np.maximum(offsets[:, 0], -offsets[:, 1]), 0)))
+        upper = float(np.linalg.norm(np.abs(offsets).max(axis=1)))
         if lower > max_distance:
             interval = 0.0, lower - min(1e-6, (lower - max_distance) / 10)
         elif upper < min_distance:
@@ -260,7 +223,7 @@ def _test_distance_range(
     ):
         if is_needed:
             distance, _, axis_costs = bound_distance(middle, half, points, zeros)
-            undecided = sign * distance > sign * (upper if sign > 0 else lower) - _DISTANCE_MARGIN_M
+            undecided = sign * distance > sign * (upper if sign > 0 else lower) - DISTANCE_MARGIN_M
             tokens[undecided] = OPEN_TOKEN
             gain[undecided] += axis_costs[undecided, : len(ignored_joints)]
     return tokens, gain
@@ -276,14 +239,17 @@ def _search_distance_range(
     fractions = np.concatenate([rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT, len(lower))) / 2])
     q, extremes = lower + (upper - lower) * fractions, list[float]()
     for sign in (1.0, -1.0):
-        distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - point, axis=1)
+
+        def measure(q: FloatArray, sign: float = sign) -> FloatArray:
+            return np.asarray(sign * np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - point, axis=1))
+
+        distances = measure(q)
         best_rows = np.argsort(distances)[:_LOCAL_SEARCH_COUNT]
         candidates, best_distances = q[best_rows], distances[best_rows]
         for step_size in 0.3 * 0.8 ** np.arange(_LOCAL_SEARCH_STEPS):
-            trials = np.clip(
-                candidates + rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape), lower, upper
-            )
-            distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(trials)[0] - point, axis=1)
+            moves = rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape)
+            trials = np.clip(candidates + moves, lower, upper)
+            distances = measure(trials)
             improved = distances < best_distances
             candidates[improved], best_distances[improved] = trials[improved], distances[improved]
         extremes.append(sign * float(best_distances.min()))
@@ -296,8 +262,7 @@ def _search_reaching_configuration(claim: OutOfReachClaim, rng: np.random.Genera
     reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
     targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, len(claim.box)))
     q = reach.solve_inverse_kinematics(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
-    is_valid = (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
-    is_valid &= ((q >= joints[:, 0] + _WITNESS_LIMIT_MARGIN) & (q <= joints[:, 1] - _WITNESS_LIMIT_MARGIN) | ~reach.free).all(
-        axis=1
-    )
+    (lower, upper), margin = joints.T, _WITNESS_LIMIT_MARGIN
+    is_valid = ((q >= lower + margin) & (q <= upper - margin) | ~reach.free).all(axis=1)
+    is_valid &= (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
     return q[is_valid.argmax()] if is_valid.any() else None

@@ -17,6 +17,7 @@ BoxBatch = tuple[FloatArray, IndexArray]  # middles, and how often each axis was
 
 OPEN_TOKEN = -1  # what is not decided yet
 DEFERRED_TOKEN = 1  # token of what others look at
+DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
 _BATCH_BOXES = 4096
 _ESTIMATE_PATHS = 101  # for an estimate
 _MAX_ESTIMATE_DEPTH = 60  # halvings after which nobody asks
@@ -99,6 +100,33 @@ def choose_halved_axes(
     tokens, gain = test(middle, half)
     gain = np.where(is_allowed & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
     return tokens, np.where((tokens == OPEN_TOKEN) & (gain.max(axis=1) > 0), gain.argmax(axis=1), -1)
+
+
+class BoxVerdicts:
+    """Tokens of boxes on which several tests are tried, and the gain of halving each axis for the test that comes nearest.
+
+    Args:
+        half: (N, A) half widths of the boxes.
+    """
+
+    def __init__(self, half: FloatArray) -> None:
+        self.tokens, self.gain = np.full(len(half), OPEN_TOKEN, dtype=np.int64), np.zeros(half.shape)
+        self._best_ratios = np.full(len(half), -np.inf)
+
+    @property
+    def open_rows(self) -> IndexArray:
+        """Numbers of the boxes that no test decides."""
+        return np.flatnonzero(self.tokens == OPEN_TOKEN)
+
+    def record(
+        self, rows: IndexArray, token: int, margins: FloatArray, center_margins: FloatArray, axis_costs: FloatArray
+    ) -> None:
+        """Record one test of some boxes: its margins, the margins at the centers, and the cost of each axis."""
+        self.tokens[rows[margins > DISTANCE_MARGIN_M]] = token
+        ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
+        improved = ratios > self._best_ratios[rows]
+        rows = rows[improved]
+        self._best_ratios[rows], self.gain[rows] = ratios[improved], axis_costs[improved]
 
 
 def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +18,9 @@ from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
+if TYPE_CHECKING:
+    pass
+
 _MAX_SEGMENTS = 256
 _MAX_TUBE = 0.1  # m and rad, of a tube
 _MAX_JOINT_VALUE = 7.0  # rad and m, as the file counts them
@@ -25,7 +28,7 @@ _INSTANT_STEP = SEGMENT_INSTANTS >> 6  # instants: ends of what is claimed are m
 
 
 @dataclass(frozen=True, kw_only=True)
-class PathClaim(Claim):
+class PathClaim(Claim["PathProof"]):
     """Claim that one continuous motion finishes the path of the tool after a lock at any instant of a healthy motion.
 
     Attributes:
@@ -94,15 +97,10 @@ def path_claim(
         require_planar(arm, "a planar pose is")
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, len(TASK_ROWS[task]), task, tuple((joint,) for joint in locks))
-    configurations = require_real_numbers(
-        getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m"
-    )
-    if (
-        configurations.ndim != 2
-        or configurations.shape[1] != arm.n
-        or len(configurations) < 2
-        or not np.isfinite(configurations).all()
-    ):
+    wanted = f"configurations, (K + 1, {arm.n}), rad and m"
+    configurations = require_real_numbers(getattr(motion, "q", motion), "motion", wanted)
+    is_motion = configurations.ndim == 2 and configurations.shape[1] == arm.n and len(configurations) >= 2
+    if not is_motion or not np.isfinite(configurations).all():
         raise InputError(
             f"a motion needs two configurations or more of {arm.n} finite numbers, not an array of {configurations.shape}"
         )
@@ -111,10 +109,9 @@ def path_claim(
             f"a joint of the motion is at {np.abs(configurations).max():.3g} rad or m; for certificates of paths "
             f"{_MAX_JOINT_VALUE:g} is most"
         )
-    outside = ((configurations < arm.lower) | (configurations > arm.upper)).any(axis=1)
-    if outside.any():
-        row = int(np.flatnonzero(outside)[0])
-        joint = int(np.flatnonzero((configurations[row] < arm.lower) | (configurations[row] > arm.upper))[0])
+    outside = np.argwhere((configurations < arm.lower) | (configurations > arm.upper))
+    if outside.size:
+        row, joint = outside[0].tolist()
         raise InputError(f"configuration {row + 1} of the motion is beyond the limits of {arm.joint_names[joint]}")
     knots = configurations
     if segments is not None:

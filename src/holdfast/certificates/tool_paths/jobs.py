@@ -16,12 +16,11 @@ import numpy as np
 
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.search_pool import JobResult, SearchJob
-from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, LockSlab
 from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.loop_closure import RefutedInterval, make_loop_closure_exclusion
 from holdfast.certificates.tool_paths.march import LockSlabSearch
-from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.certificates.tree import SearchState
 from holdfast.core.sweeps.memory import Parts
 

@@ -10,11 +10,10 @@ from time import monotonic
 
 import numpy as np
 
-from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, LockSlab, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.loop_closure import LoopClosureExclusion, RefutedInterval
 from holdfast.certificates.tool_paths.singular_cells import MIN_SINGULAR_HALVINGS, march_through_singularity
-from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.certificates.tree import SearchState
 
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
@@ -63,9 +62,8 @@ class LockedPath:
     @property
     def leaves(self) -> int:
         """Number of cells of proved slabs and of joint boxes that refute others."""
-        return (
-            sum(len(slab.ends) for slab in self.slabs) + sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
-        )
+        joint_boxes = sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
+        return sum(len(slab.ends) for slab in self.slabs) + joint_boxes
 
 
 class LockSlabSearch:
@@ -97,14 +95,11 @@ class LockSlabSearch:
     ) -> None:
         self.enclosure, self._max_halvings, self._max_nodes, self._exclusion = enclosure, halvings, max_nodes, exclusion
         self._path_end = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
-        self.proved: list[LockSlab] = []
-        self.refuted: list[RefutedInterval] = []
+        self.proved, self.refuted = list[LockSlab](), list[RefutedInterval]()
         self.nodes, self.closed_instants, self._claimed_instants = 0, 0, claimed_instants
         self._waiting = deque(slab.restarted_slab for slab in slabs)
-        self._active: list[LockSlab] = []
-        self._failed: list[LockSlab] = []
-        self._hopeless: list[LockSlab] = []
-        self._previous: PathFormBatch | None = None
+        self._active, self._failed, self._hopeless = list[LockSlab](), list[LockSlab](), list[LockSlab]()
+        self._previous = enclosure.empty_form.select(np.empty(0, dtype=np.int64))
 
     def run(self, deadline: float, should_stop: Callable[[], bool], report_progress: Callable[[], None]) -> bool:
         """Search until a monotonic time or a stop request; return True if only slabs that were not started remain."""
@@ -138,18 +133,14 @@ class LockSlabSearch:
     def _activate_slabs(self) -> None:
         """Activate waiting slabs while there is capacity."""
         new_slabs = [self._waiting.popleft() for _ in range(min(_MAX_ACTIVE_SLABS - len(self._active), len(self._waiting)))]
-        if not new_slabs:
-            return
         self._active += new_slabs
-        enclosure = self.enclosure
-        empty = PathFormBatch.make_zero_form(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
+        forms = [slab.last_form or self.enclosure.empty_form for slab in new_slabs]
+        self._previous = PathFormBatch.concatenate([self._previous, *forms])
         for slab in new_slabs:
-            form, slab.last_form = slab.last_form or empty, None
-            self._previous = form if self._previous is None else self._previous.append(form)
+            slab.last_form = None
 
     def _try_next_cells(self) -> None:
         """Try the next cell of each active slab: accept it, halve its length, or give the slab up."""
-        assert self._previous is not None
         enclosure, slabs, previous = self.enclosure, self._active, self._previous
         begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
         cells = PathCellBatch(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
@@ -162,12 +153,7 @@ class LockSlabSearch:
         center_units[:, enclosure.driven] = 0
         forms = enclosure.enclose_cell_motions(q, cells)
         self.nodes += len(slabs)
-        continues = np.where(
-            is_first,
-            enclosure.contains_lock_configurations(forms, cells),
-            enclosure.continues_previous_solution(previous, forms),
-        )
-        accepted, active_rows = forms.good & continues, []
+        accepted, active_rows = enclosure.continue_motion(is_first, previous, forms, cells), []
         for index, slab in enumerate(slabs):
             if accepted[index]:
                 slab.ends.append(slab.next)
@@ -183,9 +169,8 @@ class LockSlabSearch:
                 active_rows.append(index)
             else:
                 self._record_proved(slab)
-        self._previous = previous.replace_rows(np.flatnonzero(accepted), forms.select(np.flatnonzero(accepted))).select(
-            np.array(active_rows, dtype=np.int64)
-        )
+        rows = np.flatnonzero(accepted)
+        self._previous = previous.replace_rows(rows, forms.select(rows)).select(np.array(active_rows, dtype=np.int64))
         self._active = [slabs[index] for index in active_rows]
 
     def _record_proved(self, slab: LockSlab) -> None:

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, LockSlab, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
-from holdfast.certificates.tool_paths.slabs import LockSlab
 from holdfast.core.typing import IndexArray
 
 TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centres, and what is found in the last cell
@@ -27,15 +26,12 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
     passages: list[TangentPassage | None] = [None] * len(slabs)
     if not slabs:
         return passages
-    empty = PathFormBatch.make_zero_form(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
     begin, stop, reached = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at"))
     segment_starts, is_first = reached // SEGMENT_INSTANTS * SEGMENT_INSTANTS, np.array([not slab.ends for slab in slabs])
-    previous = PathFormBatch.concatenate([slab.last_form or empty for slab in slabs])
+    previous = PathFormBatch.concatenate([slab.last_form or enclosure.empty_form for slab in slabs])
     q, path_position = enclosure.cell_end_configurations(previous)
-    q[is_first], path_position[is_first] = (
-        enclosure.healthy_joints_and_rates(begin + stop, stop)[0][is_first],
-        ((begin + stop) / (2 * SEGMENT_INSTANTS))[is_first],
-    )
+    q[is_first] = enclosure.healthy_joints_and_rates(begin + stop, stop)[0][is_first]
+    path_position[is_first] = ((begin + stop) / (2 * SEGMENT_INSTANTS))[is_first]
     cell_lists = [(list[int](), list[IndexArray]()) for _ in slabs]
     active = np.arange(len(slabs))
     for _ in range(_MAX_TANGENT_CELLS):
@@ -44,22 +40,11 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
             q[owners], path_position[owners], segment_starts[owners], _CENTER_STEP * step_widths
         )
         inside = np.flatnonzero((instants > segment_starts[owners]) & (instants <= segment_starts[owners] + SEGMENT_INSTANTS))
-        owners, middles, instants, half_widths = (
-            owners[inside],
-            middles[inside],
-            instants[inside],
-            np.rint(step_widths[inside] / PATH_CENTER_UNIT).astype(np.int64),
-        )
+        owners, middles, instants = owners[inside], middles[inside], instants[inside]
+        half_widths = np.rint(step_widths[inside] / PATH_CENTER_UNIT).astype(np.int64)
         cells = PathCellBatch(begin[owners], stop[owners], instants, instants, half_widths)
         forms = enclosure.enclose_cell_motions(enclosure.set_driven_joints(middles, cells), cells)
-        accepted = np.flatnonzero(
-            forms.good
-            & np.where(
-                is_first[owners],
-                enclosure.contains_lock_configurations(forms, cells),
-                enclosure.continues_previous_solution(previous.select(owners), forms),
-            )
-        )
+        accepted = np.flatnonzero(enclosure.continue_motion(is_first[owners], previous.select(owners), forms, cells))
         active, widest = np.unique(owners[accepted], return_index=True)
         if not active.size:
             break
@@ -67,19 +52,15 @@ def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequenc
         chosen_forms = forms.select(chosen)
         previous, is_first[active] = previous.replace_rows(active, chosen_forms), False
         for slab_index, row in zip(active.tolist(), chosen.tolist(), strict=True):
+            center = _encode_center(enclosure, forms.q[row], int(instants[row] - segment_starts[slab_index]))
             cell_lists[slab_index][0].append(-int(half_widths[row]))
-            cell_lists[slab_index][1].append(
-                _encode_center(enclosure, forms.q[row], int(instants[row] - segment_starts[slab_index]))
-            )
+            cell_lists[slab_index][1].append(center)
         plain_cells = _find_nontangent_cells(enclosure, (begin[active], stop[active]), segment_starts[active], chosen_forms)
         for slab_index, plain_cell in zip(active.tolist(), plain_cells, strict=True):
             if plain_cell is not None:
-                form, start, end = plain_cell
-                passages[slab_index] = (
-                    [*cell_lists[slab_index][0], end],
-                    [*cell_lists[slab_index][1], _encode_center(enclosure, form.q[0], start - int(segment_starts[slab_index]))],
-                    form,
-                )
+                (form, start, end), (ends, centers) = plain_cell, cell_lists[slab_index]
+                center = _encode_center(enclosure, form.q[0], start - int(segment_starts[slab_index]))
+                passages[slab_index] = [*ends, end], [*centers, center], form
         active = np.array([slab_index for slab_index in active.tolist() if passages[slab_index] is None], dtype=np.int64)
         q, path_position = enclosure.cell_end_configurations(previous)
     return passages
@@ -93,9 +74,8 @@ def _find_nontangent_cells(
 ) -> list[tuple[PathFormBatch, int, int] | None]:
     """Return the longest plain cells behind tangent cells, with their starts and ends; None where there is none."""
     q, path_position = enclosure.cell_end_configurations(previous)
-    spread = np.abs(previous.own[:, -1, 0]) * previous.half[:, 0] + (
-        np.abs(previous.own[:, -1, 2:]) * previous.half[:, 2:]
-    ).sum(axis=1)
+    response, half = np.abs(previous.own[:, -1]), previous.half
+    spread = response[:, 0] * half[:, 0] + (response[:, 2:] * half[:, 2:]).sum(axis=1)
     lower = np.floor((path_position - 1.01 * spread) * SEGMENT_INSTANTS).astype(np.int64)
     upper = np.floor((path_position + 1.01 * spread) * SEGMENT_INSTANTS).astype(np.int64) + 1
     starts, owners, ends = np.maximum(lower - 1, segment_starts), list[int](), list[int]()
@@ -108,11 +88,11 @@ def _find_nontangent_cells(
     plain_cells: list[tuple[PathFormBatch, int, int] | None] = [None] * len(lower)
     if owners:
         rows = np.array(owners)
-        cells = PathCellBatch(
-            slab_bounds[0][rows], slab_bounds[1][rows], starts[rows], np.array(ends), np.zeros(len(rows), dtype=np.int64)
-        )
+        begin, stop = (bounds[rows] for bounds in slab_bounds)
+        cells = PathCellBatch(begin, stop, starts[rows], np.array(ends), np.zeros_like(rows))
         forms = enclosure.enclose_cell_motions(enclosure.solve_centers(q[rows], cells), cells)
-        for index in np.flatnonzero(forms.good & enclosure.continues_previous_solution(previous.select(rows), forms)).tolist():
+        is_first = np.zeros(len(rows), dtype=bool)
+        for index in np.flatnonzero(enclosure.continue_motion(is_first, previous.select(rows), forms, cells)).tolist():
             plain_cells[owners[index]] = forms.select(np.array([index])), int(starts[owners[index]]), ends[index]
     return plain_cells
 

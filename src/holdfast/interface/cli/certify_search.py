@@ -25,21 +25,16 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 
-def _check_output_path(out: Path, folder: bool) -> None:
-    """Raise before the search if the output path cannot be written or would replace another file."""
+def _check_output_and_flint(search: SearchOptions, out: Path, folder: bool) -> None:
+    """Raise before any search if its certificate could not be written or checked, or would replace another file."""
+    from holdfast.certificates.checks import require_flint
+
     if out.is_dir() and not folder:
         raise InputError(f"--out '{out}' is a folder; give the name of a file")
     if out.is_file() and out.suffix not in ("", ".certificate", ".zip"):
         raise InputError(f"--out '{out}' is there, and no certificate; give another name, such as {out.stem}.certificate")
     if (out.suffix or not folder) and not out.absolute().parent.is_dir():
         raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
-
-
-def _check_output_and_flint(search: SearchOptions, output: CertificateOutput, folder: bool) -> None:
-    """Raise before any search if its certificate could not be written or checked."""
-    from holdfast.certificates.checks import require_flint
-
-    _check_output_path(output.out, folder)
     if search.check:
         require_flint()
 
@@ -48,7 +43,7 @@ def prove_with_found_ranges(
     arm: Arm, claim_arguments: dict[str, Any], search: SearchOptions, output: CertificateOutput, **certify_options: Any
 ) -> None:
     """Find working ranges for a failure-tolerant box, print them with the command that sets them, and prove the claim."""
-    _check_output_and_flint(search, output, folder=True)
+    _check_output_and_flint(search, output.out, folder=True)
     working_ranges = hf.find_working_ranges(arm, **claim_arguments, seed=certify_options["seed"])
     if not (working_ranges.ok and output.json_):
         print_result(working_ranges, output.json_)
@@ -81,20 +76,16 @@ def prove_claim(
     from holdfast.certificates.checks import CheckStopped
     from holdfast.interface.presentation.certificates.console import format_state
 
-    _check_output_and_flint(search, output, len(claim.parts) > 1)
+    _check_output_and_flint(search, output.out, len(claim.parts) > 1)
     # Of a limited time half is kept for the check, which gets what the search leaves as well.
     start_time, search_limit = monotonic() - (ranges.seconds if ranges else 0.0), search.time_limit
     if search_limit is not None:
         search_limit = max(search_limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if search.check else 1)
     bar = ProgressBar(output.json_, "ten-thousandths")
+    certify_options |= {"time_limit": search_limit, "workers": search.workers, "store": search.store}
     with stop_on_signal("") as stop, bar as progress:
-        certify_options |= {"time_limit": search_limit, "workers": search.workers, "store": search.store}
         proof = hf.certify(
-            claim,
-            **certify_options,
-            progress=progress,
-            state=lambda progress_state: bar.set_text(format_state(progress_state)),
-            stop=stop,
+            claim, **certify_options, progress=progress, state=lambda state: bar.set_text(format_state(state)), stop=stop
         )
     file = proof.write(output.out)
     verdict = None
@@ -108,13 +99,10 @@ def prove_claim(
                 f"'holdfast certificate check {file}' verifies it.",
                 err=True,
             )
-    report_options = {"ranges": ranges} if ranges else {}
-    report_files = (
-        []
-        if output.report is None
-        else [proof.report(output.report, command=current_command(), check=verdict, file=file, **report_options)]
-    )
-    files = [file, *write_outputs(proof, output.plot), *report_files]
+    files = [file, *write_outputs(proof, output.plot)]
+    if output.report is not None:
+        report_options = {"ranges": ranges} if ranges else {}
+        files.append(proof.report(output.report, command=current_command(), check=verdict, file=file, **report_options))
     if output.json_ and ranges:
         print_json((verdict or proof).to_dict() | {"found_ranges": ranges.to_dict()})
     else:
