@@ -10,8 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
-from holdfast.certificates.joint_boxes.jobs import summarize_tree
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count, summarize_tree
 from holdfast.certificates.taylor import ReachSolver
 from holdfast.core.errors import InputError
 

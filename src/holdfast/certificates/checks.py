@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
@@ -95,9 +94,13 @@ def check_certificate(
     try:
         if arm is not None:
             require_same_arm(verifier.load_certificate(Path(file)), arm)
-        return _convert_verdict(
-            verifier.verify(file, sample=sample, workers=workers, progress=_make_time_limit_callback(time_limit))
-        )
+        deadline = math.inf if time_limit is None else monotonic() + time_limit
+
+        def raise_if_late(checked_leaves: int) -> None:
+            if monotonic() > deadline:
+                raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
+
+        return _convert_verdict(verifier.verify(file, sample=sample, workers=workers, progress=raise_if_late))
     except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
 
@@ -110,16 +113,6 @@ def require_flint() -> None:
     """
     if find_spec("flint") is None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'")
-
-
-def _make_time_limit_callback(time_limit: float | None) -> Callable[[int], None]:
-    deadline = math.inf if time_limit is None else monotonic() + time_limit
-
-    def raise_if_late(checked_leaves: int) -> None:
-        if monotonic() > deadline:
-            raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
-
-    return raise_if_late
 
 
 def find_certificate_file(path: Path) -> Path:

@@ -34,16 +34,7 @@ _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 @dataclass(frozen=True, kw_only=True)
 class TargetClaim(Claim[ResultType]):
-    """Claim about the targets of a box.
-
-    Attributes:
-        arm: The arm.
-        task: ``position``, ``planar``, ``pose``, ``planar-pose`` or ``pointing``.
-        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m; (6, 2) where the tool is
-            turned as well: its roll, pitch and yaw, rad, the rotation Rz(yaw) Ry(pitch) Rx(roll); (3, 2) of a planar pose, with
-            yaw alone.
-        rotation: (3, 3) of the tool at every target, when pointing that of its z axis alone; None where it is free, or turned.
-    """
+    """Claim about the targets of a box, with the attributes of :class:`ReachClaim`."""
 
     arm: Arm
     task: str
@@ -53,14 +44,7 @@ class TargetClaim(Claim[ResultType]):
 
 @dataclass(frozen=True, kw_only=True)
 class LockedTargetClaim(TargetClaim[ResultType]):
-    """Claim about the targets of a box at every value at which one joint may be locked.
-
-    Attributes:
-        arm, task, box, rotation: As of :class:`TargetClaim`.
-        locked: Index of the locked joint; -1: the arm is healthy.
-        angle: (2,) rad or m, between which it may be locked; None for a healthy arm.
-        limits: (n, 2) rad and m, within which the configuration is.
-    """
+    """Claim about the targets of a box at every value at which one joint may be locked."""
 
     locked: int
     angle: FloatArray | None
@@ -68,13 +52,29 @@ class LockedTargetClaim(TargetClaim[ResultType]):
 
 
 class ReachClaim(LockedTargetClaim["Proof"]):
-    """Claim that a configuration within limits reaches every target of a box, wherever one joint may be locked."""
+    """Claim that a configuration within limits reaches every target of a box, wherever one joint may be locked.
+
+    Attributes:
+        arm: The arm.
+        task: ``position``, ``planar``, ``pose``, ``planar-pose`` or ``pointing``.
+        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m; (6, 2) where the tool is
+            turned as well: its roll, pitch and yaw, rad, the rotation Rz(yaw) Ry(pitch) Rx(roll); (3, 2) of a planar pose, with
+            yaw alone.
+        rotation: (3, 3) of the tool at every target, when pointing that of its z axis alone; None where it is free, or turned.
+        locked: Index of the locked joint; -1: the arm is healthy.
+        angle: (2,) rad or m, between which it may be locked; None for a healthy arm.
+        limits: (n, 2) rad and m, within which the configuration is.
+    """
 
     kind: ClassVar[str] = "reach"
 
 
 class OutOfReachClaim(LockedTargetClaim["Refutation"]):
-    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked."""
+    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
+
+    Attributes:
+        arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
+    """
 
     kind: ClassVar[str] = "refutation"
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from holdfast.certificates import documents, verifier
@@ -25,31 +25,11 @@ from holdfast.core.result import Result
 CERTIFICATE_SUFFIX = ".certificate"
 
 
-@dataclass(frozen=True, kw_only=True)
-class BisectionResult(Result):
-    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
+class CertificateResult(Result):
+    """Result that contains a certificate. It is not verified: :func:`check_certificate` does that."""
 
-    Attributes:
-        proved, undecided: Exact parts of the box.
-        leaves: Boxes that are proved, those of lemmas among them.
-        nodes: Boxes that were looked at.
-        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
-        seconds: Measured.
-        document: The certificate, as its file holds it.
-    """
-
-    proved: Fraction
-    undecided: Fraction
-    leaves: int
-    nodes: int
-    finished: bool
-    seconds: float
-    document: dict[str, Any]
-
-    @property
-    def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
+    __slots__ = ()
+    document: Any
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.
@@ -58,6 +38,44 @@ class BisectionResult(Result):
             StoreError: The file cannot be written.
         """
         return write_document(self.document, Path(file))
+
+
+@dataclass(frozen=True, kw_only=True)
+class BisectionResult(CertificateResult):
+    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        proved, undecided: Exact parts of the box.
+        leaves: Boxes that are proved, those of lemmas among them.
+        nodes: Boxes that were looked at.
+        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
+        seconds: Measured.
+        document: The certificate, as its file holds it.
+    """
+
+    claim: Any
+    proved: Fraction
+    undecided: Fraction
+    leaves: int
+    nodes: int
+    finished: bool
+    seconds: float
+    document: dict[str, Any]
+
+    @classmethod
+    def from_search(
+        cls, claim: Any, fields: dict[str, Any], *, undecided: Fraction, nodes: int, seconds: float, **values: Any
+    ) -> Self:
+        """Return the result of a search for a claim, with the certificate that the fields prove."""
+        document = documents.build_document(claim, fields, undecided=undecided, seconds=seconds, nodes=nodes)
+        fractions = {"proved": 1 - undecided, "undecided": undecided}
+        return cls(claim=claim, **fractions, nodes=nodes, seconds=seconds, document=document, **values)
+
+    @property
+    def ok(self) -> bool:
+        """True if nothing is undecided."""
+        return self.undecided == 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +101,7 @@ class Proof(BisectionResult):
         ]
 
 
-class CompositeResult(Result):
+class CompositeResult(CertificateResult):
     """Results of the searches for the parts of a claim. They are not verified: :func:`check_certificate` does that."""
 
     __slots__ = ()
@@ -168,14 +186,11 @@ class TolerantProof(CompositeResult):
         return [f"{stem}-{f'lock-of-joint-{number}' if number else 'healthy'}{CERTIFICATE_SUFFIX}" for number in joint_numbers]
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate, and those of its parts next to it.
+        """Write the certificate, and those of its parts next to it; return the file that :func:`check_certificate` takes.
 
         Args:
             file: The file; a folder, which is made if need be and gets ``tolerant.certificate``; or an archive of these
                 files (``.zip``), which the verifier takes as it is.
-
-        Returns:
-            The file, which is what :func:`check_certificate` takes.
 
         Raises:
             StoreError: A file cannot be written.
@@ -245,23 +260,16 @@ def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget
 
 
 def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
-    remainder = compute_undecided_fraction(result.tree)
     fields = {
         "unit": CENTER_UNIT.hex(),
         "tree": documents.compress_bytes(result.tree),
         "centres": documents.compress_bytes(result.centers.astype("<i4").tobytes()),
         "refutations": [],
     }
-    return Proof(
-        claim=claim,
-        proved=1 - remainder,
-        undecided=remainder,
-        leaves=len(result.centers),
-        nodes=result.nodes,
-        finished=result.finished,
-        seconds=result.seconds,
-        document=documents.build_document(claim, fields, undecided=remainder, seconds=result.seconds, nodes=result.nodes),
-    )
+    return Proof.from_search(
+        claim, fields, undecided=compute_undecided_fraction(result.tree), leaves=len(result.centers), nodes=result.nodes,
+        finished=result.finished, seconds=result.seconds,
+    )  # fmt: skip
 
 
 def _encode_tolerant_claim(claim: TolerantClaim) -> dict[str, Any]:

@@ -228,10 +228,10 @@ class SearchPool:
         if state.warning and state.warning not in self._shown_warnings:
             self._shown_warnings.add(state.warning)
             print_warning(state.warning)
-        keys = ("proved", "refuted", "undecided")
         states = self._states.values()
         fractions = {
-            key: sum(weight * getattr(job_state, key) for weight, job_state in states) / self._job_count for key in keys
+            key: sum(weight * getattr(job_state, key) for weight, job_state in states) / self._job_count
+            for key in ("proved", "refuted", "undecided")
         }
         self.nodes = sum(job_state.nodes for _, job_state in states)
         self._report_state(SearchState(**fractions, open=max(1 - sum(fractions.values()), 0.0), nodes=self.nodes))
@@ -239,11 +239,9 @@ class SearchPool:
     def collect_result(self, job: SearchJob) -> Any:
         """Return the result of a job merged with its child jobs; parts that were never examined are undecided."""
         result = self._results.get(job.name)
-        return (
-            job.empty_result()
-            if result is None
-            else job.merge_child_results(result, [self.collect_result(child) for child in job.child_jobs(result)])
-        )
+        if result is None:
+            return job.empty_result()
+        return job.merge_child_results(result, [self.collect_result(child) for child in job.child_jobs(result)])
 
     def run_serial(self, deadline: float, should_stop: StopCheck) -> None:
         """Run the jobs in this process until a monotonic time or a stop request."""
@@ -307,10 +305,8 @@ class SearchPool:
                         if name not in self._results:
                             self._update_state(jobs_by_name[name], state)
             except BrokenProcessPool as error:
-                raise HoldfastError(
-                    "a process of the search ended, perhaps for want of memory; what is done is kept with a store, and fewer "
-                    "workers need less"
-                ) from error
+                reason = "perhaps for want of memory; what is done is kept with a store, and fewer workers need less"
+                raise HoldfastError(f"a process of the search ended, {reason}") from error
             finally:
                 stop_event.set()
 
@@ -324,14 +320,8 @@ def _init_worker(messages: Any, stop_event: Any) -> None:
     """Set up a worker process that ignores Ctrl-C and exits when its parent process exits."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _worker_state.update(news=messages, halt=stop_event)
-    parent = parent_process()
-    if parent is not None:
-
-        def exit_with_parent() -> None:
-            wait_for([parent.sentinel])
-            os._exit(1)
-
-        Thread(target=exit_with_parent, daemon=True).start()
+    if (parent := parent_process()) is not None:
+        Thread(target=lambda: (wait_for([parent.sentinel]), os._exit(1)), daemon=True).start()
 
 
 def _run_job(job: SearchJob, deadline: float) -> JobResult:

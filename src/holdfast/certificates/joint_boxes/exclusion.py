@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.halving import (
@@ -21,14 +21,13 @@ from holdfast.certificates.joint_boxes.halving import (
     OPEN_TOKEN,
     BoxBisection,
     BoxVerdicts,
+    bisect_box,
     require_feasible_box_count,
 )
-from holdfast.certificates.joint_boxes.jobs import bisect_box
-from holdfast.certificates.joint_boxes.rows import TaskErrorBound
-from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.joint_boxes.segments import ChainSegment, curvature_costs, find_axis_points, limit_to_one_turn
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12
@@ -40,6 +39,68 @@ _LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length beh
 _MAX_LEMMA_HALVINGS = 40
 _WITNESS_TOLERANCE = 1e-10  # m and rad, of the target of a witness
 _WITNESS_LIMIT_MARGIN = 1e-6  # rad and m, of a witness from limits
+
+
+class TaskErrorBound:
+    """Lower bound of the task error of a claim: if some combination of rows is never 0, the tool misses the target.
+
+    Args:
+        claim: Of which nothing is reached.
+        joints: (n, 2) rad and m, where they may be.
+    """
+
+    def __init__(self, claim: OutOfReachClaim, joints: FloatArray) -> None:
+        self._arguments = claim, joints
+        self.reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
+        self._linear = self.reach.linear
+
+    def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
+        return TaskErrorBound, self._arguments
+
+    def lower_error_bound(
+        self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Bound a combination of rows away from 0 over q +- half (N, n) and targets +- target_half (N, a).
+
+        Returns:
+            The bound (N,), what it is in the middles (N,), and what of it each joint and axis of the target costs (N, n + a).
+        """
+        reach, linear = self.reach, self._linear
+        count, n, extra_rows = len(q), q.shape[1], int(reach.uses_rotation)
+        m, variables = reach.m + extra_rows, q.shape[1] + reach.axes - linear
+        outputs = reach.expansion.error_derivative_kernel.rows(q, reach.append_target_rotation(targets))
+        error, gradients, second = np.split(outputs, np.cumsum([m, m * variables]), axis=1)
+        gradients, second = gradients.reshape(count, m, variables), second.reshape(count, m, variables, variables)
+        half_widths = np.concatenate([half, target_half[:, linear:]], axis=1)
+        # The third-order remainder of the point, m, and the angle by which it rotates, rad.
+        c, slide_range = np.cumsum(half * ~reach.slides, axis=1), half * reach.slides
+        max_lengths = reach.expansion.lengths + np.abs(q) * reach.slides + slide_range
+        position_remainder = (c**3 * max_lengths + 3 * c**2 * slide_range).sum(axis=1) / 6
+        angle = c[:, -1] + target_half[:, linear:].sum(axis=1)
+        spans = gradients * half_widths[:, None]
+        spread = spans @ spans.transpose(0, 2, 1) + (1e-6 * (error**2).sum(axis=1) + 1e-30)[:, None, None] * np.eye(m)
+        spread[:, range(linear), range(linear)] += target_half[:, :linear] ** 2
+        whitened = np.linalg.solve(spread, error[:, :, None])[:, :, 0]
+        is_position = np.arange(m) < linear
+        best = np.full(count, -np.inf), np.zeros(count), np.zeros((count, n + reach.axes))
+        for direction in (error, whitened, *([error * is_position, error * ~is_position] if extra_rows else [])):
+            unit = direction / np.maximum(np.linalg.norm(direction, axis=1), 1e-300)[:, None]
+            slope, curvature = np.abs(np.einsum("na,nak->nk", unit, gradients)), np.einsum("na,najk->njk", unit, second)
+            own_costs, pair_costs = curvature_costs(slope, curvature, half_widths)
+            remainder = np.linalg.norm(unit[:, :linear], axis=1) * position_remainder
+            remainder = remainder + np.linalg.norm(unit[:, linear:], axis=1) * angle**3 / 6
+            target_costs, center_value = np.abs(unit[:, :linear]) * target_half[:, :linear], np.einsum("na,na->n", unit, error)
+            bound = center_value - own_costs.sum(axis=1) - pair_costs.sum(axis=1) / 2 - remainder - target_costs.sum(axis=1)
+            remainder_costs = (3 * remainder / np.maximum(half_widths.sum(axis=1), 1e-300))[:, None] * half_widths
+            joint_costs = own_costs + pair_costs + remainder_costs
+            all_costs = np.concatenate([joint_costs[:, :n], target_costs, joint_costs[:, n:]], axis=1)
+            # What a combination tells is how much of its value is lost, not how large it is: rows are m and rad.
+            improved = bound / np.maximum(center_value, 1e-12) > best[0] / np.maximum(best[1], 1e-12)
+            best = tuple(  # type: ignore[assignment]
+                np.where(improved if new.ndim == 1 else improved[:, None], new, old)
+                for new, old in zip((bound, center_value, all_costs), best, strict=True)
+            )
+        return best
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,9 +148,7 @@ def joint_ranges(claim: OutOfReachClaim) -> FloatArray:
     limits = claim.limits.copy()
     if claim.angle is not None:
         limits[claim.locked] = claim.angle
-    half_turn = np.nextafter(np.pi, 4)
-    limits[~claim.arm.prismatic & (limits[:, 1] - limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
-    return limits
+    return limit_to_one_turn(limits, claim.arm.prismatic)
 
 
 def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Exclusion:
@@ -207,7 +266,7 @@ def _prove_distance_range(
 def _test_distance_range(
     segment: ChainSegment,
     point: FloatArray,
-    ignored_joints: NDArray[np.bool_],
+    ignored_joints: BoolArray,
     lower: float,
     upper: float,
     middle: FloatArray,

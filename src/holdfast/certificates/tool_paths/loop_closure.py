@@ -14,7 +14,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 
 from holdfast.certificates.joint_boxes.halving import BoxBisection, BoxVerdicts
-from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points, limit_to_one_turn
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
@@ -104,13 +104,12 @@ class LoopClosureExclusion:
 
     def __init__(self, enclosure: LockedTrackingEnclosure, uses_rotation: bool, planar: bool) -> None:
         self._enclosure, self._uses_rotation, chain = enclosure, uses_rotation, enclosure.chain
-        self._chain = replace(chain, origins=chain.origins * np.array([1, 1, not planar]))
-        self._joint, self._limits, half_turn = enclosure.driven[0], enclosure.limits.copy(), np.nextafter(np.pi, 4)
-        self._limits[~chain.slides & (self._limits[:, 1] - self._limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
-        self._path_end, self._plane_mask = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS, np.array([1, 1, not planar])
+        self._plane_mask = np.array([1, 1, not planar])
+        self._chain = replace(chain, origins=chain.origins * self._plane_mask)
+        self._joint, self._limits = enclosure.driven[0], limit_to_one_turn(enclosure.limits, chain.slides)
+        self._path_end = self._last_position = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
         self._rng = np.random.default_rng(_RANDOM_SEED)
         self.points, self.pairs = self._choose_pairs()
-        self._last_position = self._path_end
 
     def _choose_pairs(self) -> tuple[list[Point], list[tuple[int, int]]]:
         """Choose points of links, and pairs of them whose distances depend on few joints."""

@@ -2,28 +2,188 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations
-from pathlib import Path
-from typing import Any
+from itertools import combinations, pairwise
+from typing import Any, Self
 
 import numpy as np
 
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.kinds import ClaimKind
-from holdfast.certificates.proof import CompositeResult, format_early_stop, write_document
-from holdfast.certificates.search_pool import SearchBudget
-from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT
+from holdfast.certificates.proof import CompositeResult, format_early_stop
+from holdfast.certificates.search_pool import JobResult, SearchBudget, SearchJob
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, LockSlab
 from holdfast.certificates.tool_paths.claims import PathClaim
-from holdfast.certificates.tool_paths.jobs import ToolPathJob
-from holdfast.certificates.tool_paths.loop_closure import make_loop_closure_exclusion
-from holdfast.certificates.tool_paths.march import LockedPath
+from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
+from holdfast.certificates.tool_paths.loop_closure import RefutedInterval, make_loop_closure_exclusion
+from holdfast.certificates.tool_paths.march import LockSlabSearch
+from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier_parts import paths
+from holdfast.core.sweeps.memory import Parts
 
+_CELLS_PER_JOB = 1 << 12  # cells that a job looks at
+_MAX_CHILD_JOBS = 8  # jobs that it leaves
 Span = tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ToolPathResult(JobResult):
+    """Result of a tool path job.
+
+    Attributes:
+        slabs: Intervals of lock instants that are proved, in order, each with its cells.
+        refuted_intervals: Those that are refuted, in order.
+        deferred: Those that are left to other jobs.
+    """
+
+    slabs: tuple[LockSlab, ...] = ()
+    refuted_intervals: tuple[RefutedInterval, ...] = ()
+    deferred: tuple[LockSlab, ...] = ()
+
+    def to_arrays(self) -> Parts:
+        """Return the result as arrays for the search memory; a slab without cells is a deferred one."""
+        slabs = [
+            (slab.begin, slab.stop, slab.halvings, slab.ends, np.array(slab.centers).tolist())
+            for slab in (*self.slabs, *self.deferred)
+        ]
+        refuted = [(entry.begin, entry.stop, entry.path_instant, [*entry.tree]) for entry in self.refuted_intervals]
+        return super().to_arrays() | {"intervals": np.frombuffer(json.dumps([slabs, refuted]).encode(), dtype=np.uint8)}
+
+    @classmethod
+    def from_arrays(cls, arrays: Parts, **values: Any) -> Self:
+        """Rebuild a result from the arrays of :meth:`to_arrays`."""
+        entries, refuted = json.loads(arrays["intervals"].tobytes())
+        slabs = [LockSlab(*numbers, [np.array(center) for center in centers]) for *numbers, centers in entries]
+        return super().from_arrays(
+            arrays,
+            slabs=tuple(slab for slab in slabs if slab.ends),
+            refuted_intervals=tuple(RefutedInterval(*numbers, bytes(tree)) for *numbers, tree in refuted),
+            deferred=tuple(slab for slab in slabs if not slab.ends),
+            **values,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class ToolPathJob(SearchJob):
+    """The march through some slabs of one lock, to all instants of which its states refer.
+
+    Attributes:
+        claim: The claim.
+        joint: The one that locks.
+        followers: Joints that go on with the healthy motion.
+        halvings: Of slabs, at most.
+        slabs: Which.
+        max_cells: Cells that it looks at, and each of those that it leaves some to.
+        name: For a memory.
+    """
+
+    result_type = ToolPathResult
+    claim: PathClaim
+    joint: int
+    followers: tuple[int, ...]
+    halvings: int
+    slabs: tuple[LockSlab, ...]
+    max_cells: int
+    name: str
+
+    @classmethod
+    def for_lock(cls, claim: PathClaim, joint: int, followers: tuple[int, ...], halvings: int) -> ToolPathJob:
+        """Make the job of all lock instants of a joint."""
+        first, last = claim.during
+        faces = [first, *range((first // SEGMENT_INSTANTS + 1) * SEGMENT_INSTANTS, last, SEGMENT_INSTANTS), last]
+        slabs = tuple(LockSlab(begin, stop) for begin, stop in pairwise(faces))
+        return cls(claim, joint, followers, halvings, slabs, _CELLS_PER_JOB, f"lock {joint + 1}")
+
+    def make_search(self, deadline: float) -> LockSlabSearch:
+        """Make the search."""
+        claim = self.claim
+        tube = claim.tube[[int(row > 2) for row in TASK_ROWS[claim.task]]] if claim.tube.any() else np.empty(0)
+        enclosure = LockedTrackingEnclosure.from_claim(claim, [self.joint, *self.followers], tube)
+        exclusion = make_loop_closure_exclusion(claim, self.joint)
+        return LockSlabSearch(
+            enclosure, self.slabs, self.halvings, self.max_cells, exclusion, claim.during[1] - claim.during[0]
+        )
+
+    def read_result(self, search: LockSlabSearch, **values: Any) -> ToolPathResult:
+        """Return the result so far."""
+        slabs, refuted = (tuple(sorted(spans, key=_begin)) for spans in (search.proved, search.refuted))
+        deferred = search.deferred_slabs if values["finished"] else ()
+        return ToolPathResult(slabs=slabs, refuted_intervals=refuted, deferred=deferred, **values)
+
+    def empty_result(self) -> ToolPathResult:
+        """Return a result in which everything is undecided."""
+        return ToolPathResult(state=SearchState(open=1.0))
+
+    def child_jobs(self, result: ToolPathResult) -> list[ToolPathJob]:
+        """Return the child jobs of the deferred slabs."""
+        group_count = min(_MAX_CHILD_JOBS, len(result.deferred))
+        row_groups = np.array_split(np.arange(len(result.deferred)), group_count) if group_count else []
+        return [
+            replace(self, slabs=tuple(result.deferred[index] for index in rows), name=f"{self.name} {number}")
+            for number, rows in enumerate(row_groups, 1)
+        ]
+
+    def merge_child_results(self, result: ToolPathResult, child_results: Sequence[ToolPathResult]) -> ToolPathResult:
+        """Merge the results of the deferred slabs into this result."""
+        slabs, refuted = (
+            tuple(sorted((span for part in (result, *child_results) for span in getattr(part, key)), key=_begin))
+            for key in ("slabs", "refuted_intervals")
+        )
+        return result.merge(child_results, slabs=slabs, refuted_intervals=refuted, deferred=())
+
+
+def _begin(span: LockSlab | RefutedInterval) -> int:
+    return span.begin
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LockedPath(ToolPathResult):
+    """Result of the search for the lock of one joint.
+
+    Attributes:
+        joint: Index of it.
+        followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
+        claimed_instants: Lock instants of the claim.
+    """
+
+    joint: int
+    followers: tuple[int, ...]
+    claimed_instants: int
+
+    @property
+    def proved_lock_intervals(self) -> list[Span]:
+        """Proved intervals of lock instants."""
+        return [(slab.begin, slab.stop) for slab in self.slabs]
+
+    @property
+    def refuted_lock_intervals(self) -> list[Span]:
+        """Refuted intervals of lock instants."""
+        return [(interval.begin, interval.stop) for interval in self.refuted_intervals]
+
+    @property
+    def proved(self) -> Fraction:
+        """Exact fraction of the lock instants that is proved."""
+        return Fraction(sum(stop - begin for begin, stop in self.proved_lock_intervals), self.claimed_instants)
+
+    @property
+    def refuted(self) -> Fraction:
+        """Exact fraction of the lock instants that is refuted."""
+        return Fraction(sum(stop - begin for begin, stop in self.refuted_lock_intervals), self.claimed_instants)
+
+    @property
+    def undecided(self) -> Fraction:
+        """Exact fraction of the lock instants that is neither proved nor refuted."""
+        return 1 - self.proved - self.refuted
+
+    @property
+    def leaves(self) -> int:
+        """Number of cells of proved slabs and of joint boxes that refute others."""
+        joint_boxes = sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
+        return sum(len(slab.ends) for slab in self.slabs) + joint_boxes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,14 +227,6 @@ class PathProof(CompositeResult):
         """Return the undecided intervals of lock instants."""
         return paths.find_uncovered_intervals(part.proved_lock_intervals + part.refuted_lock_intervals, self.document)
 
-    def write(self, file: str | Path) -> Path:
-        """Write the certificate.
-
-        Raises:
-            StoreError: The file cannot be written.
-        """
-        return write_document(self.document, Path(file))
-
     def describe(self) -> list[str]:
         """Return the claim and the result of the search as sentences."""
         whichever = f"; whichever joint locks, {verifier.format_percent(self.tolerant)}" if len(self.parts) > 1 else ""
@@ -94,18 +246,11 @@ class PathProof(CompositeResult):
 
 def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathProof:
     """Prove as much of a claim as possible."""
-    total_instants = claim.during[1] - claim.during[0]
     jobs = [ToolPathJob.for_lock(claim, joint, _choose_followers(claim, joint), halvings) for joint in claim.locks]
     parts = tuple(
-        LockedPath(
-            joint=job.joint, followers=job.followers, slabs=result.slabs,
-            refuted_intervals=result.refuted_intervals,
-            proved=Fraction(sum(slab.stop - slab.begin for slab in result.slabs), total_instants),
-            refuted=Fraction(sum(interval.stop - interval.begin for interval in result.refuted_intervals), total_instants),
-            nodes=result.nodes, finished=result.finished, seconds=result.seconds,
-        )
+        LockedPath(joint=job.joint, followers=job.followers, claimed_instants=claim.during[1] - claim.during[0], **vars(result))
         for job, result in zip(jobs, budget.run_jobs(jobs), strict=True)
-    )  # fmt: skip
+    )
     return PathProof(claim=claim, parts=parts, document=_build_document(claim, parts))
 
 

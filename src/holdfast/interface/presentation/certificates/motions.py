@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, LockSlab
-from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, add_legend, bind_percent_sign, fraction_entry
 from holdfast.interface.presentation.certificates.pages import write as write

@@ -12,8 +12,7 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.interface.presentation import call_presenter, results
 from holdfast.interface.presentation.page_content import PageContent
