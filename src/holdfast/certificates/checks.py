@@ -130,17 +130,10 @@ def find_certificate_file(path: Path) -> Path:
 
 def _convert_verdict(verdict: verifier.CertificateVerdict) -> CertificateCheck:
     locked_index = verdict.document.get("locked", -1)
+    names = [joint["name"] for joint in verdict.document["arm"]["joints"]]
     return CertificateCheck(
-        claim=verdict.document["claim"],
-        locked=verdict.document["arm"]["joints"][locked_index]["name"] if locked_index >= 0 else "",
-        leaves=verdict.leaves,
-        accepted=verdict.accepted,
-        rejected=verdict.rejected,
-        undecided=verdict.undecided,
-        tolerant=verdict.tolerant_fraction,
-        seconds=verdict.seconds,
-        summary=verdict.summary,
+        claim=verdict.document["claim"], locked=names[locked_index] if locked_index >= 0 else "",
+        **{key: getattr(verdict, key) for key in ("leaves", "accepted", "rejected", "undecided", "seconds", "summary")},
+        tolerant=verdict.tolerant_fraction, refuted=verdict.false, witnessed=verdict.refuted,
         parts=tuple(map(_convert_verdict, verdict.parts)),
-        refuted=verdict.false,
-        witnessed=verdict.refuted,
-    )
+    )  # fmt: skip

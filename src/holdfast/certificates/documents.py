@@ -39,9 +39,8 @@ def build_document(
     document = _common_fields(claim, seconds, nodes) | fields
     if undecided is not None:
         fractions = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
-        document["volumes"] = {
-            key: f"{fraction.numerator}/2^{fraction.denominator.bit_length() - 1}" for key, fraction in fractions.items()
-        }
+        powers = {key: (part.numerator, part.denominator.bit_length() - 1) for key, part in fractions.items()}
+        document["volumes"] = {key: f"{numerator}/2^{power}" for key, (numerator, power) in powers.items()}
     document["arm_digest"] = verifier.compute_digest(document["arm"])
     document["claim"] = verifier.claim_sentence(document)
     return document | {"digest": verifier.compute_digest(document)}
@@ -50,11 +49,8 @@ def build_document(
 def find_undecided_cells(document: Document) -> list[Cell]:
     """Return the cells of a reach certificate that are not proved."""
     tokens, box = verifier.decompress_payload(document["tree"], 2 * verifier.MAX_LEAVES, "tree"), document["target"]["box"]
-    return [
-        cell
-        for token, cell in verifier.iterate_cells(tokens, len(box) + (document["angle"] is not None))
-        if token != PROVED_TOKEN
-    ]
+    cells = verifier.iterate_cells(tokens, len(box) + (document["angle"] is not None))
+    return [cell for token, cell in cells if token != PROVED_TOKEN]
 
 
 def _common_fields(claim: Claim[Any], seconds: float, nodes: int) -> Document:

@@ -244,16 +244,6 @@ def encode_document(document: dict[str, Any]) -> bytes:
     return (json.dumps(document, sort_keys=True, indent=1) + "\n").encode()
 
 
-def prove_reach(claim: ReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Proof:
-    """Search for a proof of a reach claim with the options of :func:`holdfast.certify`."""
-    return _prove_parts((claim,), halvings, seed, budget)[0]
-
-
-def prove_tolerant(claim: TolerantClaim, halvings: int, seed: int, budget: SearchBudget) -> TolerantProof:
-    """Search for proofs of the parts of a claim with the options of :func:`holdfast.certify`."""
-    return TolerantProof(claim=claim, parts=_prove_parts(claim.parts, halvings, seed, budget))
-
-
 def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget: SearchBudget) -> tuple[Proof, ...]:
     results = budget.run_jobs([TargetBoxJob(part, halvings, seed, index) for index, part in enumerate(parts)])
     return tuple(_build_proof(part, result) for part, result in zip(parts, results, strict=True))
@@ -272,11 +262,16 @@ def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
     )  # fmt: skip
 
 
+def _prove_tolerant(claim: TolerantClaim, halvings: int, seed: int, budget: SearchBudget) -> TolerantProof:
+    return TolerantProof(claim=claim, parts=_prove_parts(claim.parts, halvings, seed, budget))
+
+
 def _encode_tolerant_claim(claim: TolerantClaim) -> dict[str, Any]:
-    ranges = documents.encode_floats(claim.working_ranges)
-    fields = {"limits": documents.encode_limits(claim.arm), "working_ranges": ranges, "locks": list(claim.locks)}
-    return documents.encode_target(claim) | fields
+    ranges, limits = documents.encode_floats(claim.working_ranges), documents.encode_limits(claim.arm)
+    return documents.encode_target(claim) | {"limits": limits, "working_ranges": ranges, "locks": list(claim.locks)}
 
 
-REACH_KIND = ClaimKind("reach", prove_reach, documents.encode_target_claim, halvings=8)
-TOLERANT_KIND = ClaimKind("bundle", prove_tolerant, _encode_tolerant_claim, halvings=8)
+REACH_KIND = ClaimKind(
+    "reach", lambda claim, *options: _prove_parts((claim,), *options)[0], documents.encode_target_claim, halvings=8
+)
+TOLERANT_KIND = ClaimKind("bundle", _prove_tolerant, _encode_tolerant_claim, halvings=8)

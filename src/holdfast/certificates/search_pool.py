@@ -172,7 +172,7 @@ class SearchBudget:
 
     def run_jobs(self, jobs: Sequence[SearchJob], max_nodes: float = np.inf) -> list[Any]:
         """Run jobs and their child jobs and return one result each; stop after ``max_nodes`` examined cells."""
-        search_pool = SearchPool(jobs, memory=self.memory, report_state=self.report_state)
+        search_pool = SearchPool(jobs, self)
 
         def is_exhausted() -> bool:
             return search_pool.nodes > max_nodes or self.should_stop()
@@ -189,15 +189,14 @@ class SearchPool:
 
     Args:
         jobs: One for each part of it; they may leave some of it to others.
-        memory: Of a folder, or None.
-        report_state: Is told how far all is.
+        budget: Whose memory and callbacks are used.
 
     Attributes:
         nodes: Cells that were looked at.
     """
 
-    def __init__(self, jobs: Sequence[SearchJob], *, memory: SearchMemory | None = None, report_state: StateCallback) -> None:
-        self._report_state, self._memory, self._job_count = report_state, memory, len(jobs)
+    def __init__(self, jobs: Sequence[SearchJob], budget: SearchBudget) -> None:
+        self._report_state, self._memory, self._job_count = budget.report_state, budget.memory, len(jobs)
         self._results, self._states = dict[str, JobResult](), dict[str, tuple[float, SearchState]]()
         self._open_jobs, self.nodes, self._shown_warnings = list[SearchJob](), 0, set[str]()
         for job in jobs:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from typing import Self
 
 import numpy as np
 
@@ -41,8 +42,22 @@ class SearchState:
 StateCallback = Callable[[SearchState], None]
 
 
+class RowBatch:
+    """Base of dataclasses of arrays with one row for each of N objects."""
+
+    def select(self, rows: IndexArray) -> Self:
+        """Return the objects of some rows."""
+        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))  # type: ignore[arg-type]
+
+    @classmethod
+    def concatenate(cls, batches: Sequence[Self]) -> Self:
+        """Concatenate batches of objects."""
+        names = [field.name for field in fields(cls)]  # type: ignore[arg-type]
+        return cls(*(np.concatenate([getattr(batch, name) for batch in batches]) for name in names))
+
+
 @dataclass
-class CellBatch:
+class CellBatch(RowBatch):
     """Cells of the root box: index k of 2^depth along each axis, and inherited data.
 
     Attributes:
@@ -57,15 +72,6 @@ class CellBatch:
     name: IndexArray
     q: FloatArray
     barren: IndexArray
-
-    @classmethod
-    def concatenate(cls, batches: Sequence[CellBatch]) -> CellBatch:
-        """Concatenate batches of cells."""
-        return cls(*(np.concatenate([getattr(cells, field.name) for cells in batches]) for field in fields(cls)))
-
-    def select(self, rows: IndexArray) -> CellBatch:
-        """Return the cells of some rows."""
-        return CellBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
 
     @property
     def root_fraction(self) -> float:

@@ -8,7 +8,7 @@ axes (a shoulder) the lemma is the whole proof. The tool itself is the last such
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -19,6 +19,7 @@ from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.halving import (
     DISTANCE_MARGIN_M,
     OPEN_TOKEN,
+    Bisection,
     BoxBisection,
     BoxVerdicts,
     bisect_box,
@@ -121,25 +122,16 @@ class DistanceRangeLemma:
     tree: bytes
 
 
-@dataclass(frozen=True, eq=False)
-class Exclusion:
-    """Result of the search for an exclusion.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Exclusion(Bisection):
+    """Result of the search for an exclusion: the bisection of the box of all joints, then the target's coordinates.
 
     Attributes:
-        lemmas: Those that the tree uses.
-        tree: Over all joints, then the target's coordinates.
-        undecided: Exact part of pairs of configuration and target.
-        leaves, nodes: Boxes that are excluded, lemmas and all; looked at.
-        finished: False if the time was spent.
+        lemmas: Those that the tree uses; their boxes count as leaves and nodes.
         witness: (n,) rad, a configuration whose tool is in the box of targets: the claim is false.
     """
 
-    lemmas: list[DistanceRangeLemma]
-    tree: bytes
-    undecided: Fraction
-    leaves: int
-    nodes: int
-    finished: bool
+    lemmas: list[DistanceRangeLemma] = field(default_factory=list)
     witness: FloatArray | None = None
 
 
@@ -156,7 +148,7 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     rng = np.random.default_rng(seed)
     witness = _search_reaching_configuration(claim, rng)
     if witness is not None:
-        return Exclusion([], b"\2", Fraction(1), 0, 1, True, witness)
+        return Exclusion(b"\2", Fraction(1), 0, 1, True, witness=witness)
     chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
@@ -179,12 +171,12 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     token_map = {FIRST_LEMMA_TOKEN + index: FIRST_LEMMA_TOKEN + rank for rank, index in enumerate(used_indices)}
     used_lemmas = [lemmas[index] for index in used_indices]
     return Exclusion(
-        used_lemmas,
         tree.translate(bytes(token_map.get(token, token) for token in range(256))),
         bisection.undecided,
         bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas),
         bisection.nodes + tested,
         bisection.finished,
+        lemmas=used_lemmas,
     )
 
 
@@ -245,35 +237,27 @@ def _prove_distance_range(
             interval = 0.0, lower - min(1e-6, (lower - max_distance) / 10)
         elif upper < min_distance:
             interval = upper + min(1e-6, (min_distance - upper) / 10), max_reach
-    ignored_joints, tested = np.arange(n - link) < segment.count_leading_axes_through(point), 0
+    moves, tested = np.arange(n - link) >= segment.count_leading_axes_through(point), 0
     while margin < max_reach:
         lower, upper = interval
+        test = partial(_test_distance_range, segment, point, moves, lower, upper if upper < max_reach else np.inf)
         halving = BoxBisection(joints[link:], _MAX_LEMMA_HALVINGS)
-        finished = halving.run(
-            partial(_test_distance_range, segment, point, ignored_joints, lower, upper if upper < max_reach else np.inf),
-            deadline,
-            max_nodes=_MAX_LEMMA_NODES,
-        )
+        finished = halving.run(test, deadline, max_nodes=_MAX_LEMMA_NODES)
         tested += halving.tested
         if finished and not halving.undecided:
             useful = lower > 0 or upper < max_reach
-            return (DistanceRangeLemma(link, point, lower, upper, halving.tree.preorder_tokens()) if useful else None), tested
+            lemma = DistanceRangeLemma(link, point, lower, upper, halving.tree.preorder_tokens()) if useful else None
+            return lemma, tested
         margin *= 3
         interval = max(0.0, min_distance - margin), max_distance + margin
     return None, tested
 
 
 def _test_distance_range(
-    segment: ChainSegment,
-    point: FloatArray,
-    ignored_joints: BoolArray,
-    lower: float,
-    upper: float,
-    middle: FloatArray,
-    half: FloatArray,
+    segment: ChainSegment, point: FloatArray, moves: BoolArray, lower: float, upper: float, middle: FloatArray, half: FloatArray
 ) -> tuple[IndexArray, FloatArray]:
-    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; ``ignored_joints`` do not count."""
-    half = np.where(ignored_joints, 0.0, half)
+    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; only joints that move it count."""
+    half = half * moves
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
     for is_needed, bound_distance, sign in (
@@ -284,7 +268,7 @@ def _test_distance_range(
             distance, _, axis_costs = bound_distance(middle, half, points, zeros)
             undecided = sign * distance > sign * (upper if sign > 0 else lower) - DISTANCE_MARGIN_M
             tokens[undecided] = OPEN_TOKEN
-            gain[undecided] += axis_costs[undecided, : len(ignored_joints)]
+            gain[undecided] += axis_costs[undecided, : len(moves)]
     return tokens, gain
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from holdfast.certificates.tree import RowBatch
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 SEGMENT_INSTANTS = 1 << 20  # instants to a segment
@@ -39,7 +39,7 @@ class PathCellBatch:
 
 
 @dataclass(frozen=True, eq=False)
-class PathFormBatch:
+class PathFormBatch(RowBatch):
     """Enclosures in N cells, each with one column for each coordinate: lock, path, tube, section.
 
     Attributes:
@@ -60,21 +60,11 @@ class PathFormBatch:
     only: FloatArray
     good: BoolArray
 
-    def select(self, rows: IndexArray) -> PathFormBatch:
-        """Return the forms of some rows."""
-        return PathFormBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
-
     @classmethod
     def make_zero_form(cls, n: int, m: int, coordinate_count: int) -> PathFormBatch:
         """Make the empty form of one cell."""
-        response, half = np.zeros((1, m + 1, coordinate_count)), np.zeros((1, coordinate_count))
-        flags = np.zeros(1, dtype=bool)
-        return cls(np.zeros((1, n)), np.zeros(1), flags, response, half, np.zeros((1, m)), flags)
-
-    @classmethod
-    def concatenate(cls, parts: Sequence[PathFormBatch]) -> PathFormBatch:
-        """Concatenate batches of forms."""
-        return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
+        flags, response = np.zeros(1, dtype=bool), np.zeros((1, m + 1, coordinate_count))
+        return cls(np.zeros((1, n)), np.zeros(1), flags, response, response[:, 0], np.zeros((1, m)), flags)
 
     def replace_rows(self, rows: IndexArray, others: PathFormBatch) -> PathFormBatch:
         """Return the forms with other forms in place of some rows."""

@@ -7,7 +7,7 @@ here is doubles and may be wrong: the verifier decides.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from holdfast.certificates.tool_paths.tool_derivatives import (
     tangents_and_pseudo_inverses,
     transverse_axes,
 )
+from holdfast.certificates.tree import RowBatch
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
@@ -457,7 +458,7 @@ class LockedTrackingEnclosure:
 
 
 @dataclass(frozen=True, eq=False)
-class _CellBounds:
+class _CellBounds(RowBatch):
     """Bounds of cells: errors, response, gradient residual and second derivatives (magnitudes), curvature, slide extents."""
 
     error: FloatArray
@@ -466,7 +467,3 @@ class _CellBounds:
     second: FloatArray
     own: FloatArray
     out: FloatArray
-
-    def select(self, rows: IndexArray) -> _CellBounds:
-        """Return the bounds of some rows."""
-        return _CellBounds(*(getattr(self, field.name)[rows] for field in fields(self)))
