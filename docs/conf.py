@@ -41,7 +41,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"ArrayLike|DataFrame|Figure|Fraction|Mapping\[str|NDArray"),
     # Names of types in annotations, which have no entry in the documentation.
     (r"py:class", r"(Float|Bool|Index)Array|P|holdfast\.core\.typing\.T|holdfast\.kernels\.disk_cache\.K"),
-    (r"py:class", r"AccelerationsLike|Aim|CellLike|Ending|FailureSpec|FaultRunOutcome|KeepLike|ResultType"),
+    (r"py:class", r"AccelerationsLike|Aim|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
     (r"py:class", r"Locked(At|Anywhere)?|MetricName|Missing|Progress|React|RestSystem|Tolerance|Vary|Why"),
     # Classes that users do not construct.
     (r"py:class", r"(holdfast\.certificates\.(kinds|claims)\.)?((Locked)?Target)?Claim"),

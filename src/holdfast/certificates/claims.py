@@ -5,21 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.certificates.kinds import Claim, ResultType
+from holdfast.certificates.kinds import Claim
 from holdfast.core.errors import InputError
 from holdfast.core.labels import TASK_SIZES
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
-
-if TYPE_CHECKING:
-    pass
 
 TASK_ROWS = {
     "planar": [0, 1],
@@ -33,7 +30,7 @@ _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 
 @dataclass(frozen=True, kw_only=True)
-class TargetClaim(Claim[ResultType]):
+class TargetClaim(Claim):
     """Claim about the targets of a box, with the attributes of :class:`ReachClaim`."""
 
     arm: Arm
@@ -43,7 +40,7 @@ class TargetClaim(Claim[ResultType]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class LockedTargetClaim(TargetClaim[ResultType]):
+class LockedTargetClaim(TargetClaim):
     """Claim about the targets of a box at every value at which one joint may be locked."""
 
     locked: int
@@ -51,7 +48,7 @@ class LockedTargetClaim(TargetClaim[ResultType]):
     limits: FloatArray
 
 
-class ReachClaim(LockedTargetClaim["Proof"]):
+class ReachClaim(LockedTargetClaim):
     """Claim that a configuration within limits reaches every target of a box, wherever one joint may be locked.
 
     Attributes:
@@ -69,7 +66,7 @@ class ReachClaim(LockedTargetClaim["Proof"]):
     kind: ClassVar[str] = "reach"
 
 
-class OutOfReachClaim(LockedTargetClaim["Refutation"]):
+class OutOfReachClaim(LockedTargetClaim):
     """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
 
     Attributes:
@@ -80,7 +77,7 @@ class OutOfReachClaim(LockedTargetClaim["Refutation"]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TolerantClaim(TargetClaim["TolerantProof"]):
+class TolerantClaim(TargetClaim):
     """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
     its working range.
 

@@ -24,14 +24,14 @@ from holdfast.model.arm.model import Arm
 Document = dict[str, Any]
 
 
-def format_claim(claim: Claim[Any]) -> str:
+def format_claim(claim: Claim) -> str:
     """Return the sentence of a claim, with all of its numbers and the digest of the arm."""
     fields = _common_fields(claim, 0.0, 0)
     return verifier.claim_sentence(fields | {"arm_digest": verifier.compute_digest(fields["arm"])})
 
 
 def build_document(
-    claim: Claim[Any], fields: Document, *, undecided: Fraction | None = None, seconds: float, nodes: int
+    claim: Claim, fields: Document, *, undecided: Fraction | None = None, seconds: float, nodes: int
 ) -> Document:
     """Build the certificate of a claim with the fields that prove it, with the fraction ``undecided`` of its box open; the
     fields contain the volumes if it is None.
@@ -53,7 +53,7 @@ def find_undecided_cells(document: Document) -> list[Cell]:
     return [cell for token, cell in cells if token != PROVED_TOKEN]
 
 
-def _common_fields(claim: Claim[Any], seconds: float, nodes: int) -> Document:
+def _common_fields(claim: Claim, seconds: float, nodes: int) -> Document:
     """Return the fields that define a claim and those that all certificates have, except digests and volumes."""
     return {
         "format": "holdfast-certificate",
@@ -69,14 +69,14 @@ def _common_fields(claim: Claim[Any], seconds: float, nodes: int) -> Document:
     } | find_claim_kind(claim).fields(claim)
 
 
-def encode_target(claim: TargetClaim[Any]) -> Document:
+def encode_target(claim: TargetClaim) -> Document:
     """Return the field about the targets of a claim."""
     axes = {"planar": "xy", "planar-pose": "xya"}.get(claim.task, "xyzRPY"[: len(claim.box)])
     rotation = None if claim.rotation is None else encode_floats(claim.rotation.ravel())
     return {"target": {"axes": axes, "box": encode_floats(claim.box), "orientation": rotation}}
 
 
-def encode_target_claim(claim: LockedTargetClaim[Any]) -> Document:
+def encode_target_claim(claim: LockedTargetClaim) -> Document:
     """Return the fields that define a claim about the targets of a box and a locked joint."""
     angle = None if claim.angle is None else encode_floats(claim.angle)
     return encode_target(claim) | {"locked": claim.locked, "angle": angle, "limits": encode_floats(claim.limits)}

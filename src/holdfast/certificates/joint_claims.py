@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,14 +17,11 @@ from holdfast.core.validation import check_arguments
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
-if TYPE_CHECKING:
-    pass
-
 _TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoundClaim(Claim["ManipulabilityBound"]):
+class BoundClaim(Claim):
     """Bound of the least relative manipulability after one of some locks, for every configuration of a box.
 
     Attributes:
@@ -121,7 +118,7 @@ def _make_bound_claim(arm: Arm, kind: str, joint_box: Any, threshold: float, fai
 
 
 @dataclass(frozen=True, kw_only=True)
-class StructuralZeroClaim(Claim["StructuralZero"]):
+class StructuralZeroClaim(Claim):
     """Claim that the axes of the arm make a lock of one joint remove all relative manipulability of the pose in every
     configuration.
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from holdfast.core.errors import InputError
 from holdfast.core.registry import read_exports
@@ -21,11 +21,8 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 
-ResultType = TypeVar("ResultType")
-
-
-class Claim(Generic[ResultType]):
-    """Base of claims; the type argument is the class of the result of their search."""
+class Claim:
+    """Base of claims."""
 
     if TYPE_CHECKING:
 

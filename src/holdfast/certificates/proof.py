@@ -96,8 +96,7 @@ class Proof(BisectionResult):
             verifier.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)}, "
             f"undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
-            f"{self.seconds:.1f} s.",
+            describe_cells(self),
         ]
 
 
@@ -223,9 +222,14 @@ class TolerantProof(CompositeResult):
             f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of the "
             f"targets at least; undecided {verifier.format_percent(self.undecided, up=True)}{qualifier}"
             f"{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
-            f"{self.seconds:.1f} s.",
+            describe_cells(self),
         ]
+
+
+def describe_cells(proof: Proof | TolerantProof) -> str:
+    """Return a sentence with the number of cells and the duration of the search."""
+    looked_at = f"of {proof.nodes:,} that were looked at; {proof.seconds:.1f} s."
+    return f"{proof.leaves:,} cells are proved, each by one configuration, {looked_at}"
 
 
 def format_early_stop(finished: bool) -> str:

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import monotonic
+from typing import Any, TypedDict, Unpack, overload
 
 import numpy as np
 
 from holdfast.certificates import documents
-from holdfast.certificates.kinds import Claim, ResultType, find_claim_kind
+from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
+from holdfast.certificates.joint_boxes.refutations import Refutation
+from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
+from holdfast.certificates.kinds import Claim, find_claim_kind
+from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.search_pool import SearchBudget, StopCheck
+from holdfast.certificates.structure import StructuralZero
+from holdfast.certificates.tool_paths.claims import PathClaim
+from holdfast.certificates.tool_paths.proof import PathProof
 from holdfast.certificates.tree import SearchState, StateCallback
 from holdfast.core.errors import InputError
 from holdfast.core.progress import Progress, reports_progress
@@ -19,10 +28,37 @@ from holdfast.core.validation import check_arguments
 _PROGRESS_STEPS = 10_000  # of which progress is told: ten thousandths of all parts
 
 
+class CertifyOptions(TypedDict, total=False):
+    """Options of :func:`certify`."""
+
+    halvings: int | None
+    time_limit: float | None
+    seed: int
+    workers: int
+    store: str | Path | None
+    progress: Progress | None
+    state: StateCallback | None
+    stop: StopCheck
+
+
+@overload
+def certify(claim: ReachClaim, **how: Unpack[CertifyOptions]) -> Proof: ...
+@overload
+def certify(claim: TolerantClaim, **how: Unpack[CertifyOptions]) -> TolerantProof: ...
+@overload
+def certify(claim: OutOfReachClaim, **how: Unpack[CertifyOptions]) -> Refutation: ...
+@overload
+def certify(claim: BoundClaim, **how: Unpack[CertifyOptions]) -> ManipulabilityBound: ...
+@overload
+def certify(claim: StructuralZeroClaim, **how: Unpack[CertifyOptions]) -> StructuralZero: ...
+@overload
+def certify(claim: PathClaim, **how: Unpack[CertifyOptions]) -> PathProof: ...
+@overload
+def certify(claim: Claim, **how: Unpack[CertifyOptions]) -> Any: ...
 @check_arguments
 @reports_progress("searching for a proof")
 def certify(
-    claim: Claim[ResultType],
+    claim: Claim,
     *,
     halvings: int | None = None,
     time_limit: float | None = None,
@@ -32,7 +68,7 @@ def certify(
     progress: Progress | None = None,
     state: StateCallback | None = None,
     stop: StopCheck = lambda: False,
-) -> ResultType:
+) -> Any:
     """Prove as much of a claim as possible by bisecting cells of targets and locked angles until one configuration proves each
     cell.
 
@@ -92,5 +128,4 @@ def certify(
         sentences = [documents.format_claim(part) for part in claim.parts]
         memory = SearchMemory(store, {"kind": "certify", "format": 2, "claims": sentences, "halvings": halvings, "seed": seed})
     budget = SearchBudget(deadline=deadline, should_stop=stop, report_state=report_state, workers=workers, memory=memory)
-    result: ResultType = kind.search(claim, halvings, seed, budget)
-    return result
+    return kind.search(claim, halvings, seed, budget)

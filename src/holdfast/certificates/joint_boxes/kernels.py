@@ -74,12 +74,7 @@ class ManipulabilityFloorTest:
         gradient = (side[:, None] * by_joint)[:, :, rows]
         response = -np.einsum("nlb,njb->nlj", inverse, gradient)
         gradient = gradient + np.einsum("nbl,nlj->njb", jacobian, response)
-        z, v, u, w = (
-            screws.axes[:, :, None, :3],
-            screws.axes[:, :, None, 3:],
-            by_joint[:, None, :, :3],
-            by_joint[:, None, :, 3:],
-        )
+        (z, v), (u, w) = (np.split(values, 2, axis=3) for values in (screws.axes[:, :, None], by_joint[:, None]))
         second_brackets = np.concatenate([np.cross(z, u), np.cross(z, w) + np.cross(v, u)], axis=3)  # (N, i, j, 6), i nearer
         second_brackets = second_brackets * (self.screws.nearer * (side[:, None] == side))[:, :, None]
         cross_terms = np.einsum("njlb,nli->njib", moving_brackets, response) * side[:, None, None]

@@ -82,9 +82,5 @@ class ScrewModel:
                 for power, v in enumerate((v1, v2, v3), 1):
                     v[:, carried] += (screws.links[:, joint] * angle_sum**power)[:, None]
         max_distances = screws.distances + v1
-        return (
-            c**2 / 2,
-            (v2 + 2 * v1 * c + max_distances * c**2) / 2,
-            c**3 / 6,
-            (v3 + 3 * v2 * c + 3 * v1 * c**2 + max_distances * c**3) / 6,
-        )
+        second = (v2 + 2 * v1 * c + max_distances * c**2) / 2
+        return c**2 / 2, second, c**3 / 6, (v3 + 3 * v2 * c + 3 * v1 * c**2 + max_distances * c**3) / 6

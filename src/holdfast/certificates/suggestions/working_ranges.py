@@ -184,14 +184,9 @@ def find_working_ranges(
             break
     retained = np.stack([table.all(axis=1) for table, _ in survives], axis=1)
     return WorkingRanges(
-        claim=make_claim(ranges),
-        targets=len(healthy),
-        values=values,
-        healthy=int(healthy.sum()),
-        lost=(~retained).sum(axis=0),
-        passed=int((healthy & retained.all(axis=1)).sum()),
-        seconds=perf_counter() - start_time,
-    )
+        claim=make_claim(ranges), targets=len(healthy), values=values, healthy=int(healthy.sum()),
+        lost=(~retained).sum(axis=0), passed=int((healthy & retained.all(axis=1)).sum()), seconds=perf_counter() - start_time,
+    )  # fmt: skip
 
 
 class _RangeSearch:

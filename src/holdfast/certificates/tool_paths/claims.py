@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,9 +18,6 @@ from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
-if TYPE_CHECKING:
-    pass
-
 _MAX_SEGMENTS = 256
 _MAX_TUBE = 0.1  # m and rad, of a tube
 _MAX_JOINT_VALUE = 7.0  # rad and m, as the file counts them
@@ -28,7 +25,7 @@ _INSTANT_STEP = SEGMENT_INSTANTS >> 6  # instants: ends of what is claimed are m
 
 
 @dataclass(frozen=True, kw_only=True)
-class PathClaim(Claim["PathProof"]):
+class PathClaim(Claim):
     """Claim that one continuous motion finishes the path of the tool after a lock at any instant of a healthy motion.
 
     Attributes:

@@ -132,13 +132,9 @@ class LockedTrackingEnclosure:
         half = np.concatenate([cells.half_widths, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
         positions = np.concatenate([q, goal], axis=1)
         bounds = _CellBounds(
-            error=error,
-            reach=np.abs(directions),
-            left=np.abs(gradients @ directions - desired),
-            second=np.abs(second),
-            own=np.einsum("nacc->nac", second),
-            out=np.abs(positions) * (1 - self._revolute),
-        )
+            error=error, reach=np.abs(directions), left=np.abs(gradients @ directions - desired), second=np.abs(second),
+            own=np.einsum("nacc->nac", second), out=np.abs(positions) * (1 - self._revolute),
+        )  # fmt: skip
         closed, joint_travel, angle = self._find_invariant_section_boxes(bounds, half)
         s = half[:, -m:]
         unique_box, is_unique = np.zeros_like(s), np.zeros(len(q), dtype=bool)
@@ -255,11 +251,10 @@ class LockedTrackingEnclosure:
             path_gradient += np.einsum("nmk,nk->nm", jacobian[:, :, self.driven[1:]], path_rate[:, self.driven[1:]])
             extended = np.concatenate([jacobian[:, :, self.free], path_gradient[:, :, None]], axis=2)
             transposed = extended.transpose(0, 2, 1)
-            step = (
-                tangents_and_pseudo_inverses(extended)[0] * distances[:, None]
-                if iteration == 0
-                else -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
-            )
+            if iteration == 0:
+                step = tangents_and_pseudo_inverses(extended)[0] * distances[:, None]
+            else:
+                step = -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
             z[:, [*self.free, -1]] += step
             z[:, -1] = np.rint(z[:, -1] * SEGMENT_INSTANTS) / SEGMENT_INSTANTS
         z[:, self.free] = np.round(z[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT

@@ -241,12 +241,9 @@ class _LoopExclusionTest:
             rows = verdicts.open_rows
             if not rows.size:
                 break
-            first, second = (
-                np.linalg.norm(
-                    branch.segment.point_axes_and_derivatives(middle[rows][:, branch.joints])[0] - branch.start, axis=1
-                )
-                for branch in branches
-            )
+            tips = (branch.segment.point_axes_and_derivatives(middle[rows][:, branch.joints])[0] for branch in branches)
+            offsets = (tip - branch.start for tip, branch in zip(tips, branches, strict=True))
+            first, second = (np.linalg.norm(offset, axis=1) for offset in offsets)
             for (longer, shorter), mask in ((branches, first >= second), (branches[::-1], first < second)):
                 chosen = rows[mask]
                 if chosen.size:
