@@ -18,13 +18,7 @@ from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
-TASK_ROWS = {
-    "planar": [0, 1],
-    "planar-pose": [0, 1, 5],
-    "position": [0, 1, 2],
-    "pointing": [0, 1, 2, 3, 4],
-    "pose": [0, 1, 2, 3, 4, 5],
-}  # of tool paths
+TASK_ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pointing": [*range(5)], "pose": [*range(6)]}
 _TASK_BY_DIMENSION = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
 _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 

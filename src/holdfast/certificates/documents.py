@@ -55,18 +55,10 @@ def find_undecided_cells(document: Document) -> list[Cell]:
 
 def _common_fields(claim: Claim, seconds: float, nodes: int) -> Document:
     """Return the fields that define a claim and those that all certificates have, except digests and volumes."""
-    return {
-        "format": "holdfast-certificate",
-        "version": 1,
-        "kind": claim.kind,
-        "arm": _encode_arm(claim.arm),
-        "source": {"name": claim.arm.name},
-        "task": claim.task,
-        "made_by": f"holdfast {__version__}",
-        "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
-        "seconds": seconds,
-        "nodes": nodes,
-    } | find_claim_kind(claim).fields(claim)
+    common = {"format": "holdfast-certificate", "version": 1, "made_by": f"holdfast {__version__}"}
+    common |= {"made_at": datetime.now(UTC).isoformat(timespec="seconds"), "seconds": seconds, "nodes": nodes}
+    fields = {"kind": claim.kind, "arm": _encode_arm(claim.arm), "source": {"name": claim.arm.name}, "task": claim.task}
+    return common | fields | find_claim_kind(claim).fields(claim)
 
 
 def encode_target(claim: TargetClaim) -> Document:

@@ -170,14 +170,9 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     used_indices = [index for index in range(len(lemmas)) if FIRST_LEMMA_TOKEN + index in tree]
     token_map = {FIRST_LEMMA_TOKEN + index: FIRST_LEMMA_TOKEN + rank for rank, index in enumerate(used_indices)}
     used_lemmas = [lemmas[index] for index in used_indices]
-    return Exclusion(
-        tree.translate(bytes(token_map.get(token, token) for token in range(256))),
-        bisection.undecided,
-        bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas),
-        bisection.nodes + tested,
-        bisection.finished,
-        lemmas=used_lemmas,
-    )
+    tree = tree.translate(bytes(token_map.get(token, token) for token in range(256)))
+    leaves = bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas)
+    return Exclusion(tree, bisection.undecided, leaves, bisection.nodes + tested, bisection.finished, lemmas=used_lemmas)
 
 
 class _ExclusionTest:
@@ -260,15 +255,13 @@ def _test_distance_range(
     half = half * moves
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
-    for is_needed, bound_distance, sign in (
-        (upper < np.inf, segment.upper_distance_bound, 1.0),
-        (lower > 0, segment.lower_distance_bound, -1.0),
-    ):
-        if is_needed:
-            distance, _, axis_costs = bound_distance(middle, half, points, zeros)
-            undecided = sign * distance > sign * (upper if sign > 0 else lower) - DISTANCE_MARGIN_M
-            tokens[undecided] = OPEN_TOKEN
-            gain[undecided] += axis_costs[undecided, : len(moves)]
+    bounds = [(segment.upper_distance_bound, 1.0, upper)] * (upper < np.inf)
+    bounds += [(segment.lower_distance_bound, -1.0, lower)] * (lower > 0)
+    for bound_distance, sign, limit in bounds:
+        distance, _, axis_costs = bound_distance(middle, half, points, zeros)
+        undecided = sign * distance > sign * limit - DISTANCE_MARGIN_M
+        tokens[undecided] = OPEN_TOKEN
+        gain[undecided] += axis_costs[undecided, : len(moves)]
     return tokens, gain
 
 

@@ -58,13 +58,9 @@ class ToolPathResult(JobResult):
         """Rebuild a result from the arrays of :meth:`to_arrays`."""
         entries, refuted = json.loads(arrays["intervals"].tobytes())
         slabs = [LockSlab(*numbers, [np.array(center) for center in centers]) for *numbers, centers in entries]
-        return super().from_arrays(
-            arrays,
-            slabs=tuple(slab for slab in slabs if slab.ends),
-            refuted_intervals=tuple(RefutedInterval(*numbers, bytes(tree)) for *numbers, tree in refuted),
-            deferred=tuple(slab for slab in slabs if not slab.ends),
-            **values,
-        )
+        proved, deferred = (tuple(slab for slab in slabs if bool(slab.ends) == has_cells) for has_cells in (True, False))
+        intervals = tuple(RefutedInterval(*numbers, bytes(tree)) for *numbers, tree in refuted)
+        return super().from_arrays(arrays, slabs=proved, refuted_intervals=intervals, deferred=deferred, **values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -264,17 +260,10 @@ def _build_document(claim: PathClaim, parts: Sequence[LockedPath]) -> documents.
             {"begin": span.begin, "stop": span.stop, "at": span.path_instant, "tree": documents.compress_bytes(span.tree)}
             for span in part.refuted_intervals
         ]
-        locks.append(
-            {
-                "joint": part.joint,
-                "followers": list(part.followers),
-                "proved": paths.format_fraction(part.proved),
-                "refuted": paths.format_fraction(part.refuted),
-                "refutations": refutations,
-                "cells": documents.compress_bytes(np.array(numbers, "<i8").tobytes()),
-                "centres": documents.compress_bytes(centers.tobytes()),
-            }
-        )
+        lock = {"joint": part.joint, "followers": list(part.followers), "refutations": refutations}
+        lock |= {key: paths.format_fraction(getattr(part, key)) for key in ("proved", "refuted")}
+        cells = documents.compress_bytes(np.array(numbers, "<i8").tobytes())
+        locks.append(lock | {"cells": cells, "centres": documents.compress_bytes(centers.tobytes())})
     points, pairs = list[Any](), list[Any]()
     if refuted_joints := [part.joint for part in parts if part.refuted_intervals]:  # the points of all locks are the same
         exclusion = make_loop_closure_exclusion(claim, refuted_joints[0])
@@ -301,10 +290,8 @@ def _choose_followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
         jacobians = np.concatenate([jacobians[:, :3], rotations.transpose(0, 2, 1) @ jacobians[:, 3:]], axis=1)
     jacobians = jacobians[:, task_rows]
     choices = list(combinations(others, len(others) - len(task_rows)))
-    min_singular_values = [
-        np.linalg.svd(np.delete(jacobians, [joint, *followers], axis=2), compute_uv=False)[:, -1].min() for followers in choices
-    ]
-    return choices[int(np.argmax(min_singular_values))]
+    remaining = (np.delete(jacobians, [joint, *followers], axis=2) for followers in choices)
+    return choices[int(np.argmax([np.linalg.svd(matrices, compute_uv=False)[:, -1].min() for matrices in remaining]))]
 
 
 def _encode_path_claim(claim: PathClaim) -> dict[str, Any]:

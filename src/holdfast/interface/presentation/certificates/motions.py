@@ -51,14 +51,11 @@ def _joint_name(proof: PathProof, part: LockedPath) -> str:
 
 def tables(proof: PathProof) -> list[TextTable]:
     """Tabulate the fractions of each lock, then those of all locks."""
-    rows = [
-        [
-            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted),
-            format_percent(part.undecided, up=True),
-            _format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
-        ]
-        for part in proof.parts
-    ]  # fmt: skip
+    rows = []
+    for part in proof.parts:
+        shares = [format_percent(part.proved), format_percent(part.refuted), format_percent(part.undecided, up=True)]
+        counts = [_format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}"]
+        rows.append([_joint_name(proof, part), *shares, *counts])
     header = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
     return [TextTable(header, rows), key_table(proof)]
 
@@ -139,23 +136,18 @@ def figures(proof: PathProof) -> dict[str, Figure]:
 
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
+    width = WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS)
     with style():
-        figure = Figure(
-            figsize=(
-                WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
-                2.7 * row_count + 0.7,
-            ),
-            layout="constrained",
-        )
+        figure = Figure(figsize=(width, 2.7 * row_count + 0.7), layout="constrained")
         panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
-        for panel, axes in enumerate(panels):
-            if panel < len(proof.parts):
-                _draw_panel(axes, proof, proof.parts[panel])
-            else:
-                axes.set_visible(False)
-        for panel in range(len(proof.parts)):
-            panels[panel].set_xlabel("path [knots]" if panel + column_count >= len(proof.parts) else "")
-            panels[panel].xaxis.set_tick_params(labelbottom=panel + column_count >= len(proof.parts))
+        for panel, part in zip(panels, proof.parts, strict=False):
+            _draw_panel(panel, proof, part)
+        for panel in panels[len(proof.parts) :]:
+            panel.set_visible(False)
+        for index, panel in enumerate(panels[: len(proof.parts)]):
+            is_last = index + column_count >= len(proof.parts)
+            panel.set_xlabel("path [knots]" if is_last else "")
+            panel.xaxis.set_tick_params(labelbottom=is_last)
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
         add_legend(figure, {"proved to be finished": SKY, "in turned cells": BLUE, "refuted": ORANGE})

@@ -112,6 +112,8 @@ def story(proof: Proof | TolerantProof) -> PageContent:
         percent = bind_percent_sign(format_percent(fraction))
         answer = f"Of the {object_text}, {percent} are proved to be reached{condition}; {remainder}."
     orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
+    caption = f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
+    caption += "say that it is out of reach. Through the middle of the box, and where most is undecided."
     return PageContent(
         f"What is proved of {arm.name}",
         f"{answer} {UNVERIFIED_NOTE}",
@@ -120,13 +122,7 @@ def story(proof: Proof | TolerantProof) -> PageContent:
             (bind_percent_sign(format_percent(fraction)), f"of the {object_text}{condition}"),
             (f"{proof.leaves:,}", "boxes, each with one configuration"),
         ],
-        figures={
-            "slices": (
-                "Where it is proved",
-                f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
-                "say that it is out of reach. Through the middle of the box, and where most is undecided.",
-            )
-        },
+        figures={"slices": ("Where it is proved", caption)},
         method=[
             ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
             ("Not said", SCOPE_NOTE.replace("speed", "speed, the way there")),
