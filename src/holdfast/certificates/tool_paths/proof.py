@@ -143,12 +143,13 @@ class LockedPath(ToolPathResult):
     Attributes:
         joint: Index of it.
         followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
-        claimed_instants: Lock instants of the claim.
+        proved, refuted: Exact fractions of the lock instants.
     """
 
     joint: int
     followers: tuple[int, ...]
-    claimed_instants: int
+    proved: Fraction
+    refuted: Fraction
 
     @property
     def proved_lock_intervals(self) -> list[Span]:
@@ -159,16 +160,6 @@ class LockedPath(ToolPathResult):
     def refuted_lock_intervals(self) -> list[Span]:
         """Refuted intervals of lock instants."""
         return [(interval.begin, interval.stop) for interval in self.refuted_intervals]
-
-    @property
-    def proved(self) -> Fraction:
-        """Exact fraction of the lock instants that is proved."""
-        return Fraction(sum(stop - begin for begin, stop in self.proved_lock_intervals), self.claimed_instants)
-
-    @property
-    def refuted(self) -> Fraction:
-        """Exact fraction of the lock instants that is refuted."""
-        return Fraction(sum(stop - begin for begin, stop in self.refuted_lock_intervals), self.claimed_instants)
 
     @property
     def undecided(self) -> Fraction:
@@ -243,10 +234,17 @@ class PathProof(CompositeResult):
 def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathProof:
     """Prove as much of a claim as possible."""
     jobs = [ToolPathJob.for_lock(claim, joint, _choose_followers(claim, joint), halvings) for joint in claim.locks]
+
+    def measure(intervals: Sequence[LockSlab | RefutedInterval]) -> Fraction:
+        return Fraction(sum(span.stop - span.begin for span in intervals), claim.during[1] - claim.during[0])
+
     parts = tuple(
-        LockedPath(joint=job.joint, followers=job.followers, claimed_instants=claim.during[1] - claim.during[0], **vars(result))
+        LockedPath(
+            joint=job.joint, followers=job.followers, proved=measure(result.slabs), refuted=measure(result.refuted_intervals),
+            **vars(result),
+        )
         for job, result in zip(jobs, budget.run_jobs(jobs), strict=True)
-    )
+    )  # fmt: skip
     return PathProof(claim=claim, parts=parts, document=_build_document(claim, parts))
 
 
