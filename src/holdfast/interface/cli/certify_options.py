@@ -10,7 +10,8 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.options import FailuresOption, JsonOption, PlotOption
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import FailuresOption, JsonOption, PlotOption, SeedOption
 from holdfast.interface.cli.values import read_numbers, read_numbers_by_joint
 from holdfast.model.failure_modes.sets import read_failures
 
@@ -131,10 +132,27 @@ class SearchOptions:
 class CertificateOutput:
     """Options for the output files of a certificate and its display."""
 
-    out: CertificateOption
+    out: CertificateOption = Path()
     plot: PlotOption = None
     report: Annotated[Path | None, "Write a page of what is proved into this HTML file."] = None
     json_: JsonOption = False
+
+
+@dataclass(frozen=True)
+class SeedOptions:
+    """Option for the seed."""
+
+    seed: SeedOption = 0
+
+
+@dataclass(frozen=True)
+class UnseededProofOptions(CertificateOutput, ArmSourceOptions, SearchOptions):
+    """Options of all commands that prove a claim; those of the last class come first in the help."""
+
+
+@dataclass(frozen=True)
+class ProofOptions(CertificateOutput, SeedOptions, ArmSourceOptions, SearchOptions):
+    """Options of commands that prove a claim by a search with random draws."""
 
 
 def read_joint_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
