@@ -44,8 +44,9 @@ nitpick_ignore_regex = [
     (r"py:class", r"AccelerationsLike|Aim|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
     (r"py:class", r"Locked(At|Anywhere)?|MetricName|Missing|Progress|React|RestSystem|Tolerance|Vary|Why"),
     # Classes that users do not construct.
-    (r"py:class", r"(holdfast\.certificates\.kinds\.)?Claim|RunSettings|_Simulator|holdfast\.control\.laws\.export\._Law"),
-    (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Composite)Result|tool_paths\.march\.LockedPath)"),
+    (r"py:class", r"(holdfast\.certificates\.(kinds|claims)\.)?((Locked)?Target)?Claim"),
+    (r"py:class", r"RunSettings|_Simulator|holdfast\.control\.laws\.export\._Law"),
+    (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Composite)Result|tool_paths\.proof\.LockedPath)"),
     (r"py:class", r"holdfast\.control\.simulation\.closed_loop\.LockSchedule"),
     (r"py:class", r"holdfast\.core\.(probability\.intervals\.WeightSums|sweeps\.journal\.JournalEntry)"),
     (r"py:class", r"holdfast\.interface\.(presentation\.arm\.body\.MeshPart|report\.viewer\.ViewerScene)"),

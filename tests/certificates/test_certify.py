@@ -201,8 +201,8 @@ def test_what_is_proved_first(three):
     search = TargetBoxSearch(ReachSolver(three, "planar", 1, claim.limits), root, 8, 0)
     shares = []
     search.run(
-        report_closed=lambda closed: shares.append(
-            (closed, search.nodes, float(1 - compute_undecided_fraction(search.tree.preorder_tokens_and_centers()[0])))
+        report_progress=lambda: shares.append(
+            (1 - search.open_fraction, search.nodes, float(1 - compute_undecided_fraction(search.tree.preorder_tokens())))
         )
     )
     closed, nodes, proved = np.array(shares).T

@@ -14,6 +14,7 @@ import holdfast as hf
 import oracles
 from holdfast.certificates import documents, out_of_reach_claim, verifier
 from holdfast.certificates.joint_boxes import exclusion
+from holdfast.certificates.joint_boxes.refutations import encode_exclusion
 from holdfast.certificates.joint_boxes.segments import ChainSegment
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain
@@ -125,7 +126,9 @@ def test_no_configuration_is_excluded_with_its_own_target(arm, rng, tmp_path, mo
     assert inside.sum() > 50
     roots = np.vstack([ranges, claim.box])
     assert {leaf_of(found.tree, roots, np.concatenate(pair)) for pair in zip(q[inside][:300], at[inside], strict=False)} == {2}
-    document = documents.build_exclusion_document(claim, found, seconds=0.0)
+    document = documents.build_document(
+        claim, encode_exclusion(found), undecided=found.undecided, seconds=0.0, nodes=found.nodes
+    )
     verdict = verifier.verify(written.stored(document, tmp_path / "a.certificate"), sample=400)
     assert verdict.rejected == 0
     assert verdict.leaves > 0

@@ -522,8 +522,7 @@ def test_what_is_behind_the_second_order_is_bounded(panda, rng):
     assert (faults.chain.link_lengths >= chain.lengths).all()
     assert faults.chain.link_lengths == pytest.approx(chain.lengths, abs=1e-9)
     limits = np.column_stack([panda.lower, panda.upper])
-    knots, slides = proof.claim.knots, panda.prismatic
-    following = LockedTrackingEnclosure(chain, knots, "pose", driven=[1], tube=np.empty(0), limits=limits, slides=slides)
+    following = LockedTrackingEnclosure(chain, proof.claim.knots, "pose", driven=[1], tube=np.empty(0), limits=limits)
     q, goal = START[None] + 0.01, START[None]
     with motions.flint.ctx.workprec(64):
         error, first, second = (x.center for x in between(faults, q[0], goal[0]))

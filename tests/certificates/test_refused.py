@@ -10,8 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.certificates import ceiling_claim, out_of_reach_claim, reach_claim
 from holdfast.certificates.joint_boxes import halving
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
-from holdfast.certificates.joint_boxes.jobs import summarize_tree
+from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count, summarize_tree
 from holdfast.certificates.taylor import ReachSolver
 from holdfast.core.errors import InputError
 
@@ -33,7 +32,7 @@ def test_the_estimate_of_a_uniform_tree_is_exact():
     require_feasible_box_count(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
     tree = BoxBisection(box, 60)
     tree.run(along_first(2.0**-11))
-    assert summarize_tree(tree.preorder_tokens(), len(box), tree.tested, True).leaves == 2**10
+    assert summarize_tree(tree.tree.preorder_tokens(), tree.tested, True).leaves == 2**10
 
 
 def test_poses_in_a_wide_box(panda):

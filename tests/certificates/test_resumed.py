@@ -14,9 +14,9 @@ import pytest
 
 import holdfast as hf
 from holdfast.certificates import reach_claim, search_pool, tolerant_claim
-from holdfast.certificates.joint_boxes import jobs as boxes
+from holdfast.certificates.joint_boxes import halving as boxes
 from holdfast.certificates.target_boxes import jobs
-from holdfast.certificates.tool_paths import jobs as motions
+from holdfast.certificates.tool_paths import proof as motions
 from holdfast.core.errors import InputError, StoreError
 from holdfast.interface.presentation.certificates.console import format_state
 

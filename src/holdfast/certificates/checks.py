@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
@@ -73,12 +72,7 @@ class CheckStopped(HoldfastError):
 @check_arguments
 @reports_progress("checking the certificate")
 def check_certificate(
-    file: str | Path,
-    *,
-    arm: Arm | None = None,
-    sample: int | None = None,
-    workers: int = 1,
-    time_limit: float | None = None,
+    file: str | Path, *, arm: Arm | None = None, sample: int | None = None, workers: int = 1, time_limit: float | None = None
 ) -> CertificateCheck:
     """Check a certificate with the verifier, which shares nothing with the prover except the wording of the claim.
 
@@ -100,9 +94,13 @@ def check_certificate(
     try:
         if arm is not None:
             require_same_arm(verifier.load_certificate(Path(file)), arm)
-        return _convert_verdict(
-            verifier.verify(file, sample=sample, workers=workers, progress=_make_time_limit_callback(time_limit))
-        )
+        deadline = math.inf if time_limit is None else monotonic() + time_limit
+
+        def raise_if_late(checked_leaves: int) -> None:
+            if monotonic() > deadline:
+                raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
+
+        return _convert_verdict(verifier.verify(file, sample=sample, workers=workers, progress=raise_if_late))
     except verifier.CertificateRejected as error:
         raise InputError(str(error)) from error
 
@@ -115,16 +113,6 @@ def require_flint() -> None:
     """
     if find_spec("flint") is None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'")
-
-
-def _make_time_limit_callback(time_limit: float | None) -> Callable[[int], None]:
-    deadline = math.inf if time_limit is None else monotonic() + time_limit
-
-    def raise_if_late(checked_leaves: int) -> None:
-        if monotonic() > deadline:
-            raise CheckStopped(f"the check was not finished within {time_limit:g} s; nothing is verified")
-
-    return raise_if_late
 
 
 def find_certificate_file(path: Path) -> Path:
@@ -142,17 +130,10 @@ def find_certificate_file(path: Path) -> Path:
 
 def _convert_verdict(verdict: verifier.CertificateVerdict) -> CertificateCheck:
     locked_index = verdict.document.get("locked", -1)
+    names = [joint["name"] for joint in verdict.document["arm"]["joints"]]
     return CertificateCheck(
-        claim=verdict.document["claim"],
-        locked=verdict.document["arm"]["joints"][locked_index]["name"] if locked_index >= 0 else "",
-        leaves=verdict.leaves,
-        accepted=verdict.accepted,
-        rejected=verdict.rejected,
-        undecided=verdict.undecided,
-        tolerant=verdict.tolerant_fraction,
-        seconds=verdict.seconds,
-        summary=verdict.summary,
+        claim=verdict.document["claim"], locked=names[locked_index] if locked_index >= 0 else "",
+        **{key: getattr(verdict, key) for key in ("leaves", "accepted", "rejected", "undecided", "seconds", "summary")},
+        tolerant=verdict.tolerant_fraction, refuted=verdict.false, witnessed=verdict.refuted,
         parts=tuple(map(_convert_verdict, verdict.parts)),
-        refuted=verdict.false,
-        witnessed=verdict.refuted,
-    )
+    )  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,20 +18,32 @@ from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
-TASK_ROWS = {
-    "planar": [0, 1],
-    "planar-pose": [0, 1, 5],
-    "position": [0, 1, 2],
-    "pointing": [0, 1, 2, 3, 4],
-    "pose": [0, 1, 2, 3, 4, 5],
-}  # of tool paths
+TASK_ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pointing": [*range(5)], "pose": [*range(6)]}
 _TASK_BY_DIMENSION = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
 _ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReachClaim(Claim):
-    """Claim that a configuration within limits reaches every target of a box, at every value at which one joint may be locked.
+class TargetClaim(Claim):
+    """Claim about the targets of a box, with the attributes of :class:`ReachClaim`."""
+
+    arm: Arm
+    task: str
+    box: FloatArray
+    rotation: FloatArray | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LockedTargetClaim(TargetClaim):
+    """Claim about the targets of a box at every value at which one joint may be locked."""
+
+    locked: int
+    angle: FloatArray | None
+    limits: FloatArray
+
+
+class ReachClaim(LockedTargetClaim):
+    """Claim that a configuration within limits reaches every target of a box, wherever one joint may be locked.
 
     Attributes:
         arm: The arm.
@@ -46,17 +58,20 @@ class ReachClaim(Claim):
     """
 
     kind: ClassVar[str] = "reach"
-    arm: Arm
-    task: str
-    box: FloatArray
-    rotation: FloatArray | None = None
-    locked: int
-    angle: FloatArray | None
-    limits: FloatArray
+
+
+class OutOfReachClaim(LockedTargetClaim):
+    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
+
+    Attributes:
+        arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
+    """
+
+    kind: ClassVar[str] = "refutation"
 
 
 @dataclass(frozen=True, kw_only=True)
-class TolerantClaim(Claim):
+class TolerantClaim(TargetClaim):
     """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
     its working range.
 
@@ -67,10 +82,6 @@ class TolerantClaim(Claim):
     """
 
     kind: ClassVar[str] = "bundle"
-    arm: Arm
-    task: str
-    box: FloatArray
-    rotation: FloatArray | None = None
     working_ranges: FloatArray
     locks: tuple[int, ...]
 
@@ -112,13 +123,10 @@ def reach_claim(
     Raises:
         InputError: A box, joint, angle or limit that makes no claim.
     """
-    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
-    locked_index, lock_interval, joint_limits = _parse_lock(arm, locked, limits)
-    fixed_joints = (joint_limits[:, 0] == joint_limits[:, 1]) | (np.arange(arm.n) == locked_index)
-    _require_enough_free_joints(arm, int(fixed_joints.sum()), task_name)
-    return ReachClaim(
-        arm=arm, task=task_name, box=box, rotation=tool_rotation, locked=locked_index, angle=lock_interval, limits=joint_limits
-    )
+    claim = ReachClaim(arm=arm, **_parse_targets(arm, centre, size, rotation, rpy, task), **_parse_lock(arm, locked, limits))
+    is_fixed = (claim.limits[:, 0] == claim.limits[:, 1]) | (np.arange(arm.n) == claim.locked)
+    _require_enough_free_joints(arm, int(is_fixed.sum()), claim.task)
+    return claim
 
 
 @check_arguments
@@ -155,19 +163,18 @@ def tolerant_claim(
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
     """
-    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
-    ranges = narrow_limits(arm, working_ranges or {})
+    targets, ranges = _parse_targets(arm, centre, size, rotation, rpy, task), narrow_limits(arm, working_ranges or {})
     locks = tuple(sorted(single_joints(arm, failures)))
     for joint in locks:
         if not np.isfinite(ranges[joint]).all():
             raise InputError(f"{arm.joint_names[joint]} has no limits, so it may lock anywhere; give its working range")
-    _require_enough_free_joints(arm, 1, task_name)
-    return TolerantClaim(arm=arm, task=task_name, box=box, rotation=tool_rotation, working_ranges=ranges, locks=locks)
+    _require_enough_free_joints(arm, 1, targets["task"])
+    return TolerantClaim(arm=arm, **targets, working_ranges=ranges, locks=locks)
 
 
 def _parse_targets(
     arm: Arm, centre: ArrayLike, size: ArrayLike, rotation: ArrayLike | None, rpy: ArrayLike | None, task: str | None
-) -> tuple[FloatArray, str, FloatArray | None]:
+) -> dict[str, Any]:
     """Return the box, the task and the rotation of a claim."""
     box = _make_target_box(arm, centre, size)
     if task not in (None, "pointing"):
@@ -175,7 +182,7 @@ def _parse_targets(
     if rotation is None and rpy is None and task is None:
         if len(box) == 2:
             require_planar(arm, "a box of two coordinates is", allow_prismatic=True)
-        return box, _TASK_BY_DIMENSION[len(box)], None
+        return {"box": box, "task": _TASK_BY_DIMENSION[len(box)]}
     if (rotation is None) == (rpy is None):
         raise InputError("rotation and rpy both say how the tool is turned; give one of them")
     if rpy is not None:
@@ -189,18 +196,15 @@ def _parse_targets(
         intervals = angles.reshape(-1, 2) if list(angles.shape) == expected_shape else np.array([[1.0, 0.0]])
         if not np.isfinite(intervals).all() or (intervals[:, 0] > intervals[:, 1]).any():
             raise InputError(f"rpy must be {description}, rad, finite, the lower first")
-        return np.vstack([box, intervals]), "pose" if len(box) == 3 else "planar-pose", None
+        return {"box": np.vstack([box, intervals]), "task": "pose" if len(box) == 3 else "planar-pose"}
     if len(box) < 3:
         raise InputError("a tool is turned in space; give the centre of the box with three numbers, or in the plane rpy")
     matrix = require_real_numbers(rotation, "rotation", "a rotation (3, 3)")
-    if (
-        matrix.shape != (3, 3)
-        or not np.abs(matrix.T @ matrix - np.eye(3)).max() < _ORTHONORMALITY_TOLERANCE
-        or np.linalg.det(matrix) < 0
-    ):
+    is_orthonormal = matrix.shape == (3, 3) and np.abs(matrix.T @ matrix - np.eye(3)).max() < _ORTHONORMALITY_TOLERANCE
+    if not is_orthonormal or np.linalg.det(matrix) < 0:
         raise InputError("rotation must be a rotation (3, 3): orthonormal columns, right-handed")
     left_vectors, _, right_vectors = np.linalg.svd(matrix)
-    return box, task or "pose", left_vectors @ right_vectors
+    return {"box": box, "task": task or "pose", "rotation": left_vectors @ right_vectors}
 
 
 def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> FloatArray:
@@ -215,26 +219,22 @@ def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> FloatArray
 
 
 def _parse_lock(
-    arm: Arm,
-    locked: Mapping[str | int, tuple[float, float]] | None,
-    limits: Mapping[str | int, tuple[float, float]] | None,
-) -> tuple[int, FloatArray | None, FloatArray]:
+    arm: Arm, locked: Mapping[str | int, tuple[float, float]] | None, limits: Mapping[str | int, tuple[float, float]] | None
+) -> dict[str, Any]:
     """Return the index of the locked joint (-1 if none is locked), its interval of locked values, and the limits of
     all joints.
     """
     joint_limits = narrow_limits(arm, limits or {})
-    locked_index, lock_interval = -1, None
-    if locked is not None:
-        if len(locked) != 1:
-            raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
-        ((joint, interval),) = locked.items()
-        locked_index, lock_interval = arm.joint_index(joint), validate_interval(arm, joint, interval)
-        if lock_interval[0] < joint_limits[locked_index, 0] or lock_interval[1] > joint_limits[locked_index, 1]:
-            raise InputError(
-                f"{arm.joint_names[locked_index]} may lock beyond the limits that are given for it; widen these, or "
-                f"leave them out"
-            )
-    return locked_index, lock_interval, joint_limits
+    if locked is None:
+        return {"locked": -1, "angle": None, "limits": joint_limits}
+    if len(locked) != 1:
+        raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
+    ((joint, bounds),) = locked.items()
+    index, interval = arm.joint_index(joint), validate_interval(arm, joint, bounds)
+    if interval[0] < joint_limits[index, 0] or interval[1] > joint_limits[index, 1]:
+        name = arm.joint_names[index]
+        raise InputError(f"{name} may lock beyond the limits that are given for it; widen these, or leave them out")
+    return {"locked": index, "angle": interval, "limits": joint_limits}
 
 
 def _require_enough_free_joints(arm: Arm, locked_count: int, task: str) -> None:
@@ -257,10 +257,8 @@ def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -
     if interval.shape != (2,) or not np.isfinite(interval).all() or interval[0] > interval[1]:
         value_kind = "lengths, m" if arm.prismatic[index] else "angles, rad"
         interval_text = " to ".join(f"{x:.4g}" for x in interval)
-        raise InputError(
-            f"the interval of {arm.joint_names[index]} is {interval_text}; it must be two finite {value_kind}, the "
-            f"lower one first"
-        )
+        reason = f"is {interval_text}; it must be two finite {value_kind}, the lower one first"
+        raise InputError(f"the interval of {arm.joint_names[index]} {reason}")
     if interval[0] < arm.lower[index] or interval[1] > arm.upper[index]:
         factor, unit = arm.joints[index].display_unit
         lower, upper, lower_limit, upper_limit = (factor * x for x in (*interval, arm.lower[index], arm.upper[index]))
@@ -269,24 +267,6 @@ def validate_interval(arm: Arm, joint: str | int, bounds: tuple[float, float]) -
             f"{lower_limit:.4g} to {upper_limit:.4g} {unit}"
         )
     return interval
-
-
-@dataclass(frozen=True, kw_only=True)
-class OutOfReachClaim(Claim):
-    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
-
-    Attributes:
-        arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
-    """
-
-    kind: ClassVar[str] = "refutation"
-    arm: Arm
-    task: str
-    box: FloatArray
-    rotation: FloatArray | None = None
-    locked: int
-    angle: FloatArray | None
-    limits: FloatArray
 
 
 @check_arguments
@@ -309,16 +289,14 @@ def out_of_reach_claim(
         InputError: A box, joint, angle or limit that makes no claim, a slide without limits, or two coordinates for an arm that
             does not move in a plane.
     """
-    box, task_name, tool_rotation = _parse_targets(arm, centre, size, rotation, rpy, task)
-    if task_name == "planar":
+    targets = _parse_targets(arm, centre, size, rotation, rpy, task)
+    if targets["task"] == "planar":
         require_planar(arm, "a box of two coordinates is")
-    locked_index, lock_interval, joint_limits = _parse_lock(arm, locked, limits)
-    endless = np.flatnonzero(arm.prismatic & ~np.isfinite(joint_limits).all(axis=1) & (np.arange(arm.n) != locked_index))
-    if endless.size:
-        raise InputError(f"{arm.joint_names[endless[0]]} slides without limits; give its range")
-    return OutOfReachClaim(
-        arm=arm, task=task_name, box=box, rotation=tool_rotation, locked=locked_index, angle=lock_interval, limits=joint_limits
-    )
+    claim = OutOfReachClaim(arm=arm, **targets, **_parse_lock(arm, locked, limits))
+    is_endless = arm.prismatic & ~np.isfinite(claim.limits).all(axis=1) & (np.arange(arm.n) != claim.locked)
+    if is_endless.any():
+        raise InputError(f"{arm.joint_names[int(np.argmax(is_endless))]} slides without limits; give its range")
+    return claim
 
 
 def require_planar(arm: Arm, message_start: str, allow_prismatic: bool = False) -> None:

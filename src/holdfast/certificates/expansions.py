@@ -24,9 +24,7 @@ ROUNDS_PER_STEP = 5  # rounds
 _MAX_SECTION_ROUNDS = 30  # of the section box in a test, each a little wider than what the one before needs
 _MAX_SECTION_ERROR = 0.5  # m or rad of error: no section box will do
 _MAX_NEWTON_STEP_RAD = 0.5  # rad in one step of Newton's method
-_MIN_ROTATION_COSINE = (
-    0.951  # the error of a rotation is 0 for half a turn as well: its cosine must be above this, and its angles
-)
+_MIN_ROTATION_COSINE = 0.951  # the error of a rotation is 0 for half a turn as well: its cosine must be above, and its angles
 _MAX_ROTATION_CHANGE_RAD = 1.45  # rad, all of them together, below this
 
 
@@ -129,17 +127,10 @@ class ToolExpansion:
         if self.task == "pointing":
             direction = target_rotation[:, 2]
             cross_weights = [target_rotation[:, k] @ direction.T for k in range(2)]
-            return RotationError(
-                rotation, cross_weights, direction @ direction.T, ca.dot(rotation @ direction, direction), axes
-            )
-        skew_weights = [ca.skew(ca.SX.eye(3)[:, k]) / 2 for k in range(3)]
-        return RotationError(
-            rotation,
-            skew_weights[2:] if self.task == "planar-pose" else skew_weights,
-            ca.SX.eye(3) / 2,
-            (ca.trace(rotation) - 1) / 2,
-            axes,
-        )
+            cosine = ca.dot(rotation @ direction, direction)
+            return RotationError(rotation, cross_weights, direction @ direction.T, cosine, axes)
+        skew_weights = [ca.skew(ca.SX.eye(3)[:, k]) / 2 for k in range(2 if self.task == "planar-pose" else 0, 3)]
+        return RotationError(rotation, skew_weights, ca.SX.eye(3) / 2, (ca.trace(rotation) - 1) / 2, axes)
 
     def _pose_error(self, chain: kinematics.KinematicChain, target: SX) -> tuple[SX, SX]:
         """Return the position error (2 or 3,), m, and the rotation error 2 sin(angle / 2) about the axes of the task."""
@@ -171,19 +162,14 @@ class ToolExpansion:
             offsets = 10 * (rotation_error.cosine < _MIN_ROTATION_COSINE)
             if with_cosine:
                 cosine_offsets = ca.vertcat(ca.SX(self.m - linear, 1), 1 if self.task == "pointing" else 1.5)
-                rotation_error, offsets = (
-                    replace(rotation_error, weights=[*rotation_error.weights, rotation_error.cosine_weights]),
-                    -cosine_offsets,
-                )
+                weights = [*rotation_error.weights, rotation_error.cosine_weights]
+                rotation_error, offsets = replace(rotation_error, weights=weights), -cosine_offsets
             rotation_axes = ca.horzcat(axes, *[-(rotation_error.rotation @ axis) for axis in rotation_error.target_axes])
             error = ca.vertcat(error, rotation_error.components + offsets)
-            gradients = ca.vertcat(
-                gradients, rotation_error.differentiate_components_by_rotation(rotation_error.rotation) @ rotation_axes
-            )
+            differentiate, rotation = rotation_error.differentiate_components_by_rotation, rotation_error.rotation
+            gradients = ca.vertcat(gradients, differentiate(rotation) @ rotation_axes)
             for k in range(n + t):
-                by_k = rotation_error.differentiate_components_by_rotation(
-                    ca.skew(rotation_axes[:, k]) @ rotation_error.rotation
-                )
+                by_k = differentiate(ca.skew(rotation_axes[:, k]) @ rotation)
                 for j in range(k + 1):
                     second = by_k @ rotation_axes[:, j]
                     for row in range(len(rotation_error.weights)):
@@ -200,9 +186,8 @@ class ToolExpansion:
         free_jacobian = jacobian @ ca.diag(free)
         gram = free_jacobian @ free_jacobian.T
         factor = Cholesky([[gram[i, k] for k in range(self.m)] for i in range(self.m)])
-        return free_jacobian.T @ ca.horzcat(
-            *[ca.vertcat(*factor.solve(ca.vertsplit(ca.SX.eye(self.m)[:, k]))) for k in range(self.m)]
-        )
+        columns = [ca.vertcat(*factor.solve(ca.vertsplit(ca.SX.eye(self.m)[:, k]))) for k in range(self.m)]
+        return free_jacobian.T @ ca.horzcat(*columns)
 
     @cached_property
     @cached_kernel
@@ -216,16 +201,9 @@ class ToolExpansion:
         directions = ca.vertcat(ca.horzcat(inverse, response), ca.horzcat(ca.SX(t, self.m), ca.SX.eye(t), ca.SX(t, 1)))
         curvatures = [directions.T @ hessian @ directions for hessian in hessians]
         by_pair = ca.vertcat(*[ca.horzcat(*[curvature[a, b] for a, b in self.pairs]) for curvature in curvatures])
-        outputs = [
-            error,
-            ca.fabs(inverse),
-            ca.fabs(response),
-            by_pair,
-            ca.fmax(ca.fabs(q), slide_extent) * self.slides.astype(float),
-        ]
-        return Kernel(
-            "Taylor form of a reach", [q, target, free, locked, slide_extent], [ca.densify(output) for output in outputs]
-        )
+        extents = ca.fmax(ca.fabs(q), slide_extent) * self.slides.astype(float)
+        outputs = [ca.densify(output) for output in (error, ca.fabs(inverse), ca.fabs(response), by_pair, extents)]
+        return Kernel("Taylor form of a reach", [q, target, free, locked, slide_extent], outputs)
 
     @cached_property
     @cached_kernel
@@ -255,9 +233,8 @@ class ToolExpansion:
         for k in range(n):
             length = float(self.lengths[k])
             if self.slides[k]:
-                remainder += (
-                    angle * angle * angle * (length + slide_extent[k] + joint_travel[k]) + 3 * angle * angle * joint_travel[k]
-                ) / 6
+                extent = length + slide_extent[k] + joint_travel[k]
+                remainder += (angle * angle * angle * extent + 3 * angle * angle * joint_travel[k]) / 6
             else:
                 angle += joint_travel[k]
                 remainder += length / 6 * angle * angle * angle
@@ -287,9 +264,8 @@ class ToolExpansion:
         0, and the joint travel.
         """
         form, cell, section = self._form_symbol, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
-        return Kernel(
-            "bounds of a Taylor form", [form, cell, section], list(self._error_bound_expressions(form, cell, section)[:3])
-        )
+        bounds = self._error_bound_expressions(form, cell, section)[:3]
+        return Kernel("bounds of a Taylor form", [form, cell, section], list(bounds))
 
     @cached_property
     @cached_kernel
@@ -322,9 +298,8 @@ class ToolExpansion:
         diverged = ca.logic_or(ca.mmax(error) >= _MAX_SECTION_ERROR, rounds >= _MAX_SECTION_ROUNDS - 1)
         ended = ca.logic_and(ca.logic_not(finished), ca.logic_or(closed, ca.logic_or(ca.logic_not(inside), diverged)))
         next_section = ca.if_else(ca.logic_or(finished, closed), section, ca.fmin(1.05 * error + 2.5e-7, 1.0))
-        is_last = ca.if_else(
-            succeeds, tested >= CELL_WIDTH_PARTS - 1, tested - passed <= 1
-        )  # nothing is between what passed and what failed
+        # The last: nothing is between what passed and what failed.
+        is_last = ca.if_else(succeeds, tested >= CELL_WIDTH_PARTS - 1, tested - passed <= 1)
         next_increment = ca.if_else(is_last, 0, increment / 2)
         has_next = ca.logic_and(ended, next_increment >= 1)
         passed = ca.if_else(ca.logic_and(ended, succeeds), tested, passed)
@@ -349,16 +324,13 @@ class ToolExpansion:
         task_jacobian = self._task_jacobian(chain, jacobian)
         if self.task == "pointing":  # across the axis that is wanted, not the tool's own
             rotation_error = self._rotation_error(chain, target)
-            task_jacobian = ca.vertcat(
-                task_jacobian[:3, :],
-                rotation_error.differentiate_components_by_rotation(rotation_error.rotation) @ jacobian[3:, :],
-            )
+            by_rotation = rotation_error.differentiate_components_by_rotation(rotation_error.rotation)
+            task_jacobian = ca.vertcat(task_jacobian[:3, :], by_rotation @ jacobian[3:, :])
         step = damped_least_norm(task_jacobian @ ca.diag(free), residual, 1e-8)
         step *= ca.fmin(1, _MAX_NEWTON_STEP_RAD / ca.fmax(ca.mmax(ca.fabs(step)), 1e-12))
         next_q = ca.fmin(ca.fmax(q + step, lower), upper) * free + q * (1 - free)
-        return Loop(
-            "configuration of a target", q, [target, error, free, lower, upper], next_state=next_q, residual=ca.sumsqr(residual)
-        )
+        inputs = [target, error, free, lower, upper]
+        return Loop("configuration of a target", q, inputs, next_state=next_q, residual=ca.sumsqr(residual))
 
     @cached_property
     @cached_kernel

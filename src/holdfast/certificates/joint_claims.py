@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -91,14 +91,7 @@ def floor_claim(
     return _make_bound_claim(arm, "floor", joint_box, threshold, failures, task)
 
 
-def _make_bound_claim(
-    arm: Arm,
-    kind: str,
-    joint_box: Mapping[str | int, tuple[float, float]] | ArrayLike,
-    threshold: float,
-    failures: FailureSpec,
-    task: str,
-) -> BoundClaim:
+def _make_bound_claim(arm: Arm, kind: str, joint_box: Any, threshold: float, failures: FailureSpec, task: str) -> BoundClaim:
     if task not in _TASK_DIMENSIONS:
         raise InputError(f"task is '{task}'; bounds are for {' and '.join(_TASK_DIMENSIONS)}, whose rows are all of the motion")
     require_revolute(arm, "bounds are")
@@ -114,8 +107,7 @@ def _make_bound_claim(
             raise InputError(f"the box must be two angles for each of {arm.n} joints, rad, not an array of {intervals.shape}")
         box = np.array([validate_interval(arm, index, interval) for index, interval in enumerate(intervals)])
     if not np.isfinite(box).all():
-        index = int(np.flatnonzero(~np.isfinite(box).all(axis=1))[0])
-        raise InputError(f"{arm.joint_names[index]} has no limits; give its range")
+        raise InputError(f"{arm.joint_names[int(np.argwhere(~np.isfinite(box))[0, 0])]} has no limits; give its range")
     if not 1e-6 <= threshold < 1:
         raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
     claim = BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)

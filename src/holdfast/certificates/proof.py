@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from holdfast.certificates import documents, verifier
@@ -16,6 +16,7 @@ from holdfast.certificates.claims import ReachClaim, TolerantClaim
 from holdfast.certificates.kinds import ClaimKind
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.target_boxes.jobs import TargetBoxJob, TargetBoxResult
+from holdfast.certificates.taylor import CENTER_UNIT
 from holdfast.certificates.tree import compute_undecided_fraction
 from holdfast.core.caching import cached_property
 from holdfast.core.files.output import make_folder, replace_file
@@ -24,31 +25,11 @@ from holdfast.core.result import Result
 CERTIFICATE_SUFFIX = ".certificate"
 
 
-@dataclass(frozen=True, kw_only=True)
-class BisectionResult(Result):
-    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
+class CertificateResult(Result):
+    """Result that contains a certificate. It is not verified: :func:`check_certificate` does that."""
 
-    Attributes:
-        proved, undecided: Exact parts of the box.
-        leaves: Boxes that are proved, those of lemmas among them.
-        nodes: Boxes that were looked at.
-        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
-        seconds: Measured.
-        document: The certificate, as its file holds it.
-    """
-
-    proved: Fraction
-    undecided: Fraction
-    leaves: int
-    nodes: int
-    finished: bool
-    seconds: float
-    document: dict[str, Any]
-
-    @property
-    def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
+    __slots__ = ()
+    document: Any
 
     def write(self, file: str | Path) -> Path:
         """Write the certificate.
@@ -57,6 +38,44 @@ class BisectionResult(Result):
             StoreError: The file cannot be written.
         """
         return write_document(self.document, Path(file))
+
+
+@dataclass(frozen=True, kw_only=True)
+class BisectionResult(CertificateResult):
+    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
+
+    Attributes:
+        claim: What was asked.
+        proved, undecided: Exact parts of the box.
+        leaves: Boxes that are proved, those of lemmas among them.
+        nodes: Boxes that were looked at.
+        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
+        seconds: Measured.
+        document: The certificate, as its file holds it.
+    """
+
+    claim: Any
+    proved: Fraction
+    undecided: Fraction
+    leaves: int
+    nodes: int
+    finished: bool
+    seconds: float
+    document: dict[str, Any]
+
+    @classmethod
+    def from_search(
+        cls, claim: Any, fields: dict[str, Any], *, undecided: Fraction, nodes: int, seconds: float, **values: Any
+    ) -> Self:
+        """Return the result of a search for a claim, with the certificate that the fields prove."""
+        document = documents.build_document(claim, fields, undecided=undecided, seconds=seconds, nodes=nodes)
+        fractions = {"proved": 1 - undecided, "undecided": undecided}
+        return cls(claim=claim, **fractions, nodes=nodes, seconds=seconds, document=document, **values)
+
+    @property
+    def ok(self) -> bool:
+        """True if nothing is undecided."""
+        return self.undecided == 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,12 +96,11 @@ class Proof(BisectionResult):
             verifier.qualify_claim(self.document["claim"], self.proved),
             f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)}, "
             f"undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
-            f"{self.seconds:.1f} s.",
+            describe_cells(self),
         ]
 
 
-class CompositeResult(Result):
+class CompositeResult(CertificateResult):
     """Results of the searches for the parts of a claim. They are not verified: :func:`check_certificate` does that."""
 
     __slots__ = ()
@@ -154,8 +172,12 @@ class TolerantProof(CompositeResult):
 
     def document(self, stem: str = "tolerant") -> dict[str, Any]:
         """Return the certificate that lists its parts, as its file contains it."""
-        parts = [part.document for part in self.parts]
-        return documents.build_bundle_document(self.claim, parts, self.parts.index(self.worst), self._part_files(stem))
+        entries = [
+            {"file": name, "digest": part.document["digest"], "locked": part.document["locked"]}
+            for name, part in zip(self._part_files(stem), self.parts, strict=True)
+        ]
+        fields = {"parts": entries, "volumes": self.worst.document["volumes"]}
+        return documents.build_document(self.claim, fields, seconds=self.seconds, nodes=self.nodes)
 
     def _part_files(self, stem: str) -> list[str]:
         """Return the file names of the parts; they contain joint numbers because joint names may contain any character."""
@@ -163,14 +185,11 @@ class TolerantProof(CompositeResult):
         return [f"{stem}-{f'lock-of-joint-{number}' if number else 'healthy'}{CERTIFICATE_SUFFIX}" for number in joint_numbers]
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate, and those of its parts next to it.
+        """Write the certificate, and those of its parts next to it; return the file that :func:`check_certificate` takes.
 
         Args:
             file: The file; a folder, which is made if need be and gets ``tolerant.certificate``; or an archive of these
                 files (``.zip``), which the verifier takes as it is.
-
-        Returns:
-            The file, which is what :func:`check_certificate` takes.
 
         Raises:
             StoreError: A file cannot be written.
@@ -200,13 +219,17 @@ class TolerantProof(CompositeResult):
         qualifier = "" if self.ok else f", at most, with {worst}"
         return [
             verifier.qualify_claim(self.document()["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of "
-            f"the targets "
-            f"at least; undecided "
-            f"{verifier.format_percent(self.undecided, up=True)}{qualifier}{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} cells are proved, each by one configuration, of {self.nodes:,} that were looked at; "
-            f"{self.seconds:.1f} s.",
+            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of the "
+            f"targets at least; undecided {verifier.format_percent(self.undecided, up=True)}{qualifier}"
+            f"{format_early_stop(self.finished)}.",
+            describe_cells(self),
         ]
+
+
+def describe_cells(proof: Proof | TolerantProof) -> str:
+    """Return a sentence with the number of cells and the duration of the search."""
+    looked_at = f"of {proof.nodes:,} that were looked at; {proof.seconds:.1f} s."
+    return f"{proof.leaves:,} cells are proved, each by one configuration, {looked_at}"
 
 
 def format_early_stop(finished: bool) -> str:
@@ -225,40 +248,34 @@ def encode_document(document: dict[str, Any]) -> bytes:
     return (json.dumps(document, sort_keys=True, indent=1) + "\n").encode()
 
 
-def prove_reach(claim: ReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Proof:
-    """Search for a proof of a reach claim with the options of :func:`holdfast.certify`."""
-    return _prove_parts((claim,), halvings, seed, budget)[0]
-
-
-def prove_tolerant(claim: TolerantClaim, halvings: int, seed: int, budget: SearchBudget) -> TolerantProof:
-    """Search for proofs of the parts of a claim with the options of :func:`holdfast.certify`."""
-    return TolerantProof(claim=claim, parts=_prove_parts(claim.parts, halvings, seed, budget))
-
-
 def _prove_parts(parts: tuple[ReachClaim, ...], halvings: int, seed: int, budget: SearchBudget) -> tuple[Proof, ...]:
     results = budget.run_jobs([TargetBoxJob(part, halvings, seed, index) for index, part in enumerate(parts)])
     return tuple(_build_proof(part, result) for part, result in zip(parts, results, strict=True))
 
 
 def _build_proof(claim: ReachClaim, result: TargetBoxResult) -> Proof:
-    remainder = compute_undecided_fraction(result.tree)
-    return Proof(
-        claim=claim,
-        proved=1 - remainder,
-        undecided=remainder,
-        leaves=len(result.centers),
-        nodes=result.nodes,
-        finished=result.finished,
-        seconds=result.seconds,
-        document=documents.build_reach_document(claim, result, remainder),
-    )
+    fields = {
+        "unit": CENTER_UNIT.hex(),
+        "tree": documents.compress_bytes(result.tree),
+        "centres": documents.compress_bytes(result.centers.astype("<i4").tobytes()),
+        "refutations": [],
+    }
+    return Proof.from_search(
+        claim, fields, undecided=compute_undecided_fraction(result.tree), leaves=len(result.centers), nodes=result.nodes,
+        finished=result.finished, seconds=result.seconds,
+    )  # fmt: skip
+
+
+def _prove_tolerant(claim: TolerantClaim, halvings: int, seed: int, budget: SearchBudget) -> TolerantProof:
+    return TolerantProof(claim=claim, parts=_prove_parts(claim.parts, halvings, seed, budget))
 
 
 def _encode_tolerant_claim(claim: TolerantClaim) -> dict[str, Any]:
-    ranges = documents.encode_floats(claim.working_ranges)
-    fields = {"limits": documents.encode_limits(claim.arm), "working_ranges": ranges, "locks": list(claim.locks)}
-    return documents.encode_target(claim) | fields
+    ranges, limits = documents.encode_floats(claim.working_ranges), documents.encode_limits(claim.arm)
+    return documents.encode_target(claim) | {"limits": limits, "working_ranges": ranges, "locks": list(claim.locks)}
 
 
-REACH_KIND = ClaimKind("reach", prove_reach, documents.encode_target_claim, halvings=8)
-TOLERANT_KIND = ClaimKind("bundle", prove_tolerant, _encode_tolerant_claim, halvings=8)
+REACH_KIND = ClaimKind(
+    "reach", lambda claim, *options: _prove_parts((claim,), *options)[0], documents.encode_target_claim, halvings=8
+)
+TOLERANT_KIND = ClaimKind("bundle", _prove_tolerant, _encode_tolerant_claim, halvings=8)

@@ -112,9 +112,9 @@ def certify(
         raise InputError(f"halvings is {halvings}; it must be from 0 to 20")
     if time_limit is not None and not time_limit > 0:
         raise InputError(f"time_limit is {time_limit}; it must be above 0, in seconds")
-    deadline = np.inf if time_limit is None else monotonic() + time_limit
-
-    part_count = len(claim.parts)
+    if workers < 1:
+        raise InputError(f"workers is {workers}; it must be 1 or more")
+    deadline, part_count = np.inf if time_limit is None else monotonic() + time_limit, len(claim.parts)
 
     def report_state(current: SearchState) -> None:
         decided = int(_PROGRESS_STEPS * part_count * (1 - current.open))
@@ -123,11 +123,9 @@ def certify(
         if state is not None:
             state(current)
 
-    if workers < 1:
-        raise InputError(f"workers is {workers}; it must be 1 or more")
     memory = None
     if store is not None and kind.halvings:
         sentences = [documents.format_claim(part) for part in claim.parts]
-        memory = SearchMemory(store, {"kind": "certify", "claims": sentences, "halvings": halvings, "seed": seed})
+        memory = SearchMemory(store, {"kind": "certify", "format": 2, "claims": sentences, "halvings": halvings, "seed": seed})
     budget = SearchBudget(deadline=deadline, should_stop=stop, report_state=report_state, workers=workers, memory=memory)
     return kind.search(claim, halvings, seed, budget)

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import os
 import signal
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from threading import Thread
-from time import monotonic
-from typing import Any, Protocol
+from time import monotonic, perf_counter
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.certificates.tree import SearchState, StateCallback
 from holdfast.core.errors import HoldfastError
@@ -28,71 +30,126 @@ _POLL_INTERVAL_S = 0.2  # s between looks at what other processes tell
 StopCheck = Callable[[], bool]
 
 
-class JobResult(Protocol):
-    """Result of a search job."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JobResult:
+    """Result of a search job; its fields are what the search memory holds of it.
+
+    Attributes:
+        state: Proved and undecided fractions of this job itself; the parts deferred to child jobs count as neither.
+        seconds: Measured.
+        finished: Nothing is open except the parts deferred to child jobs; only such results are remembered.
+    """
+
+    state: SearchState
+    seconds: float = 0.0
+    finished: bool = False
 
     @property
-    def finished(self) -> bool:
-        """True if nothing is open except the parts deferred to child jobs."""
-
-    @property
-    def state(self) -> SearchState:
-        """Proved and undecided fractions of this job itself; the parts deferred to child jobs count as neither."""
-
-    def to_arrays(self) -> Parts:
-        """Return the result as arrays for the search memory."""
+    def nodes(self) -> int:
+        """Number of examined cells."""
+        return self.state.nodes
 
     def check_cell_limit(self) -> None:
         """Raise an error if the job would take too many cells."""
 
+    def to_arrays(self) -> Parts:
+        """Return the result as arrays for the search memory."""
+        return {field.name: _to_array(getattr(self, field.name)) for field in fields(self) if field.type in _FROM_ARRAY}
 
-class RunningJob(Protocol):
-    """A started search job."""
+    @classmethod
+    def from_arrays(cls, arrays: Parts, **values: Any) -> Self:
+        """Rebuild a finished result from its stored arrays; the values are those of fields of other types."""
+        types = {field.name: str(field.type) for field in fields(cls) if field.type in _FROM_ARRAY}
+        return cls(finished=True, **{name: _FROM_ARRAY[kind](arrays[name]) for name, kind in types.items()}, **values)
 
-    @property
-    def job(self) -> SearchJob:
-        """The job that runs."""
+    def merge(self, results: Sequence[Self], **values: Any) -> Self:
+        """Return this result with those of the child jobs counted in, and some values replaced."""
+        states = [self.state, *(result.state for result in results)]
+        total = SearchState(**{key: sum(getattr(state, key) for state in states) for key in _STATE_KEYS})
+        seconds = self.seconds + sum(result.seconds for result in results)
+        finished = self.finished and all(result.finished for result in results)
+        return replace(self, state=total, seconds=seconds, finished=finished, **values)
 
-    @property
-    def finished(self) -> bool:
-        """True if nothing is open except the parts deferred to child jobs."""
+
+_STATE_KEYS = ("nodes", "proved", "refuted", "undecided", "open")
+_FROM_ARRAY: dict[Any, Callable[[Any], Any]] = {
+    "bytes": lambda values: values.tobytes(),
+    "float": float,
+    "IndexArray": lambda values: values.astype(np.int64),
+    "tuple[int, ...]": lambda values: tuple(values.tolist()),
+    "SearchState": lambda values: SearchState(**dict(zip(_STATE_KEYS, [int(values[0]), *values[1:].tolist()], strict=True))),
+}  # by the type of a field
+
+
+def _to_array(value: Any) -> NDArray[Any]:
+    if isinstance(value, SearchState):
+        return np.array([getattr(value, key) for key in _STATE_KEYS], dtype=np.float64)
+    return np.frombuffer(value, dtype=np.uint8) if isinstance(value, bytes) else np.asarray(value)
+
+
+class SearchJob(ABC):
+    """A piece of a search. Its result depends on the job alone, not on the number of processes or on earlier results."""
+
+    name: str
+    """Name in the search memory."""
+    claim_fraction: float = 1.0
+    """Fraction of its claim part that the states of this job are about; weights its progress."""
+    result_type: type[Any]
+    """Class of its results."""
+
+    @abstractmethod
+    def make_search(self, deadline: float) -> Any:
+        """Make the search, with time for the setup until the monotonic time ``deadline``."""
+
+    def run_search(self, search: Any, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> bool:
+        """Continue a search; return True if nothing is open except what is deferred to child jobs."""
+        return bool(search.run(deadline, should_stop, report_progress))
+
+    @abstractmethod
+    def read_result(self, search: Any, **values: Any) -> Any:
+        """Return the result of a search so far; the values are the common ones."""
+
+    @abstractmethod
+    def empty_result(self) -> Any:
+        """Return the result of a job that never ran."""
+
+    @abstractmethod
+    def child_jobs(self, result: Any) -> Sequence[SearchJob]:
+        """Return the child jobs to which a result defers open parts."""
+
+    @abstractmethod
+    def merge_child_results(self, result: Any, child_results: Sequence[Any]) -> Any:
+        """Merge the results of the child jobs into this job's result."""
+
+
+class RunningJob:
+    """A started search job.
+
+    Attributes:
+        job: The job that runs.
+        finished: True if nothing is open except the parts deferred to child jobs.
+    """
+
+    def __init__(self, job: SearchJob, deadline: float) -> None:
+        started = perf_counter()
+        self.job, self._search = job, job.make_search(deadline)
+        self.finished, self._seconds = bool(getattr(self._search, "is_settled", False)), perf_counter() - started
+
+    def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
+        """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
+        started = perf_counter()
+        self.finished = self.job.run_search(self._search, deadline, should_stop, report_progress)
+        self._seconds += perf_counter() - started
 
     @property
     def state(self) -> SearchState:
         """Current progress of the job."""
+        state: SearchState = self._search.state
+        return state
 
-    def run(self, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> None:
-        """Continue the search until the monotonic time ``deadline``, or until ``should_stop()`` is true."""
-
-    def result(self) -> JobResult:
+    def result(self) -> Any:
         """Return the result so far."""
-
-
-class SearchJob(Protocol):
-    """A piece of a search. Its result depends on the job alone, not on the number of processes or on earlier results."""
-
-    @property
-    def name(self) -> str:
-        """Name in the search memory."""
-
-    @property
-    def claim_fraction(self) -> float:
-        """Fraction of its claim part that this job covers; weights its progress."""
-
-    def start(self, deadline: float) -> RunningJob:
-        """Start the job, with time for the setup until the monotonic time ``deadline``."""
-
-    def empty_result(self) -> JobResult:
-        """Return the result of a job that never ran."""
-
-    def result_from_arrays(self, arrays: Parts) -> JobResult:
-        """Rebuild a finished result from its stored arrays."""
-
-    def child_jobs(self, result: Any) -> Sequence[SearchJob]:
-        """Return the child jobs to which a result defers open parts."""
-
-    def merge_child_results(self, result: Any, child_results: Sequence[Any]) -> Any:
-        """Merge the results of the child jobs into this job's result."""
+        return self.job.read_result(self._search, state=self.state, seconds=self._seconds, finished=self.finished)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +172,7 @@ class SearchBudget:
 
     def run_jobs(self, jobs: Sequence[SearchJob], max_nodes: float = np.inf) -> list[Any]:
         """Run jobs and their child jobs and return one result each; stop after ``max_nodes`` examined cells."""
-        search_pool = SearchPool(jobs, memory=self.memory, report_state=self.report_state)
+        search_pool = SearchPool(jobs, self)
 
         def is_exhausted() -> bool:
             return search_pool.nodes > max_nodes or self.should_stop()
@@ -132,15 +189,14 @@ class SearchPool:
 
     Args:
         jobs: One for each part of it; they may leave some of it to others.
-        memory: Of a folder, or None.
-        report_state: Is told how far all is.
+        budget: Whose memory and callbacks are used.
 
     Attributes:
         nodes: Cells that were looked at.
     """
 
-    def __init__(self, jobs: Sequence[SearchJob], *, memory: SearchMemory | None = None, report_state: StateCallback) -> None:
-        self._report_state, self._memory, self._job_count = report_state, memory, len(jobs)
+    def __init__(self, jobs: Sequence[SearchJob], budget: SearchBudget) -> None:
+        self._report_state, self._memory, self._job_count = budget.report_state, budget.memory, len(jobs)
         self._results, self._states = dict[str, JobResult](), dict[str, tuple[float, SearchState]]()
         self._open_jobs, self.nodes, self._shown_warnings = list[SearchJob](), 0, set[str]()
         for job in jobs:
@@ -152,7 +208,7 @@ class SearchPool:
         if stored is None:
             self._open_jobs.append(job)
         else:
-            self._record_result(job, job.result_from_arrays(stored))
+            self._record_result(job, job.result_type.from_arrays(stored))
 
     def _record_result(self, job: SearchJob, result: JobResult) -> None:
         """Record the result of a job and queue its child jobs."""
@@ -171,10 +227,10 @@ class SearchPool:
         if state.warning and state.warning not in self._shown_warnings:
             self._shown_warnings.add(state.warning)
             print_warning(state.warning)
-        keys = ("proved", "refuted", "undecided")
         states = self._states.values()
         fractions = {
-            key: sum(weight * getattr(job_state, key) for weight, job_state in states) / self._job_count for key in keys
+            key: sum(weight * getattr(job_state, key) for weight, job_state in states) / self._job_count
+            for key in ("proved", "refuted", "undecided")
         }
         self.nodes = sum(job_state.nodes for _, job_state in states)
         self._report_state(SearchState(**fractions, open=max(1 - sum(fractions.values()), 0.0), nodes=self.nodes))
@@ -182,11 +238,9 @@ class SearchPool:
     def collect_result(self, job: SearchJob) -> Any:
         """Return the result of a job merged with its child jobs; parts that were never examined are undecided."""
         result = self._results.get(job.name)
-        return (
-            job.empty_result()
-            if result is None
-            else job.merge_child_results(result, [self.collect_result(child) for child in job.child_jobs(result)])
-        )
+        if result is None:
+            return job.empty_result()
+        return job.merge_child_results(result, [self.collect_result(child) for child in job.child_jobs(result)])
 
     def run_serial(self, deadline: float, should_stop: StopCheck) -> None:
         """Run the jobs in this process until a monotonic time or a stop request."""
@@ -194,7 +248,7 @@ class SearchPool:
         jobs, self._open_jobs = self._open_jobs, []
         for remaining, job in zip(range(len(jobs), 0, -1), jobs, strict=True):
             now = monotonic()
-            started = job.start(now if should_stop() else now + (start_deadline - now) / remaining)
+            started = RunningJob(job, now if should_stop() else now + (start_deadline - now) / remaining)
             started.result().check_cell_limit()
             self._update_running(started)
             if started.finished:
@@ -205,15 +259,13 @@ class SearchPool:
         time_slice = np.inf if self._memory is not None and np.isinf(deadline) else _TIME_SLICE_S
         while (running or self._open_jobs) and monotonic() < deadline and not should_stop():
             waiting, self._open_jobs = self._open_jobs, []
-            continuations: list[Callable[[float], RunningJob]] = [
-                *(partial(_reuse_running_job, running_job) for running_job in running),
-                *(job.start for job in waiting),
-            ]
+            continuations = [*running, *waiting]
             running = []
-            for remaining, resume in zip(range(len(continuations), 0, -1), continuations, strict=True):
+            for remaining, next_job in zip(range(len(continuations), 0, -1), continuations, strict=True):
                 now = monotonic()
                 duration = (deadline - now) / remaining
-                work = resume(now + duration / 2)  # beginnings are whole unless time is short: what they find counts
+                # Beginnings are whole unless time is short: what they find counts.
+                work = next_job if isinstance(next_job, RunningJob) else RunningJob(next_job, now + duration / 2)
                 work.run(min(now + duration, monotonic() + time_slice), should_stop, partial(self._update_running, work))
                 if work.finished:
                     self._record_result(work.job, work.result())
@@ -252,16 +304,10 @@ class SearchPool:
                         if name not in self._results:
                             self._update_state(jobs_by_name[name], state)
             except BrokenProcessPool as error:
-                raise HoldfastError(
-                    "a process of the search ended, perhaps for want of memory; what is done is kept with a store, and fewer "
-                    "workers need less"
-                ) from error
+                reason = "perhaps for want of memory; what is done is kept with a store, and fewer workers need less"
+                raise HoldfastError(f"a process of the search ended, {reason}") from error
             finally:
                 stop_event.set()
-
-
-def _reuse_running_job(running: RunningJob, deadline: float) -> RunningJob:
-    return running
 
 
 # ---- in the other processes ----------------------------------------------------------------------------------------------
@@ -273,18 +319,12 @@ def _init_worker(messages: Any, stop_event: Any) -> None:
     """Set up a worker process that ignores Ctrl-C and exits when its parent process exits."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _worker_state.update(news=messages, halt=stop_event)
-    parent = parent_process()
-    if parent is not None:
-
-        def exit_with_parent() -> None:
-            wait_for([parent.sentinel])
-            os._exit(1)
-
-        Thread(target=exit_with_parent, daemon=True).start()
+    if (parent := parent_process()) is not None:
+        Thread(target=lambda: (wait_for([parent.sentinel]), os._exit(1)), daemon=True).start()
 
 
 def _run_job(job: SearchJob, deadline: float) -> JobResult:
-    running, last_report = job.start(deadline), [monotonic()]
+    running, last_report = RunningJob(job, deadline), [monotonic()]
 
     def report_progress() -> None:
         if monotonic() > last_report[0] + _POLL_INTERVAL_S:

@@ -18,10 +18,9 @@ import numpy as np
 from holdfast.certificates import documents, verifier
 from holdfast.certificates.joint_claims import StructuralZeroClaim
 from holdfast.certificates.kinds import ClaimKind
-from holdfast.certificates.proof import write_document
+from holdfast.certificates.proof import CertificateResult
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.core.errors import InputError
-from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 
 _QUARTER_TURN_TOLERANCE_RAD = 1e-4  # rad, of a rotation from quarter turns
@@ -30,7 +29,7 @@ _QUATERNION_SCALE = 2**24
 
 
 @dataclass(frozen=True, kw_only=True)
-class StructuralZero(Result):
+class StructuralZero(CertificateResult):
     """Result of the search for a structural zero, with the changes of the geometry that make it exact.
 
     Attributes:
@@ -56,7 +55,7 @@ class StructuralZero(Result):
         """
         if self.document is None:
             raise InputError("there is no certificate: " + self.describe()[0])
-        return write_document(self.document, Path(file))
+        return super().write(file)
 
     def describe(self) -> list[str]:
         """Return the claim or the reason for its failure as sentences."""
@@ -86,21 +85,21 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
             rotation_rows = verifier.rotation_from_quaternion(rotations[axis])
             exact_origin = [-row[2] * points[axis] for row in rotation_rows]
             exact_origin[2] += points[axis - 1]
-            shift = max(
-                shift, *(abs(float(exact - original)) for exact, original in zip(exact_origin, origins[axis], strict=True))
-            )
+            changes = (exact - original for exact, original in zip(exact_origin, origins[axis], strict=True))
+            shift = max(shift, *(abs(float(change)) for change in changes))
             origins[axis] = exact_origin
     if shift > claim.tolerance:
         return StructuralZero(claim=claim, ok=False, turned=0.0, shifted=shift, document=None)
+
+    def format_fractions(numbers: list[Fraction]) -> list[str]:
+        return [f"{number.numerator}/{number.denominator}" for number in numbers]
+
     frames = [
-        {
-            "rotation": [str(number) for number in rotation],
-            "origin": [f"{number.numerator}/{number.denominator}" for number in origin],
-        }
+        {"rotation": [str(number) for number in rotation], "origin": format_fractions(origin)}
         for rotation, origin in zip(rotations, origins, strict=True)
     ]
-    point_texts = [f"{number.numerator}/{number.denominator}" for number in points]
-    document = documents.build_structural_zero_document(claim, frames, point_texts)
+    fields = {"snapped": frames, "points": format_fractions(points)}
+    document = documents.build_document(claim, fields, undecided=Fraction(0), seconds=0.0, nodes=n)
     rotation_error, position_error = verifier.bound_frame_errors(document)
     return StructuralZero(claim=claim, ok=True, turned=rotation_error, shifted=position_error, document=document)
 

@@ -8,6 +8,7 @@ verifier decides.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,13 +54,7 @@ class CertificateChain:
         frames[0] = arm.base @ frames[0]
         frames.append(from_axis @ arm.tool)
         rotations, origins = np.array([frame[:3, :3] for frame in frames]), np.array([frame[:3, 3] for frame in frames])
-        links, slides = [], [*arm.prismatic, True]
-        for index in range(arm.n):
-            link = origins[index + 1] * [1, 1, slides[index]]
-            if not slides[index + 1]:
-                link = link + rotations[index + 1] @ [0, 0, origins[index + 2][2]]
-            links.append(float(np.linalg.norm(link)))
-        return cls(rotations, origins, np.array(links), arm.prismatic)
+        return cls(rotations, origins, link_lengths(rotations, origins[1:], arm.prismatic), arm.prismatic)
 
     def closest_points_on_axes(self, joint: int) -> tuple[float, float] | None:
         """Return the heights, m, on the axes of joint k and the next joint at which these axes are closest; None if they are
@@ -71,6 +66,23 @@ class CertificateChain:
             return None
         height = -(origin[:2] @ direction[:2]) / squared_sine
         return float(origin[2] + height * direction[2]), float(height)
+
+
+def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: BoolArray) -> FloatArray:
+    """Return the lengths (k,), m, that each of some joints and those before it turn, and the next joint does not.
+
+    Args:
+        rotations: (k or more, 3, 3) of each joint's frame in the one before.
+        links: (k, 3) from each joint to the next one, and to the point behind the last one.
+        slides: (k,) which joints slide.
+    """
+    lengths = []
+    for index in range(len(slides)):
+        extent = links[index] * np.array([1, 1, slides[index]])
+        if index + 1 < len(slides) and not slides[index + 1]:
+            extent = extent + rotations[index + 1] @ [0, 0, links[index + 1][2]]
+        lengths.append(float(np.linalg.norm(extent)))
+    return np.array(lengths)
 
 
 class ReachSolver:
@@ -100,14 +112,15 @@ class ReachSolver:
         rotation: FloatArray | None = None,
         angle: FloatArray | None = None,
     ) -> None:
-        self.arm, self.locked, self.limits = arm, locked, limits
-        self.n = arm.n
+        self.arm, self.locked, self.limits, self.n = arm, locked, limits, arm.n
         locked_mask = np.arange(self.n) == locked
         self.fixed = ~locked_mask & (limits[:, 0] == limits[:, 1])
         self.free = ~locked_mask & ~self.fixed
         self.slides = arm.prismatic
-        turning = {"pose": 3, "planar-pose": 1}.get(task, 0) if rotation is None else 0
-        self.expansion = ToolExpansion(arm, task, turning, _link_lengths(arm, task), self.slides)
+        turning, chain = {"pose": 3, "planar-pose": 1}.get(task, 0) if rotation is None else 0, CertificateChain.from_arm(arm)
+        # Heights do not count in the plane.
+        lengths = np.linalg.norm(chain.origins[1:, :2], axis=1) if task == "planar-pose" else chain.lengths
+        self.expansion = ToolExpansion(arm, task, turning, np.asarray(lengths), self.slides)
         self.m, self.uses_rotation = self.expansion.m, self.expansion.uses_rotation
         self.axes, self.linear = self.expansion.axes, self.expansion.linear
         self._rotation = np.empty(0) if rotation is None else np.asarray(rotation).ravel()
@@ -169,14 +182,6 @@ class ReachSolver:
         return self.expansion.self_motion_kernel.rows(q, moves, self._free)
 
 
-def _link_lengths(arm: Arm, task: str) -> FloatArray:
-    """Return the (n,) lengths, m, that the joints rotate; heights do not count in the plane."""
-    chain = CertificateChain.from_arm(arm)
-    if task != "planar-pose":
-        return chain.lengths
-    return np.asarray(np.linalg.norm(chain.origins[1:, :2], axis=1))
-
-
 @dataclass(frozen=True, eq=False)
 class TaylorForm:
     """Taylor forms at N configurations.
@@ -194,13 +199,8 @@ class TaylorForm:
     @classmethod
     def expand_at(cls, reach: ReachSolver, q: FloatArray, targets: FloatArray) -> TaylorForm:
         """Build the forms around q (N, n) for targets (N, axes) in the middle of their cells."""
-        return cls(
-            reach,
-            q,
-            reach.expansion.taylor_form_kernel.rows(
-                q, reach.append_target_rotation(targets), reach._free, reach._locked_mask, reach._slide_extent
-            ),
-        )
+        inputs = q, reach.append_target_rotation(targets), reach._free, reach._locked_mask, reach._slide_extent
+        return cls(reach, q, reach.expansion.taylor_form_kernel.rows(*inputs))
 
     @property
     def error(self) -> FloatArray:
@@ -224,39 +224,24 @@ class TaylorForm:
 
     def _append_zero_lock_width(self, cell_half_widths: FloatArray) -> FloatArray:
         """Return the cells with a lock axis of width 0 added for a healthy arm."""
-        return (
-            cell_half_widths
-            if cell_half_widths.shape[1] > self.reach.axes
-            else np.concatenate([cell_half_widths, np.zeros((len(cell_half_widths), 1))], axis=1)
-        )
+        return np.pad(cell_half_widths, ((0, 0), (0, self.reach.axes + 1 - cell_half_widths.shape[1])))
 
     def is_cell_proved(self, cell_half_widths: FloatArray) -> BoolArray:
         """Return a mask of the cells, of half widths (N, c), that the forms prove."""
-        return np.asarray(
-            self._count_provable_sixteenths(cell_half_widths, np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1]))
-            == CELL_WIDTH_PARTS
-        )
+        initial_state = np.array([CELL_WIDTH_PARTS - 1.0, CELL_WIDTH_PARTS, 1])
+        return np.asarray(self._count_provable_sixteenths(cell_half_widths, initial_state) == CELL_WIDTH_PARTS)
 
     def find_provable_width_fraction(self, cell_half_widths: FloatArray, minimum: FloatArray | None = None) -> FloatArray:
         """Return the (N,) largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
 
         ``minimum`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
         """
-        if minimum is None:
-            return (
-                self._count_provable_sixteenths(cell_half_widths, np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2]))
-                / CELL_WIDTH_PARTS
-            )
-        passed = CELL_WIDTH_PARTS * minimum
-        increment = np.where(
-            passed + 1 < CELL_WIDTH_PARTS, 2 ** np.ceil(np.log2(np.maximum(CELL_WIDTH_PARTS - 1 - passed, 1))), 0
-        )
-        initial_state = np.column_stack([passed, passed + 1, increment])
-        initial_state[passed == 0] = (
-            0,
-            CELL_WIDTH_PARTS / 2,
-            CELL_WIDTH_PARTS / 2,
-        )  # no test passes of cells too small for its margins
+        initial_state = np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2])
+        if minimum is not None:  # no test passes of cells too small for its margins
+            passed = CELL_WIDTH_PARTS * minimum[:, None]
+            increment = 2 ** np.ceil(np.log2(np.maximum(CELL_WIDTH_PARTS - 1 - passed, 1)))
+            state = np.hstack([passed, passed + 1, np.where(passed + 1 < CELL_WIDTH_PARTS, increment, 0)])
+            initial_state = np.where(passed == 0, initial_state, state)
         return self._count_provable_sixteenths(cell_half_widths, initial_state) / CELL_WIDTH_PARTS
 
     def _count_provable_sixteenths(self, cell_half_widths: FloatArray, initial_state: FloatArray) -> FloatArray:
@@ -283,8 +268,7 @@ class TaylorForm:
             upper_error, lower_error, _ = self.bound_error_and_travel(halved_cells, np.zeros((len(cell_half_widths), reach.m)))
             error = np.nan_to_num(np.maximum(upper_error, lower_error), nan=_SINGULAR_ERROR)
             _, _, joint_travel = self.bound_error_and_travel(halved_cells, np.maximum(error, 0))
-            limit_excess = (
-                np.maximum(np.maximum(lower - (self.q - joint_travel), self.q + joint_travel - upper), 0) * reach.free
-            )
+            excess = np.maximum(lower - (self.q - joint_travel), self.q + joint_travel - upper)
+            limit_excess = np.maximum(excess, 0) * reach.free
             costs[:, axis] = np.where(allowed[:, axis], error.sum(axis=1) + limit_excess.sum(axis=1), np.inf)
         return np.asarray(np.where(np.isfinite(costs).any(axis=1), costs.argmin(axis=1), 0), dtype=np.int64)

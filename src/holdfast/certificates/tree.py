@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray, IndexArray
 
-# PROVED_TOKEN, UNDECIDED_TOKEN and SPLIT_TOKEN: tokens of the tree
+# Tokens of trees, as the verifier reads them; a node that is split has SPLIT_TOKEN and the axis.
 PROVED_TOKEN = 0
 UNDECIDED_TOKEN = 2
 SPLIT_TOKEN = 16
+_MAX_AXES = 112
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,10 +31,10 @@ class SearchState:
         warning: Of how many sampled targets no configuration was found, if of many; or empty.
     """
 
-    proved: float
-    undecided: float
-    open: float
-    nodes: int
+    proved: float = 0.0
+    undecided: float = 0.0
+    open: float = 0.0
+    nodes: int = 0
     refuted: float = 0.0
     warning: str = ""
 
@@ -40,8 +42,22 @@ class SearchState:
 StateCallback = Callable[[SearchState], None]
 
 
+class RowBatch:
+    """Base of dataclasses of arrays with one row for each of N objects."""
+
+    def select(self, rows: IndexArray) -> Self:
+        """Return the objects of some rows."""
+        return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))  # type: ignore[arg-type]
+
+    @classmethod
+    def concatenate(cls, batches: Sequence[Self]) -> Self:
+        """Concatenate batches of objects."""
+        names = [field.name for field in fields(cls)]  # type: ignore[arg-type]
+        return cls(*(np.concatenate([getattr(batch, name) for batch in batches]) for name in names))
+
+
 @dataclass
-class CellBatch:
+class CellBatch(RowBatch):
     """Cells of the root box: index k of 2^depth along each axis, and inherited data.
 
     Attributes:
@@ -57,15 +73,6 @@ class CellBatch:
     q: FloatArray
     barren: IndexArray
 
-    @classmethod
-    def concatenate(cls, batches: Sequence[CellBatch]) -> CellBatch:
-        """Concatenate batches of cells."""
-        return cls(*(np.concatenate([getattr(cells, field.name) for cells in batches]) for field in fields(cls)))
-
-    def select(self, rows: NDArray[np.intp]) -> CellBatch:
-        """Return the cells of some rows."""
-        return CellBatch(self.place[rows], self.depth[rows], self.name[rows], self.q[rows], self.barren[rows])
-
     @property
     def root_fraction(self) -> float:
         """Fraction of the root box that the cells cover together."""
@@ -73,48 +80,59 @@ class CellBatch:
 
 
 class BisectionTree:
-    """A growing bisection tree.
+    """Growing bisection tree, or several ones next to each other.
+
+    Args:
+        roots: Number of trees; their roots are the first nodes.
+        initial_token: Token of nodes that nobody has marked.
 
     Attributes:
-        tokens: Of each node: proved, undecided, or 16 and the axis that is halved.
-        lower_children: The lower child of each node that is split; the upper one is the next.
-        centers: (n,) of each proved node, in units of 2^-24 rad.
+        nodes: Number of nodes.
+        tokens: Token of each node and of those to come, see :func:`is_split`.
+        lower_children: The lower child of each node that is split, else 0; the upper one is the next.
     """
 
-    def __init__(self) -> None:
-        self.tokens: list[int] = [UNDECIDED_TOKEN]
-        self.lower_children: list[int] = [0]
-        self.centers: dict[int, IndexArray] = {}
+    def __init__(self, roots: int = 1, initial_token: int = UNDECIDED_TOKEN) -> None:
+        self.nodes = self._roots = roots
+        self._initial_token, capacity = initial_token, 1 << 10 + roots.bit_length()
+        self.tokens = np.full(capacity, initial_token, dtype=np.uint8)
+        self.lower_children = np.zeros(capacity, dtype=np.int64)
 
-    def mark_proved(self, node: int, center: IndexArray) -> None:
-        """Mark a node as proved by the configuration ``center``."""
-        self.tokens[node], self.centers[node] = PROVED_TOKEN, center
+    def split_nodes(self, nodes: IndexArray, axes: IndexArray) -> IndexArray:
+        """Split nodes along axes and return the halves of each (2N,), the lower one first."""
+        lower = self.nodes + 2 * np.arange(len(nodes))
+        self.nodes += 2 * len(nodes)
+        while self.nodes > len(self.tokens):
+            self.tokens = np.concatenate([self.tokens, np.full_like(self.tokens, self._initial_token)])
+            self.lower_children = np.concatenate([self.lower_children, np.zeros_like(self.lower_children)])
+        self.tokens[nodes], self.lower_children[nodes] = SPLIT_TOKEN + axes, lower
+        return np.repeat(lower, 2) + np.arange(2 * len(nodes)) % 2
 
-    def split_node(self, node: int, axis: int) -> int:
-        """Split a node along an axis and return its lower child."""
-        self.tokens[node], self.lower_children[node] = SPLIT_TOKEN + axis, len(self.tokens)
-        self.tokens += [UNDECIDED_TOKEN] * 2
-        self.lower_children += [0] * 2
-        return self.lower_children[node]
+    def preorder_nodes(self) -> list[int]:
+        """Return the nodes of each tree in pre-order, lower half first."""
+        children, order, waiting = self.lower_children[: self.nodes].tolist(), list[int](), [*range(self._roots)][::-1]
+        while waiting:
+            order.append(waiting.pop())
+            if child := children[order[-1]]:
+                waiting += [child + 1, child]
+        return order
+
+    def preorder_tokens(self) -> bytes:
+        """Return the tokens of each tree in pre-order."""
+        return self.tokens[self.preorder_nodes()].tobytes()
 
     def halve_cells(self, cells: CellBatch, axis: IndexArray) -> CellBatch:
         """Return both halves of each cell along its axis, one after the other."""
-        children = np.array(
-            [self.split_node(*pair) for pair in zip(cells.name.tolist(), axis.tolist(), strict=True)], dtype=np.int64
-        )
-        place, depth = np.repeat(cells.place, 2, axis=0), np.repeat(cells.depth, 2, axis=0)
+        halves = cells.select(np.repeat(np.arange(len(axis)), 2))
         rows, axes = np.arange(2 * len(axis)), np.repeat(axis, 2)
-        place[rows, axes] = 2 * place[rows, axes] + rows % 2
-        depth[rows, axes] += 1
-        return CellBatch(
-            place, depth, np.repeat(children, 2) + rows % 2, np.repeat(cells.q, 2, axis=0), np.repeat(cells.barren, 2)
-        )
+        halves.place[rows, axes] = 2 * halves.place[rows, axes] + rows % 2
+        halves.depth[rows, axes] += 1
+        return replace(halves, name=self.split_nodes(cells.name, axis))
 
     def merge_undecided_siblings(self, cells: CellBatch) -> CellBatch:
         """Merge sibling cells that are both undecided into their parent, which becomes an undecided leaf."""
-        tokens, children = np.array(self.tokens), np.array(self.lower_children, dtype=np.int64)
-        split_nodes, parents = np.flatnonzero(tokens >= SPLIT_TOKEN), np.full(len(tokens), -1)
-        parents[children[split_nodes]] = parents[children[split_nodes] + 1] = split_nodes
+        split_nodes, parents = np.flatnonzero(self.lower_children), np.full(self.nodes, -1)
+        parents[self.lower_children[split_nodes]] = parents[self.lower_children[split_nodes] + 1] = split_nodes
         while True:
             cell_parents = parents[cells.name]
             parent_ids, first_rows, counts = np.unique(cell_parents, return_index=True, return_counts=True)
@@ -122,36 +140,30 @@ class BisectionTree:
             if not is_pair.any():
                 return cells
             merged = cells.select(first_rows[is_pair])
-            axis = tokens[parent_ids[is_pair]] - SPLIT_TOKEN
-            merged.place[np.arange(len(axis)), axis] //= 2
-            merged.depth[np.arange(len(axis)), axis] -= 1
             merged.name = parent_ids[is_pair]
-            for node in merged.name.tolist():
-                self.tokens[node] = UNDECIDED_TOKEN
+            rows, axis = np.arange(len(merged.name)), self.tokens[merged.name] - SPLIT_TOKEN
+            merged.place[rows, axis] //= 2
+            merged.depth[rows, axis] -= 1
+            self.tokens[merged.name], self.lower_children[merged.name] = UNDECIDED_TOKEN, 0
             cells = CellBatch.concatenate([merged, cells.select(np.flatnonzero(~np.isin(cell_parents, merged.name)))])
 
-    def preorder_tokens_and_centers(self) -> tuple[bytes, list[IndexArray]]:
-        """Return the tokens in pre-order, lower half first, and the centers of the proved leaves in this order."""
-        tokens, centers, waiting = bytearray(), [], [0]
-        while waiting:
-            node = waiting.pop()
-            tokens.append(self.tokens[node])
-            if self.tokens[node] >= SPLIT_TOKEN:
-                waiting += [self.lower_children[node] + 1, self.lower_children[node]]
-            elif self.tokens[node] == PROVED_TOKEN:
-                centers.append(self.centers[node])
-        return bytes(tokens), centers
+
+def is_split(token: int) -> bool:
+    """Return whether a token is that of a node with two halves; those from 128 on are boxes that a lock decides."""
+    return SPLIT_TOKEN <= token < SPLIT_TOKEN + _MAX_AXES
+
+
+def compute_depths(tokens: bytes) -> list[int]:
+    """Return the depth of each node of trees in pre-order, one tree after the other; that of a root is 0."""
+    depths, waiting = list[int](), list[int]()
+    for token in tokens:
+        depths.append(waiting.pop() if waiting else 0)
+        if is_split(token):
+            waiting += [depths[-1] + 1] * 2
+    return depths
 
 
 def compute_undecided_fraction(tokens: bytes) -> Fraction:
     """Return the exact undecided fraction of a tree in pre-order."""
-    counts, depth, waiting = dict[int, int](), 0, list[int]()
-    for token in tokens:
-        if token >= SPLIT_TOKEN:
-            depth += 1
-            waiting.append(depth)
-            continue
-        if token == UNDECIDED_TOKEN:
-            counts[depth] = counts.get(depth, 0) + 1
-        depth = waiting.pop() if waiting else 0
-    return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
+    undecided = Counter(depth for token, depth in zip(tokens, compute_depths(tokens), strict=True) if token == UNDECIDED_TOKEN)
+    return sum((Fraction(count, 1 << depth) for depth, count in undecided.items()), Fraction(0))

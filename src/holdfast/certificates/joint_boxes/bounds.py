@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.certificates import documents, verifier
-from holdfast.certificates.joint_boxes.halving import BoxTest, require_feasible_box_count
-from holdfast.certificates.joint_boxes.jobs import bisect_box, summarize_tree
+from holdfast.certificates.joint_boxes.halving import BoxTest, bisect_box, require_feasible_box_count, summarize_tree
 from holdfast.certificates.joint_boxes.kernels import ManipulabilityFloorTest
 from holdfast.certificates.joint_boxes.wrenches import ManipulabilityCeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
@@ -70,7 +69,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
     """Search for a proof of a bound claim with the options of :func:`holdfast.certify`."""
     started = perf_counter()
     extreme, value = _search_extreme(claim, np.random.default_rng(seed))
-    bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), claim.arm.n, 1, True), CertificateChain.from_arm(claim.arm)
+    bisection, chain = summarize_tree(bytes([UNDECIDED_TOKEN]), 1, True), CertificateChain.from_arm(claim.arm)
     test: BoxTest = ManipulabilityCeilingTest(chain, claim.locks, claim.threshold)
     if claim.kind == "floor":
         test = ManipulabilityFloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
@@ -78,19 +77,11 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
         advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
         require_feasible_box_count(test, claim.joint_box, halvings, seed, advice)
         bisection = bisect_box(test, claim.joint_box, halvings, budget)
-    seconds = perf_counter() - started
-    return ManipulabilityBound(
-        claim=claim,
-        proved=1 - bisection.undecided,
-        undecided=bisection.undecided,
-        extreme=extreme,
-        value=value,
-        leaves=bisection.leaves,
-        nodes=bisection.nodes,
-        finished=bisection.finished,
-        seconds=seconds,
-        document=documents.build_bound_document(claim, bisection, extreme, seconds=seconds),
-    )
+    fields = {"tree": documents.compress_bytes(bisection.tree), "found": documents.encode_floats(extreme)}
+    return ManipulabilityBound.from_search(
+        claim, fields, undecided=bisection.undecided, leaves=bisection.leaves, nodes=bisection.nodes,
+        finished=bisection.finished, seconds=perf_counter() - started, extreme=extreme, value=value,
+    )  # fmt: skip
 
 
 def _maximization_sign(claim: BoundClaim) -> float:
@@ -103,9 +94,8 @@ def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[FloatA
     """
     index = relative_manipulability(claim.arm, claim.task, failures=list(claim.locks))
     (lower, upper), sign = claim.joint_box.T, _maximization_sign(claim)
-    fractions = np.concatenate(
-        [rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT // 4, len(lower))) / 2]
-    )
+    inside, corners = rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT // 4, len(lower))) / 2
+    fractions = np.concatenate([inside, corners])
     q = lower + (upper - lower) * fractions
     values = sign * index(q)
     best_rows = np.argsort(-values)[:_LOCAL_SEARCH_COUNT]

@@ -8,34 +8,100 @@ axes (a shoulder) the lemma is the whole proof. The tool itself is the last such
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.claims import OutOfReachClaim
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection, require_feasible_box_count
-from holdfast.certificates.joint_boxes.jobs import bisect_box
-from holdfast.certificates.joint_boxes.rows import TaskErrorBound
-from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.joint_boxes.halving import (
+    DISTANCE_MARGIN_M,
+    OPEN_TOKEN,
+    Bisection,
+    BoxBisection,
+    BoxVerdicts,
+    bisect_box,
+    require_feasible_box_count,
+)
+from holdfast.certificates.joint_boxes.segments import ChainSegment, curvature_costs, find_axis_points, limit_to_one_turn
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
 _MAX_LEMMAS = 12
-_DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
 _SAMPLE_COUNT = 2048
 _LOCAL_SEARCH_COUNT = 32
 _LOCAL_SEARCH_STEPS = 60
 _MAX_LEMMA_NODES = 40_000
 _LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
 _MAX_LEMMA_HALVINGS = 40
-# _WITNESS_TOLERANCE and _WITNESS_LIMIT_MARGIN: m and rad: of a target, and from limits, of a witness
-_WITNESS_TOLERANCE = 1e-10
-_WITNESS_LIMIT_MARGIN = 1e-6
+_WITNESS_TOLERANCE = 1e-10  # m and rad, of the target of a witness
+_WITNESS_LIMIT_MARGIN = 1e-6  # rad and m, of a witness from limits
+
+
+class TaskErrorBound:
+    """Lower bound of the task error of a claim: if some combination of rows is never 0, the tool misses the target.
+
+    Args:
+        claim: Of which nothing is reached.
+        joints: (n, 2) rad and m, where they may be.
+    """
+
+    def __init__(self, claim: OutOfReachClaim, joints: FloatArray) -> None:
+        self._arguments = claim, joints
+        self.reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
+        self._linear = self.reach.linear
+
+    def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
+        return TaskErrorBound, self._arguments
+
+    def lower_error_bound(
+        self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Bound a combination of rows away from 0 over q +- half (N, n) and targets +- target_half (N, a).
+
+        Returns:
+            The bound (N,), what it is in the middles (N,), and what of it each joint and axis of the target costs (N, n + a).
+        """
+        reach, linear = self.reach, self._linear
+        count, n, extra_rows = len(q), q.shape[1], int(reach.uses_rotation)
+        m, variables = reach.m + extra_rows, q.shape[1] + reach.axes - linear
+        outputs = reach.expansion.error_derivative_kernel.rows(q, reach.append_target_rotation(targets))
+        error, gradients, second = np.split(outputs, np.cumsum([m, m * variables]), axis=1)
+        gradients, second = gradients.reshape(count, m, variables), second.reshape(count, m, variables, variables)
+        half_widths = np.concatenate([half, target_half[:, linear:]], axis=1)
+        # The third-order remainder of the point, m, and the angle by which it rotates, rad.
+        c, slide_range = np.cumsum(half * ~reach.slides, axis=1), half * reach.slides
+        max_lengths = reach.expansion.lengths + np.abs(q) * reach.slides + slide_range
+        position_remainder = (c**3 * max_lengths + 3 * c**2 * slide_range).sum(axis=1) / 6
+        angle = c[:, -1] + target_half[:, linear:].sum(axis=1)
+        spans = gradients * half_widths[:, None]
+        spread = spans @ spans.transpose(0, 2, 1) + (1e-6 * (error**2).sum(axis=1) + 1e-30)[:, None, None] * np.eye(m)
+        spread[:, range(linear), range(linear)] += target_half[:, :linear] ** 2
+        whitened = np.linalg.solve(spread, error[:, :, None])[:, :, 0]
+        is_position = np.arange(m) < linear
+        best = np.full(count, -np.inf), np.zeros(count), np.zeros((count, n + reach.axes))
+        for direction in (error, whitened, *([error * is_position, error * ~is_position] if extra_rows else [])):
+            unit = direction / np.maximum(np.linalg.norm(direction, axis=1), 1e-300)[:, None]
+            slope, curvature = np.abs(np.einsum("na,nak->nk", unit, gradients)), np.einsum("na,najk->njk", unit, second)
+            own_costs, pair_costs = curvature_costs(slope, curvature, half_widths)
+            remainder = np.linalg.norm(unit[:, :linear], axis=1) * position_remainder
+            remainder = remainder + np.linalg.norm(unit[:, linear:], axis=1) * angle**3 / 6
+            target_costs, center_value = np.abs(unit[:, :linear]) * target_half[:, :linear], np.einsum("na,na->n", unit, error)
+            bound = center_value - own_costs.sum(axis=1) - pair_costs.sum(axis=1) / 2 - remainder - target_costs.sum(axis=1)
+            remainder_costs = (3 * remainder / np.maximum(half_widths.sum(axis=1), 1e-300))[:, None] * half_widths
+            joint_costs = own_costs + pair_costs + remainder_costs
+            all_costs = np.concatenate([joint_costs[:, :n], target_costs, joint_costs[:, n:]], axis=1)
+            # What a combination tells is how much of its value is lost, not how large it is: rows are m and rad.
+            improved = bound / np.maximum(center_value, 1e-12) > best[0] / np.maximum(best[1], 1e-12)
+            best = tuple(  # type: ignore[assignment]
+                np.where(improved if new.ndim == 1 else improved[:, None], new, old)
+                for new, old in zip((bound, center_value, all_costs), best, strict=True)
+            )
+        return best
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,25 +122,16 @@ class DistanceRangeLemma:
     tree: bytes
 
 
-@dataclass(frozen=True, eq=False)
-class Exclusion:
-    """Result of the search for an exclusion.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Exclusion(Bisection):
+    """Result of the search for an exclusion: the bisection of the box of all joints, then the target's coordinates.
 
     Attributes:
-        lemmas: Those that the tree uses.
-        tree: Over all joints, then the target's coordinates.
-        undecided: Exact part of pairs of configuration and target.
-        leaves, nodes: Boxes that are excluded, lemmas and all; looked at.
-        finished: False if the time was spent.
+        lemmas: Those that the tree uses; their boxes count as leaves and nodes.
         witness: (n,) rad, a configuration whose tool is in the box of targets: the claim is false.
     """
 
-    lemmas: list[DistanceRangeLemma]
-    tree: bytes
-    undecided: Fraction
-    leaves: int
-    nodes: int
-    finished: bool
+    lemmas: list[DistanceRangeLemma] = field(default_factory=list)
     witness: FloatArray | None = None
 
 
@@ -83,9 +140,7 @@ def joint_ranges(claim: OutOfReachClaim) -> FloatArray:
     limits = claim.limits.copy()
     if claim.angle is not None:
         limits[claim.locked] = claim.angle
-    half_turn = np.nextafter(np.pi, 4)
-    limits[~claim.arm.prismatic & (limits[:, 1] - limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
-    return limits
+    return limit_to_one_turn(limits, claim.arm.prismatic)
 
 
 def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Exclusion:
@@ -93,16 +148,12 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     rng = np.random.default_rng(seed)
     witness = _search_reaching_configuration(claim, rng)
     if witness is not None:
-        return Exclusion([], b"\2", Fraction(1), 0, 1, True, witness)
+        return Exclusion(b"\2", Fraction(1), 0, 1, True, witness=witness)
     chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
     if claim.task.startswith("planar"):  # all of it happens in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
-    box, lemmas, tested, error_bound = (
-        np.vstack([joints, claim.box]),
-        list[DistanceRangeLemma](),
-        0,
-        TaskErrorBound(claim, joints),
-    )
+    box, error_bound = np.vstack([joints, claim.box]), TaskErrorBound(claim, joints)
+    lemmas, tested = list[DistanceRangeLemma](), 0
     target_box = claim.box[: error_bound.reach.linear]
     for link, point in find_axis_points(chain, joints, rng)[:_MAX_LEMMAS]:
         lemma, nodes = _prove_distance_range(chain, joints, target_box, link, point, budget.deadline, rng)
@@ -119,14 +170,9 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     used_indices = [index for index in range(len(lemmas)) if FIRST_LEMMA_TOKEN + index in tree]
     token_map = {FIRST_LEMMA_TOKEN + index: FIRST_LEMMA_TOKEN + rank for rank, index in enumerate(used_indices)}
     used_lemmas = [lemmas[index] for index in used_indices]
-    return Exclusion(
-        used_lemmas,
-        tree.translate(bytes(token_map.get(token, token) for token in range(256))),
-        bisection.undecided,
-        bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas),
-        bisection.nodes + tested,
-        bisection.finished,
-    )
+    tree = tree.translate(bytes(token_map.get(token, token) for token in range(256)))
+    leaves = bisection.leaves + sum(lemma.tree.count(0) for lemma in used_lemmas)
+    return Exclusion(tree, bisection.undecided, leaves, bisection.nodes + tested, bisection.finished, lemmas=used_lemmas)
 
 
 class _ExclusionTest:
@@ -137,61 +183,28 @@ class _ExclusionTest:
         self.segments = [ChainSegment.from_chain(chain, 0, lemma.link, lemma.point) for lemma in lemmas]
 
     def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
-        count, n = len(middle), self.n
-        tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, -np.inf), np.zeros(half.shape)
-        targets, target_half = np.zeros((count, 3)), np.zeros((count, 3))
-        targets[:, : self.m], target_half[:, : self.m] = middle[:, n : n + self.m], half[:, n : n + self.m]
-
-        def record_test(
-            rows: IndexArray,
-            token: int,
-            margins: FloatArray,
-            center_margins: FloatArray,
-            axis_costs: FloatArray,
-            joint_count: int,
-        ) -> None:
-            """Record one test: its margins, the margins at the centers, and the cost of each axis."""
-            tokens[rows[margins > _DISTANCE_MARGIN_M]] = token
-            ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
-            improved = ratios > best_ratios[rows]
-            rows, axis_costs = rows[improved], axis_costs[improved]
-            best_ratios[rows], gain[rows] = ratios[improved], 0.0
-            column_count = axis_costs.shape[1] if joint_count == n else joint_count + self.m
-            gain[rows, :joint_count], gain[rows, n : n + column_count - joint_count] = (
-                axis_costs[:, :joint_count],
-                axis_costs[:, joint_count:column_count],
-            )
-
-        for index, (lemma, segment) in enumerate(zip(self.lemmas, self.segments, strict=True)):
-            rows = np.flatnonzero(tokens == OPEN_TOKEN)
+        n, m, verdicts = self.n, self.m, BoxVerdicts(half)
+        targets, target_half = np.zeros((2, len(middle), 3))
+        targets[:, :m], target_half[:, :m] = middle[:, n : n + m], half[:, n : n + m]
+        for token, (lemma, segment) in enumerate(zip(self.lemmas, self.segments, strict=True), FIRST_LEMMA_TOKEN):
+            rows, joints_behind = verdicts.open_rows, [lemma.link] * (n - lemma.link)
             if not rows.size:
                 break
-            q, half_range = middle[rows, : lemma.link], half[rows, : lemma.link]
-            bound, center_distance, axis_costs = segment.lower_distance_bound(q, half_range, targets[rows], target_half[rows])
-            record_test(
-                rows, FIRST_LEMMA_TOKEN + index, bound - lemma.most, center_distance - lemma.most, axis_costs, lemma.link
-            )
-            close_rows = np.flatnonzero(
-                np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - targets[rows], axis=1) < lemma.least
-            )
-            if close_rows.size:
-                bound, center_distance, axis_costs = segment.upper_distance_bound(
-                    q[close_rows], half_range[close_rows], targets[rows[close_rows]], target_half[rows[close_rows]]
-                )
-                record_test(
-                    rows[close_rows],
-                    FIRST_LEMMA_TOKEN + index,
-                    lemma.least - bound,
-                    lemma.least - center_distance,
-                    axis_costs,
-                    lemma.link,
-                )
-        rows = np.flatnonzero(tokens == OPEN_TOKEN)
-        bound, center_distance, axis_costs = self.error_bound.lower_error_bound(
-            middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:]
+            arguments = middle[rows, : lemma.link], half[rows, : lemma.link], targets[rows], target_half[rows]
+            bound, center_distance, costs = segment.lower_distance_bound(*arguments)
+            costs = np.insert(costs[:, : lemma.link + m], joints_behind, 0, axis=1)
+            verdicts.record(rows, token, bound - lemma.most, center_distance - lemma.most, costs)
+            distances = np.linalg.norm(segment.point_axes_and_derivatives(arguments[0])[0] - targets[rows], axis=1)
+            close = np.flatnonzero(distances < lemma.least)
+            if close.size:
+                bound, center_distance, costs = segment.upper_distance_bound(*(values[close] for values in arguments))
+                costs = np.insert(costs[:, : lemma.link + m], joints_behind, 0, axis=1)
+                verdicts.record(rows[close], token, lemma.least - bound, lemma.least - center_distance, costs)
+        rows = verdicts.open_rows
+        verdicts.record(
+            rows, 0, *self.error_bound.lower_error_bound(middle[rows, :n], half[rows, :n], middle[rows, n:], half[rows, n:])
         )
-        record_test(rows, 0, bound, center_distance, axis_costs, n)
-        return tokens, gain
+        return verdicts.tokens, verdicts.gain
 
 
 def _prove_distance_range(
@@ -212,57 +225,43 @@ def _prove_distance_range(
     margin = max(_LEMMA_WIDENING[0] * (max_distance - min_distance), _LEMMA_WIDENING[1] * max_reach)
     interval = max(0.0, min_distance - margin), max_distance + margin
     if link == 0:  # where this alone excludes all targets, as wide as does
-        min_offsets = np.maximum(
-            np.maximum(target_box[:, 0] - point[: len(target_box)], point[: len(target_box)] - target_box[:, 1]), 0
-        )
-        max_offsets = np.maximum(
-            np.abs(target_box[:, 0] - point[: len(target_box)]), np.abs(target_box[:, 1] - point[: len(target_box)])
-        )
-        lower, upper = float(np.linalg.norm(min_offsets)), float(np.linalg.norm(max_offsets))
+        offsets = target_box - point[: len(target_box), None]
+        lower = float(np.linalg.norm(np.maximum(np.maximum(offsets[:, 0], -offsets[:, 1]), 0)))
+        upper = float(np.linalg.norm(np.abs(offsets).max(axis=1)))
         if lower > max_distance:
             interval = 0.0, lower - min(1e-6, (lower - max_distance) / 10)
         elif upper < min_distance:
             interval = upper + min(1e-6, (min_distance - upper) / 10), max_reach
-    ignored_joints, tested = np.arange(n - link) < segment.count_leading_axes_through(point), 0
+    moves, tested = np.arange(n - link) >= segment.count_leading_axes_through(point), 0
     while margin < max_reach:
         lower, upper = interval
+        test = partial(_test_distance_range, segment, point, moves, lower, upper if upper < max_reach else np.inf)
         halving = BoxBisection(joints[link:], _MAX_LEMMA_HALVINGS)
-        finished = halving.run(
-            partial(_test_distance_range, segment, point, ignored_joints, lower, upper if upper < max_reach else np.inf),
-            deadline,
-            max_nodes=_MAX_LEMMA_NODES,
-        )
+        finished = halving.run(test, deadline, max_nodes=_MAX_LEMMA_NODES)
         tested += halving.tested
         if finished and not halving.undecided:
             useful = lower > 0 or upper < max_reach
-            return (DistanceRangeLemma(link, point, lower, upper, halving.preorder_tokens()) if useful else None), tested
+            lemma = DistanceRangeLemma(link, point, lower, upper, halving.tree.preorder_tokens()) if useful else None
+            return lemma, tested
         margin *= 3
         interval = max(0.0, min_distance - margin), max_distance + margin
     return None, tested
 
 
 def _test_distance_range(
-    segment: ChainSegment,
-    point: FloatArray,
-    ignored_joints: NDArray[np.bool_],
-    lower: float,
-    upper: float,
-    middle: FloatArray,
-    half: FloatArray,
+    segment: ChainSegment, point: FloatArray, moves: BoolArray, lower: float, upper: float, middle: FloatArray, half: FloatArray
 ) -> tuple[IndexArray, FloatArray]:
-    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; ``ignored_joints`` do not count."""
-    half = np.where(ignored_joints, 0.0, half)
+    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; only joints that move it count."""
+    half = half * moves
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
-    for is_needed, bound_distance, sign in (
-        (upper < np.inf, segment.upper_distance_bound, 1.0),
-        (lower > 0, segment.lower_distance_bound, -1.0),
-    ):
-        if is_needed:
-            distance, _, axis_costs = bound_distance(middle, half, points, zeros)
-            undecided = sign * distance > sign * (upper if sign > 0 else lower) - _DISTANCE_MARGIN_M
-            tokens[undecided] = OPEN_TOKEN
-            gain[undecided] += axis_costs[undecided, : len(ignored_joints)]
+    bounds = [(segment.upper_distance_bound, 1.0, upper)] * (upper < np.inf)
+    bounds += [(segment.lower_distance_bound, -1.0, lower)] * (lower > 0)
+    for bound_distance, sign, limit in bounds:
+        distance, _, axis_costs = bound_distance(middle, half, points, zeros)
+        undecided = sign * distance > sign * limit - DISTANCE_MARGIN_M
+        tokens[undecided] = OPEN_TOKEN
+        gain[undecided] += axis_costs[undecided, : len(moves)]
     return tokens, gain
 
 
@@ -276,14 +275,17 @@ def _search_distance_range(
     fractions = np.concatenate([rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT, len(lower))) / 2])
     q, extremes = lower + (upper - lower) * fractions, list[float]()
     for sign in (1.0, -1.0):
-        distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - point, axis=1)
+
+        def measure(q: FloatArray, sign: float = sign) -> FloatArray:
+            return np.asarray(sign * np.linalg.norm(segment.point_axes_and_derivatives(q)[0] - point, axis=1))
+
+        distances = measure(q)
         best_rows = np.argsort(distances)[:_LOCAL_SEARCH_COUNT]
         candidates, best_distances = q[best_rows], distances[best_rows]
         for step_size in 0.3 * 0.8 ** np.arange(_LOCAL_SEARCH_STEPS):
-            trials = np.clip(
-                candidates + rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape), lower, upper
-            )
-            distances = sign * np.linalg.norm(segment.point_axes_and_derivatives(trials)[0] - point, axis=1)
+            moves = rng.normal(size=candidates.shape) * step_size * rng.integers(0, 2, candidates.shape)
+            trials = np.clip(candidates + moves, lower, upper)
+            distances = measure(trials)
             improved = distances < best_distances
             candidates[improved], best_distances[improved] = trials[improved], distances[improved]
         extremes.append(sign * float(best_distances.min()))
@@ -296,8 +298,7 @@ def _search_reaching_configuration(claim: OutOfReachClaim, rng: np.random.Genera
     reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
     targets = claim.box[:, 0] + np.diff(claim.box)[:, 0] * rng.uniform(0.1, 0.9, (2000, len(claim.box)))
     q = reach.solve_inverse_kinematics(rng.uniform(joints[:, 0], joints[:, 1], (len(targets), claim.arm.n)), targets, 40)
-    is_valid = (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
-    is_valid &= ((q >= joints[:, 0] + _WITNESS_LIMIT_MARGIN) & (q <= joints[:, 1] - _WITNESS_LIMIT_MARGIN) | ~reach.free).all(
-        axis=1
-    )
+    (lower, upper), margin = joints.T, _WITNESS_LIMIT_MARGIN
+    is_valid = ((q >= lower + margin) & (q <= upper - margin) | ~reach.free).all(axis=1)
+    is_valid &= (reach.measure_pose_error(q, targets) < _WITNESS_TOLERANCE).all(axis=1)
     return q[is_valid.argmax()] if is_valid.any() else None

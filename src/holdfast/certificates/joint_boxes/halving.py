@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from time import monotonic
+from typing import Any
 
 import numpy as np
 
-from holdfast.certificates.tree import SPLIT_TOKEN, UNDECIDED_TOKEN
+from holdfast.certificates.search_pool import JobResult, SearchBudget, SearchJob, StopCheck
+from holdfast.certificates.tree import (
+    SPLIT_TOKEN,
+    UNDECIDED_TOKEN,
+    BisectionTree,
+    SearchState,
+    compute_depths,
+    compute_undecided_fraction,
+    is_split,
+)
 from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 BoxTest = Callable[[FloatArray, FloatArray], tuple[IndexArray, FloatArray]]
+BoxBatch = tuple[FloatArray, IndexArray]  # middles, and how often each axis was halved
 
 OPEN_TOKEN = -1  # what is not decided yet
 DEFERRED_TOKEN = 1  # token of what others look at
+DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
 _BATCH_BOXES = 4096
 _ESTIMATE_PATHS = 101  # for an estimate
 _MAX_ESTIMATE_DEPTH = 60  # halvings after which nobody asks
+_BOXES_PER_JOB = 1 << 14  # boxes that a job makes
+_MAX_CHILD_JOBS = 16  # jobs that it leaves
 
 
 class BoxBisection:
@@ -30,20 +46,23 @@ class BoxBisection:
         boxes: Middles (N, A) and how often each axis was halved (N, A), of those to begin with; None: the whole.
 
     Attributes:
+        tree: What is found; boxes that still wait have DEFERRED_TOKEN.
         tested: Boxes that were looked at.
         proved, undecided: Parts of the whole.
     """
 
-    def __init__(self, box: FloatArray, halvings: int, boxes: tuple[FloatArray, IndexArray] | None = None) -> None:
-        self.box, self.halvings = box, halvings
-        self.width = box[:, 1] - box[:, 0]
-        middle, depth = boxes or (box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64))
-        self._roots = self.nodes = len(middle)
-        capacity = 1 << 10 + self.nodes.bit_length()
-        self._token, self._below = np.full(capacity, UNDECIDED_TOKEN, dtype=np.uint8), np.zeros(capacity, dtype=np.int64)
-        self._level = np.zeros(capacity, dtype=np.int64)
-        self._waiting = [(np.arange(self.nodes), middle, depth)]
+    def __init__(self, box: FloatArray, halvings: int, boxes: BoxBatch | None = None) -> None:
+        self.box, self.halvings, self.width = box, halvings, box[:, 1] - box[:, 0]
+        middle, depth = root_box(box) if boxes is None else boxes
+        self.tree = BisectionTree(len(middle), DEFERRED_TOKEN)
+        self._waiting = [(np.arange(len(middle)), middle, depth)]
         self.tested, self.proved, self.undecided = 0, 0.0, 0.0
+
+    @property
+    def state(self) -> SearchState:
+        """Progress, as fractions of the whole box."""
+        open_fraction = 1 - self.proved - self.undecided
+        return SearchState(proved=self.proved, undecided=self.undecided, open=open_fraction, nodes=self.tested)
 
     def run(
         self,
@@ -59,66 +78,70 @@ class BoxBisection:
         gain (N, A). ``report_progress`` is called after each step. May be called again.
         """
         while self._waiting:
-            if monotonic() > deadline or should_stop() or self.nodes > max_nodes:
+            if monotonic() > deadline or should_stop() or self.tree.nodes > max_nodes:
                 return False
-            node_ids, middle, depth = self._waiting.pop()
-            if len(node_ids) > _BATCH_BOXES:
-                self._waiting.append((node_ids[_BATCH_BOXES:], middle[_BATCH_BOXES:], depth[_BATCH_BOXES:]))
-                node_ids, middle, depth = node_ids[:_BATCH_BOXES], middle[:_BATCH_BOXES], depth[:_BATCH_BOXES]
+            waiting = self._waiting.pop()
+            if len(waiting[0]) > _BATCH_BOXES:
+                self._waiting.append(tuple(values[_BATCH_BOXES:] for values in waiting))  # type: ignore[arg-type]
+            node_ids, middle, depth = (values[:_BATCH_BOXES] for values in waiting)
             half = self.width * 0.5 ** (depth + 1)
             self.tested += len(node_ids)
-            tokens, gain = test(middle, half)
-            is_decided = tokens != OPEN_TOKEN
-            self._token[node_ids[is_decided]] = tokens[is_decided]
-            gain = np.where((depth < self.halvings) & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
-            is_split = ~is_decided & (gain.max(axis=1) > 0)
+            tokens, axis = choose_halved_axes(test, middle, half, depth < self.halvings)
+            is_decided, is_split = tokens != OPEN_TOKEN, axis >= 0
+            self.tree.tokens[node_ids] = np.where(is_decided, tokens, UNDECIDED_TOKEN)
             fractions = 0.5 ** depth.sum(axis=1)
             self.proved += float(fractions[is_decided].sum())
             self.undecided += float(fractions[~is_decided & ~is_split].sum())
             if is_split.any():
-                children = self._split_boxes(
-                    node_ids[is_split], middle[is_split], depth[is_split], half[is_split], gain[is_split].argmax(axis=1)
-                )
-                self._waiting.append(children)
+                axes, rows = np.repeat(axis[is_split], 2), np.arange(2 * is_split.sum())
+                middle, depth, half = (np.repeat(values[is_split], 2, axis=0) for values in (middle, depth, half))
+                depth[rows, axes] += 1
+                middle[rows, axes] += np.where(rows % 2, 0.5, -0.5) * half[rows, axes]
+                self._waiting.append((self.tree.split_nodes(node_ids[is_split], axes[::2]), middle, depth))
             report_progress()
         return True
 
-    def _split_boxes(
-        self, node_ids: IndexArray, middle: FloatArray, depth: IndexArray, half: FloatArray, axis: IndexArray
-    ) -> tuple[IndexArray, FloatArray, IndexArray]:
-        """Return the node numbers, middles and depths of the halves."""
-        count = len(node_ids)
-        while self.nodes + 2 * count > len(self._token):
-            for key in ("_token", "_below", "_level"):
-                values = getattr(self, key)
-                setattr(self, key, np.concatenate([values, np.full_like(values, UNDECIDED_TOKEN if key == "_token" else 0)]))
-        lower_children = self.nodes + 2 * np.arange(count)
-        self._token[node_ids], self._below[node_ids] = SPLIT_TOKEN + axis, lower_children
-        self.nodes += 2 * count
-        child_ids, rows = np.repeat(lower_children, 2) + np.arange(2 * count) % 2, np.arange(2 * count)
-        self._level[child_ids] = np.repeat(self._level[node_ids], 2) + 1
-        middles, depths, axes = np.repeat(middle, 2, axis=0), np.repeat(depth, 2, axis=0), np.repeat(axis, 2)
-        depths[rows, axes] += 1
-        middles[rows, axes] += np.where(rows % 2, 0.5, -0.5) * np.repeat(half, 2, axis=0)[rows, axes]
-        return child_ids, middles, depths
 
-    def preorder_tokens(self) -> bytes:
-        """Return the tokens of each tree in pre-order, lower half first; boxes that still wait have DEFERRED_TOKEN."""
-        tokens, children, node_level = self._token[: self.nodes].copy(), self._below, self._level[: self.nodes]
-        for node_ids, _, _ in self._waiting:
-            tokens[node_ids] = DEFERRED_TOKEN
-        subtree_sizes, positions = np.ones(self.nodes, dtype=np.int64), np.zeros(self.nodes, dtype=np.int64)
-        is_split = (tokens >= SPLIT_TOKEN) & (tokens < SPLIT_TOKEN + len(self.box))
-        levels = [np.flatnonzero(is_split & (node_level == depth)) for depth in range(int(node_level.max()) + 1)]
-        for node_ids in levels[::-1]:
-            subtree_sizes[node_ids] += subtree_sizes[children[node_ids]] + subtree_sizes[children[node_ids] + 1]
-        positions[1 : self._roots] = np.cumsum(subtree_sizes[: self._roots - 1])
-        for node_ids in levels:
-            positions[children[node_ids]] = positions[node_ids] + 1
-            positions[children[node_ids] + 1] = positions[node_ids] + 1 + subtree_sizes[children[node_ids]]
-        ordered = np.zeros(self.nodes, dtype=np.uint8)
-        ordered[positions] = tokens
-        return ordered.tobytes()
+def root_box(box: FloatArray) -> BoxBatch:
+    """Return the whole as a batch of one box."""
+    return box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64)
+
+
+def choose_halved_axes(
+    test: BoxTest, middle: FloatArray, half: FloatArray, is_allowed: BoolArray
+) -> tuple[IndexArray, IndexArray]:
+    """Test boxes and return their tokens and the axis to halve of each (N,); -1 where it is decided or no axis would gain."""
+    tokens, gain = test(middle, half)
+    gain = np.where(is_allowed & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
+    return tokens, np.where((tokens == OPEN_TOKEN) & (gain.max(axis=1) > 0), gain.argmax(axis=1), -1)
+
+
+class BoxVerdicts:
+    """Tokens of boxes on which several tests are tried, and the gain of halving each axis for the test that comes nearest.
+
+    Args:
+        half: (N, A) half widths of the boxes.
+    """
+
+    def __init__(self, half: FloatArray) -> None:
+        self.tokens, self.gain = np.full(len(half), OPEN_TOKEN, dtype=np.int64), np.zeros(half.shape)
+        self._best_ratios = np.full(len(half), -np.inf)
+
+    @property
+    def open_rows(self) -> IndexArray:
+        """Numbers of the boxes that no test decides."""
+        return np.flatnonzero(self.tokens == OPEN_TOKEN)
+
+    def record(
+        self, rows: IndexArray, token: int, margins: FloatArray, center_margins: FloatArray, axis_costs: FloatArray
+    ) -> None:
+        """Record one test of some boxes: its margins, the margins at the centers, and the cost of each of the first axes."""
+        self.tokens[rows[margins > DISTANCE_MARGIN_M]] = token
+        ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
+        improved = ratios > self._best_ratios[rows]
+        rows = rows[improved]
+        self._best_ratios[rows], self.gain[rows] = ratios[improved], 0.0
+        self.gain[rows, : axis_costs.shape[1]] = axis_costs[improved]
 
 
 def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:
@@ -134,10 +157,8 @@ def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, se
     middle, half = np.tile(box.mean(axis=1), (_ESTIMATE_PATHS, 1)), np.tile(np.diff(box)[:, 0] / 2, (_ESTIMATE_PATHS, 1))
     depth, open_rows = np.zeros(middle.shape, dtype=np.int64), np.arange(_ESTIMATE_PATHS)
     while open_rows.size > _ESTIMATE_PATHS // 2 and depth.sum(axis=1).max() < _MAX_ESTIMATE_DEPTH:
-        tokens, gain = test(middle[open_rows], half[open_rows])
-        gain = np.where((depth[open_rows] < halvings) & (half[open_rows] > 0), np.nan_to_num(gain, nan=0.0), -1.0)
-        is_split = (tokens == OPEN_TOKEN) & (gain.max(axis=1) > 0)
-        open_rows, axis = open_rows[is_split], gain[is_split].argmax(axis=1)
+        _, axis = choose_halved_axes(test, middle[open_rows], half[open_rows], depth[open_rows] < halvings)
+        open_rows, axis = open_rows[axis >= 0], axis[axis >= 0]
         depth[open_rows, axis] += 1
         half[open_rows, axis] /= 2
         middle[open_rows, axis] += half[open_rows, axis] * rng.choice([-1.0, 1.0], len(open_rows))
@@ -147,3 +168,125 @@ def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, se
         raise InputError(
             f"single boxes decide so little of this that it would take some {2**typical_depth:.0e} boxes{suffix}; {advice}"
         )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointBoxResult(JobResult):
+    """Result of a bisection job.
+
+    Attributes:
+        trees: Of its boxes, one after the other, in pre-order.
+    """
+
+    trees: bytes
+
+
+@dataclass(frozen=True, eq=False)
+class JointBoxJob(SearchJob):
+    """Bisection of some boxes of a root box, to the whole of which its states refer.
+
+    Attributes:
+        test: Of boxes, as of :class:`holdfast.certificates.joint_boxes.halving.BoxBisection`.
+        box: (A, 2) the whole.
+        halvings: Of each axis of it, at most.
+        max_boxes: Boxes that it makes, and each of those that it leaves some to.
+        name: For a memory.
+        boxes: Middles and how often they were halved; None: the whole.
+    """
+
+    result_type = JointBoxResult
+    test: BoxTest
+    box: FloatArray
+    halvings: int
+    max_boxes: int
+    name: str = "boxes"
+    boxes: BoxBatch | None = None
+
+    @property
+    def _roots(self) -> BoxBatch:
+        return root_box(self.box) if self.boxes is None else self.boxes
+
+    def make_search(self, deadline: float) -> BoxBisection:
+        """Make the search."""
+        return BoxBisection(self.box, self.halvings, self.boxes)
+
+    def run_search(
+        self, search: BoxBisection, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]
+    ) -> bool:
+        """Continue the search until the boxes of this job are made."""
+        max_nodes = len(self._roots[0]) + self.max_boxes
+        is_done = search.run(self.test, deadline, should_stop, report_progress, max_nodes)
+        return is_done or search.tree.nodes > max_nodes
+
+    def read_result(self, search: BoxBisection, **values: Any) -> JointBoxResult:
+        """Return the result so far."""
+        return JointBoxResult(trees=search.tree.preorder_tokens(), **values)
+
+    def empty_result(self) -> JointBoxResult:
+        """Return a result in which everything is undecided."""
+        return JointBoxResult(trees=bytes([UNDECIDED_TOKEN]) * len(self._roots[0]), state=SearchState())
+
+    def child_jobs(self, result: JointBoxResult) -> list[JointBoxJob]:
+        """Return the child jobs for the deferred boxes."""
+        if not result.finished or DEFERRED_TOKEN not in result.trees:
+            return []
+        middle, depth = (np.array(column) for column in zip(*self._deferred_boxes(result.trees), strict=True))
+        row_groups = np.array_split(np.arange(len(middle)), min(_MAX_CHILD_JOBS, len(middle)))
+        return [
+            replace(self, name=f"{self.name} {number}", boxes=(middle[rows], depth[rows]))
+            for number, rows in enumerate(row_groups, 1)
+        ]
+
+    def _deferred_boxes(self, trees: bytes) -> Iterator[tuple[FloatArray, IndexArray]]:
+        """Yield the middles of the deferred boxes and how often each axis was halved."""
+        width, waiting = self.box[:, 1] - self.box[:, 0], list(zip(*self._roots, strict=True))[::-1]
+        for token in trees:
+            middle, depth = waiting.pop()
+            if token == DEFERRED_TOKEN:
+                yield middle, depth
+            elif is_split(token):
+                axis, child_depth, step = token - SPLIT_TOKEN, depth.copy(), np.zeros(len(width))
+                child_depth[axis] += 1
+                step[axis] = width[axis] * 0.5 ** (child_depth[axis] + 1)
+                waiting += [(middle + step, child_depth), (middle - step, child_depth)]
+
+    def merge_child_results(self, result: JointBoxResult, child_results: Sequence[JointBoxResult]) -> JointBoxResult:
+        """Merge the results of the deferred boxes into this result."""
+        child_trees, deferred = b"".join(part.trees for part in child_results), bytes([DEFERRED_TOKEN])
+        starts = [index for index, depth in enumerate(compute_depths(child_trees)) if not depth]
+        subtrees = [child_trees[start:stop] for start, stop in zip(starts, [*starts, None][1:], strict=True)]
+        first, *others = result.trees.split(deferred)
+        subtrees = subtrees or [bytes([UNDECIDED_TOKEN])] * len(others)
+        merged = first + b"".join(subtree + tree for subtree, tree in zip(subtrees, others, strict=True))
+        return result.merge(child_results, trees=merged)
+
+
+@dataclass(frozen=True, eq=False)
+class Bisection:
+    """A bisected box.
+
+    Attributes:
+        tree: In pre-order.
+        undecided: Exact part of it.
+        leaves: Boxes that are decided.
+        nodes: Boxes that were looked at.
+        finished: False if it was stopped.
+    """
+
+    tree: bytes
+    undecided: Fraction
+    leaves: int
+    nodes: int
+    finished: bool
+
+
+def bisect_box(test: BoxTest, box: FloatArray, halvings: int, budget: SearchBudget) -> Bisection:
+    """Decide as much of a box as possible with at most as many boxes as a certificate may have."""
+    (result,) = budget.run_jobs([JointBoxJob(test, box, halvings, _BOXES_PER_JOB)], MAX_LEAVES)
+    return summarize_tree(result.trees, result.nodes, result.finished)
+
+
+def summarize_tree(tree: bytes, nodes: int, finished: bool) -> Bisection:
+    """Return the bisection that a tree in pre-order describes."""
+    leaves = sum(not is_split(token) and token != UNDECIDED_TOKEN for token in tree)
+    return Bisection(tree, compute_undecided_fraction(tree), leaves, nodes, finished)

@@ -7,11 +7,30 @@ move no axis.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from holdfast.certificates.joint_boxes.segments import ChainSegment
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.core.typing import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Screws:
+    """Screws at N configurations.
+
+    Attributes:
+        axes: (N, l, 6) axes, then their moments.
+        brackets: (N, j, l, 6) of joint j and axis l.
+        links: (N, n) lengths from axis to axis, m.
+        distances: (N, n) of the axes from the point, m.
+    """
+
+    axes: FloatArray
+    brackets: FloatArray
+    links: FloatArray
+    distances: FloatArray
 
 
 class ScrewModel:
@@ -35,13 +54,8 @@ class ScrewModel:
         self.nearer = (order[:, None] <= order[None]).astype(float)
         self.side = np.where(np.arange(self.n) >= self.middle, 1.0, -1.0)
 
-    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Evaluate the screws at q (N, n).
-
-        Returns:
-            Screws (N, l, 6), brackets (N, j, l, 6) of joint j and axis l, links from axis to axis (N, n) and how far axes are
-            from the point (N, n).
-        """
+    def __call__(self, q: FloatArray) -> Screws:
+        """Evaluate the screws at q (N, n)."""
         previous, z, points = self._arm.locate_point_and_axes(q)
         links = np.zeros(z.shape[:2])
         for joint in [*range(self.middle, self.n), *range(self.middle - 1, -1, -1)]:
@@ -53,27 +67,20 @@ class ScrewModel:
         moments = np.cross(offsets, z)
         moment_brackets = np.cross(z[:, :, None], moments[:, None]) + np.cross(moments[:, :, None], z[:, None])
         brackets = np.concatenate([np.cross(z[:, :, None], z[:, None]), moment_brackets], axis=3)
-        return np.concatenate([z, moments], axis=2), brackets, links, np.linalg.norm(offsets, axis=2)
+        return Screws(np.concatenate([z, moments], axis=2), brackets, links, np.linalg.norm(offsets, axis=2))
 
-    def bound_screw_remainders(
-        self, links: FloatArray, distances: FloatArray, half: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def bound_screw_remainders(self, screws: Screws, half: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Bound the remainders of axes and moments after first order, and after second order: (N, n) each."""
         c = half @ np.abs(self.sign).T
         v1, v2, v3 = (np.zeros_like(c) for _ in range(3))
         for first, step, end in ((self.middle + 1, 1, self.n), (self.middle - 2, -1, -1)):
             angle_sum = np.zeros(len(half))
-            for joint in range(
-                first, end, step
-            ):  # the link to axis j is turned by the joints from the middle to the one before
+            # The link to axis j is turned by the joints from the middle to the one before.
+            for joint in range(first, end, step):
                 angle_sum = angle_sum + half[:, joint - step]
                 carried = slice(joint, None) if step > 0 else slice(None, joint + 1)
                 for power, v in enumerate((v1, v2, v3), 1):
-                    v[:, carried] += (links[:, joint] * angle_sum**power)[:, None]
-        max_distances = distances + v1
-        return (
-            c**2 / 2,
-            (v2 + 2 * v1 * c + max_distances * c**2) / 2,
-            c**3 / 6,
-            (v3 + 3 * v2 * c + 3 * v1 * c**2 + max_distances * c**3) / 6,
-        )
+                    v[:, carried] += (screws.links[:, joint] * angle_sum**power)[:, None]
+        max_distances = screws.distances + v1
+        second = (v2 + 2 * v1 * c + max_distances * c**2) / 2
+        return c**2 / 2, second, c**3 / 6, (v3 + 3 * v2 * c + 3 * v1 * c**2 + max_distances * c**3) / 6

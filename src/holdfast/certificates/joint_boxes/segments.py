@@ -10,20 +10,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.certificates.taylor import CertificateChain
-from holdfast.core.typing import FloatArray
+from holdfast.certificates.taylor import CertificateChain, link_lengths
+from holdfast.core.typing import BoolArray, FloatArray
 
 _ON_AXIS_TOLERANCE_M = 1e-9  # m, of a point from an axis that it lies on
 
 
 @dataclass(frozen=True, eq=False)
 class ChainSegment:
-    """Successive joints of a chain, from a link to a point of a later one.
+    """Successive joints of a chain, from a link, in whose frame coordinates are, to a point of a later one.
 
     Attributes:
-        first, last: The joints are first to last - 1; coordinates are those of link ``first``, which joint first - 1 moves.
         rotations: (k, 3, 3) of each joint's frame in the one before.
         origins: (k, 3) likewise, m.
         end: (3,) m, the point in the last of these frames.
@@ -31,25 +29,18 @@ class ChainSegment:
         slides: (k,) which of them slide.
     """
 
-    first: int
-    last: int
     rotations: FloatArray
     origins: FloatArray
     end: FloatArray
     lengths: FloatArray
-    slides: NDArray[np.bool_]
+    slides: BoolArray
 
     @classmethod
     def from_chain(cls, chain: CertificateChain, first: int, last: int, end: FloatArray) -> ChainSegment:
         """Cut the joints first to last - 1 out of a chain."""
-        rotations, links = chain.rotations[first:last], [*chain.origins[first + 1 : last], end]
-        lengths, slides = [], chain.slides[first:last]
-        for index, link in enumerate(links[: last - first]):
-            extent = link * [1, 1, slides[index]]
-            if index + 1 < len(links) and not slides[index + 1]:
-                extent = extent + rotations[index + 1] @ [0, 0, links[index + 1][2]]
-            lengths.append(float(np.linalg.norm(extent)))
-        return cls(first, last, rotations, chain.origins[first:last], np.asarray(end), np.array(lengths), slides)
+        rotations, slides = chain.rotations[first:last], chain.slides[first:last]
+        lengths = link_lengths(rotations, [*chain.origins[first + 1 : last], end], slides)
+        return cls(rotations, chain.origins[first:last], np.asarray(end), lengths, slides)
 
     def point_axes_and_derivatives(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the point (N, 3), the rotation axes (N, k, 3), 0 for slides, and the derivatives of the point (N, k, 3) at q
@@ -95,9 +86,8 @@ class ChainSegment:
         c, slide_range = np.cumsum(half * ~self.slides, axis=1), half * self.slides
         max_lengths = self.lengths + np.abs(q) * self.slides + slide_range
         orders = np.array([(c**k * max_lengths + k * c ** (k - 1) * slide_range).sum(axis=1) for k in (1, 2, 3)])
-        return orders, np.where(
-            self.slides, c**3 + 3 * c**2, _reverse_cumsum(3 * c**2 * max_lengths + 6 * c * slide_range)
-        ) * half
+        later = np.cumsum((3 * c**2 * max_lengths + 6 * c * slide_range)[:, ::-1], axis=1)[:, ::-1]  # with the joint itself
+        return orders, np.where(self.slides, c**3 + 3 * c**2, later) * half
 
     def lower_distance_bound(
         self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
@@ -117,7 +107,7 @@ class ChainSegment:
         spread = np.einsum("nka,nkb->nab", spans, spans)
         spread[:, range(3), range(3)] += target_half**2 + 1e-6 * d[:, None] ** 2
         fisher = np.linalg.solve(spread, v[:, :, None])[:, :, 0]
-        best: tuple[FloatArray, FloatArray, FloatArray] | None = None
+        bounds = list[tuple[FloatArray, FloatArray, FloatArray]]()
         for direction in (v / d[:, None], fisher / np.maximum(np.linalg.norm(fisher, axis=1), 1e-300)[:, None]):
             gradient = np.abs(np.einsum("na,nka->nk", direction, columns))
             second = np.einsum("nja,nka->njk", np.cross(direction[:, None], axes), columns)
@@ -126,17 +116,10 @@ class ChainSegment:
             center_distance = np.einsum("na,na->n", direction, v)
             bound = center_distance - own_costs.sum(axis=1) - pair_costs.sum(axis=1) / 2 - third - target_costs.sum(axis=1)
             axis_costs = np.concatenate([own_costs + pair_costs + third_costs / 6, target_costs], axis=1)
-            if best is None:
-                best = bound, center_distance, axis_costs
-            else:
-                improved = bound > best[0]
-                best = (
-                    np.where(improved, bound, best[0]),
-                    np.where(improved, center_distance, best[1]),
-                    np.where(improved[:, None], axis_costs, best[2]),
-                )
-        assert best is not None
-        return best
+            bounds.append((bound, center_distance, axis_costs))
+        improved = bounds[1][0] > bounds[0][0]
+        bound, center_distance = (np.where(improved, bounds[1][index], bounds[0][index]) for index in (0, 1))
+        return bound, center_distance, np.where(improved[:, None], bounds[1][2], bounds[0][2])
 
     def upper_distance_bound(
         self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
@@ -162,6 +145,13 @@ class ChainSegment:
         return np.sqrt(2 * bound), d, axis_costs
 
 
+def limit_to_one_turn(limits: FloatArray, slides: BoolArray) -> FloatArray:
+    """Return limits (n, 2), rad and m, in which joints that turn make one full turn at most."""
+    half_turn, limits = np.nextafter(np.pi, 4), limits.copy()
+    limits[~slides & (limits[:, 1] - limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
+    return limits
+
+
 def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random.Generator) -> list[tuple[int, FloatArray]]:
     """Return links and points on their axes, each the point of the next axis that is closest to the axis behind it: (link,
     (3,)).
@@ -171,9 +161,8 @@ def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random
     n, axis_points = len(chain.lengths), list[tuple[int, FloatArray]]()
     q, previous = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for joint in np.flatnonzero(~chain.slides).tolist():
-        heights = (
-            chain.closest_points_on_axes(joint) if joint + 1 < n else None
-        )  # of parallel axes, and the last one, the height of what comes next
+        heights = chain.closest_points_on_axes(joint) if joint + 1 < n else None
+        # Of parallel axes, and the last one, the height of what comes next.
         point = chain.origins[joint] + chain.rotations[joint][:, 2] * (heights[0] if heights else chain.origins[joint + 1][2])
         positions = ChainSegment.from_chain(chain, 0, joint, point).point_axes_and_derivatives(q[:, :joint])[0]
         if np.abs(positions - previous).max() > 1e-6:
@@ -192,14 +181,8 @@ def curvature_costs(gradient: FloatArray, second: FloatArray, half: FloatArray) 
         half: (N, k).
     """
     curvature = np.diagonal(second, axis1=1, axis2=2)
+    at_end = gradient * half - curvature * half**2 / 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        own_costs = np.where(
-            gradient < curvature * half, gradient**2 / (2 * curvature), gradient * half - curvature * half**2 / 2
-        )
+        own_costs = np.where(gradient < curvature * half, gradient**2 / (2 * curvature), at_end)
     pair_costs = np.triu(np.abs(second), 1) * half[:, :, None] * half[:, None]
     return own_costs, pair_costs.sum(axis=1) + pair_costs.sum(axis=2)
-
-
-def _reverse_cumsum(x: FloatArray) -> FloatArray:
-    """Return for each column the sum of itself and the later columns."""
-    return np.asarray(np.cumsum(x[:, ::-1], axis=1)[:, ::-1])

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN
-from holdfast.certificates.joint_boxes.screws import ScrewModel
+from holdfast.certificates.joint_boxes.screws import ScrewModel, Screws
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.core.typing import FloatArray, IndexArray
 
@@ -37,19 +37,19 @@ class ManipulabilityCeilingTest:
 
     def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
-        screws, brackets, links, distances = self.screws(middle)
+        expansion = self.screws(middle)
+        screws = expansion.axes
         gram, count = np.einsum("nla,nlb->nab", screws, screws), len(middle)
         moving = self.screws.sign.any(axis=0)
         damping = _DAMPING_FACTOR * (half * moving).max(axis=1) ** 2
         damped_gram = gram + damping[:, None, None] * np.eye(6)
-        remaining = 1 - np.einsum(
-            "nla,nla->nl", screws, np.linalg.solve(damped_gram, screws.transpose(0, 2, 1)).transpose(0, 2, 1)
-        )
+        solved = np.linalg.solve(damped_gram, screws.transpose(0, 2, 1)).transpose(0, 2, 1)
+        remaining = 1 - np.einsum("nla,nla->nl", screws, solved)
         tokens, best_ratios, gain = np.full(count, OPEN_TOKEN, dtype=np.int64), np.full(count, np.inf), half * moving
         lock_values = remaining[:, list(self.locks)]
         for rank in range(min(2, len(self.locks))):
             locks = np.array(self.locks)[np.argsort(lock_values, axis=1)[:, rank]]
-            ratios, joint_costs = self._bound_moment_ratio(locks, screws, gram, brackets, links, distances, half, damping)
+            ratios, joint_costs = self._bound_moment_ratio(locks, expansion, gram, half, damping)
             improved = (ratios < best_ratios) & np.isfinite(joint_costs).all(axis=1)
             best_ratios[improved], gain[improved] = ratios[improved], joint_costs[improved]
             is_proved = improved & (ratios < self.max_ratio * (1 - _BOUND_MARGIN))
@@ -57,18 +57,10 @@ class ManipulabilityCeilingTest:
         return tokens, gain
 
     def _bound_moment_ratio(
-        self,
-        locked_joints: IndexArray,
-        screws: FloatArray,
-        gram: FloatArray,
-        brackets: FloatArray,
-        links: FloatArray,
-        distances: FloatArray,
-        half: FloatArray,
-        damping: FloatArray,
+        self, locked_joints: IndexArray, expansion: Screws, gram: FloatArray, half: FloatArray, damping: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return an upper bound of sqrt(A) / |a_k| (N,), and its cost by each joint's half width (N, n)."""
-        sign, nearer = self.screws.sign, self.screws.nearer
+        sign, nearer, screws, brackets = self.screws.sign, self.screws.nearer, expansion.axes, expansion.brackets
         moving_brackets = brackets.transpose(0, 2, 1, 3) * sign[:, :, None]  # (N, l, j, 6)
         rows = np.arange(len(locked_joints))
         own_screw = screws[rows, locked_joints]
@@ -88,17 +80,12 @@ class ManipulabilityCeilingTest:
         pair_terms = np.triu(np.abs(np.where(nearer > 0, pair_terms, pair_terms.transpose(0, 1, 3, 2))), 1)
         diagonal = np.abs(np.einsum("nljj->nlj", second_brackets) / 2 + np.einsum("nljj->nlj", cross_terms))
         pair_costs = pair_terms * half[:, None, :, None] * half[:, None, None]
-        by_axis = (
-            np.abs(gradient) * half[:, None]
-            + diagonal * half[:, None] ** 2
-            + (pair_costs.sum(axis=2) + pair_costs.sum(axis=3)) / 2
-        )
-        z2, v2, z3, v3 = self.screws.bound_screw_remainders(links, distances, half)
+        by_axis = np.abs(gradient) * half[:, None] + diagonal * half[:, None] ** 2
+        by_axis = by_axis + (pair_costs.sum(axis=2) + pair_costs.sum(axis=3)) / 2
+        z2, v2, z3, v3 = self.screws.bound_screw_remainders(expansion, half)
         moment, force = (np.linalg.norm(vector, axis=1)[:, None] for vector in (y[:, :3], y[:, 3:]))
-        rate_sums = [
-            np.einsum("nj,nj->n", np.linalg.norm(vector, axis=1), half)[:, None]
-            for vector in (wrench_rate[:, :3], wrench_rate[:, 3:])
-        ]
+        rates = (wrench_rate[:, :3], wrench_rate[:, 3:])
+        rate_sums = [np.einsum("nj,nj->n", np.linalg.norm(rate, axis=1), half)[:, None] for rate in rates]
         third = moment * z3 + force * v3 + rate_sums[0] * z2 + rate_sums[1] * v2
         moment_bounds = np.abs(np.einsum("nla,na->nl", screws, y)) + by_axis.sum(axis=2) + third
         own_lower = 2 - moment_bounds[rows, locked_joints]  # its moment is 1

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.certificates.claims import TolerantClaim, narrow_limits, tolerant_claim
 from holdfast.certificates.suggestions.box_samples import sample_box_poses
@@ -15,7 +15,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_percent
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.inverse_kinematics import solver
@@ -50,7 +50,7 @@ class WorkingRanges(Result):
     targets: int
     values: int
     healthy: int
-    lost: NDArray[np.int64]
+    lost: IndexArray
     passed: int
     seconds: float
 
@@ -168,9 +168,7 @@ def find_working_ranges(
     narrowed_joints = {*locks, *map(arm.joint_index, working_ranges or {})}
 
     def make_claim(ranges: FloatArray) -> TolerantClaim:
-        pairs: dict[str | int, tuple[float, float]] = {
-            joint: (float(ranges[joint, 0]), float(ranges[joint, 1])) for joint in narrowed_joints
-        }
+        pairs = dict[str | int, tuple[float, float]]({joint: tuple(ranges[joint].tolist()) for joint in narrowed_joints})
         return tolerant_claim(arm, centre, size, rotation=rotation, rpy=rpy, task=task, working_ranges=pairs, failures=failures)
 
     search = _RangeSearch(make_claim(bounds), bounds, targets, values, seed)
@@ -186,14 +184,9 @@ def find_working_ranges(
             break
     retained = np.stack([table.all(axis=1) for table, _ in survives], axis=1)
     return WorkingRanges(
-        claim=make_claim(ranges),
-        targets=len(healthy),
-        values=values,
-        healthy=int(healthy.sum()),
-        lost=(~retained).sum(axis=0),
-        passed=int((healthy & retained.all(axis=1)).sum()),
-        seconds=perf_counter() - start_time,
-    )
+        claim=make_claim(ranges), targets=len(healthy), values=values, healthy=int(healthy.sum()),
+        lost=(~retained).sum(axis=0), passed=int((healthy & retained.all(axis=1)).sum()), seconds=perf_counter() - start_time,
+    )  # fmt: skip
 
 
 class _RangeSearch:
@@ -216,18 +209,17 @@ class _RangeSearch:
         width = bounds[:, 1] - bounds[:, 0]
         self._is_periodic = locks & joint_space.is_unlimited(claim.arm) & (width >= 2 * np.pi - 1e-9)
         turns = np.where(claim.arm.prismatic | ~locks, 1, np.maximum(np.nan_to_num(width) / (2 * np.pi), 1))
+        counts = np.where(locks, np.ceil(values * turns), 0).astype(int).tolist()
         self._grids = [
-            np.linspace(lower, upper, int(np.ceil(values * turn_count)) + is_periodic)[: int(np.ceil(values * turn_count))]
-            if is_locked
-            else np.empty(0)
-            for (lower, upper), turn_count, is_periodic, is_locked in zip(bounds, turns, self._is_periodic, locks, strict=True)
+            np.linspace(lower, upper, count + is_periodic)[:count] if count else np.empty(0)
+            for (lower, upper), count, is_periodic in zip(bounds, counts, self._is_periodic, strict=True)
         ]
 
     def add_sample(self, sample: int) -> None:
         """Add a sample to the poses for which ranges are searched."""
         self._poses = np.concatenate([self._poses, sample_box_poses(self._claim, self._targets, self._seed, sample)])
 
-    def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[NDArray[np.bool_]]:
+    def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[BoolArray]:
         """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
         table = samples.check_survival(self._arm, self._task, poses, values, self._seed + sample)
         for joint, (each, column) in enumerate(zip(table, values, strict=True)):
@@ -240,15 +232,14 @@ class _RangeSearch:
                 )
         return table
 
-    def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> NDArray[np.bool_]:
+    def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> BoolArray:
         """Return (N,) whether the healthy arm reaches each pose within the ranges."""
         limited_arm = samples.with_artificial_limits(self._arm, ranges)
         reached = samples.find_reached_poses(limited_arm, self._task, poses, self._seed)
         if _RETRY_FRACTION <= reached.mean() < 1:
             random_seed = np.random.SeedSequence([self._seed, 1])
-            retried = solver(limited_arm, self._task).solve(
-                poses[~reached], random_seed, _MORE_RESTARTS, samples.TARGET_TOLERANCE
-            )
+            engine = solver(limited_arm, self._task)
+            retried = engine.solve(poses[~reached], random_seed, _MORE_RESTARTS, samples.TARGET_TOLERANCE)
             reached[~reached] = retried.success
         return reached
 
@@ -266,17 +257,15 @@ class _RangeSearch:
                         return ranges, True
         return self._choose_ranges(table, q), False
 
-    def _find_intervals(self, joint: int, table: NDArray[np.bool_]) -> FloatArray:
+    def _find_intervals(self, joint: int, table: BoolArray) -> FloatArray:
         """Find the widest intervals (C, 2) of a joint in which no target is lost; its bounds if it does not lock."""
         grid, survives = self._grids[joint], np.asarray(table.all(axis=0))
         if survives.all():
             return np.asarray(self._bounds[joint][None])
         if self._is_periodic[joint]:  # once round, from a value that fails to itself
             first = int(np.argmin(survives))
-            grid, survives = (
-                np.append(grid[first:], grid[: first + 1] + 2 * np.pi),
-                np.append(survives[first:], survives[: first + 1]),
-            )
+            grid = np.append(grid[first:], grid[: first + 1] + 2 * np.pi)
+            survives = np.append(survives[first:], survives[: first + 1])
         if not survives.any():
             best = int(np.argmax(table.mean(axis=0)))
             grid = np.linspace(grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)], self._values)
@@ -289,7 +278,7 @@ class _RangeSearch:
             inner, outer = np.where(passed, middle, inner), np.where(passed, outer, middle)
         return np.asarray(inner)
 
-    def _check_values(self, joint: int, values: FloatArray) -> NDArray[np.bool_]:
+    def _check_values(self, joint: int, values: FloatArray) -> BoolArray:
         """Return (K,) whether all targets survive a lock of a joint at each of some values (K,)."""
         value_lists = [values if other == joint else np.empty(0) for other in range(self._arm.n)]
         return np.asarray(self._check_survival(value_lists, self._poses, 0)[joint].all(axis=0), dtype=bool)
@@ -310,27 +299,24 @@ class _RangeSearch:
         order = sorted(range(len(chosen)), key=lambda rank: (-widths[rank][0], -widths[rank].sum()))
         return [chosen[rank] for rank in order[:_MAX_CANDIDATES]]
 
-    def _choose_ranges(self, table: list[NDArray[np.bool_]], q: FloatArray) -> FloatArray:
+    def _choose_ranges(self, table: list[BoolArray], q: FloatArray) -> FloatArray:
         """Choose ranges (n, 2) that most targets with configurations q (H, S, n) pass."""
         choices = []
         for joint, (grid, is_periodic, survives) in enumerate(zip(self._grids, self._is_periodic, table, strict=True)):
             lower, upper = self._bounds[joint]
             if len(grid) and lower < upper:
                 thinned = slice(None, None, -(-len(grid) // self._values))  # of several turns
-                choices.append(
-                    samples.LimitChoices.from_table(grid[thinned], bool(is_periodic), survives[:, thinned], q[:, :, joint])
-                )
+                tables = survives[:, thinned], q[:, :, joint]
+                choices.append(samples.LimitChoices.from_table(grid[thinned], bool(is_periodic), *tables))
             else:
                 inside = (q[None, :, :, joint] >= lower) & (q[None, :, :, joint] <= upper)
                 choices.append(samples.LimitChoices(self._bounds[joint][None], np.array([survives.all(axis=1)]), inside))
         contained = np.all([(choice.survives[..., None] & choice.holds).any(axis=0) for choice in choices], axis=0)
         start_q = np.where(contained[..., None], q, np.nan) if contained.any() else q
         ranges = samples.choose_limits(choices, start_q, np.random.default_rng([self._seed, 98]))
-        return (
-            self._bounds
-            if ranges is None
-            else np.array([self._round_interval(joint, pair) for joint, pair in enumerate(ranges)])
-        )
+        if ranges is None:
+            return self._bounds
+        return np.array([self._round_interval(joint, pair) for joint, pair in enumerate(ranges)])
 
     def _trim_interval(self, joint: int, pair: FloatArray, fraction: float) -> FloatArray:
         """Trim an interval by a margin at the ends at which targets are lost."""
@@ -354,18 +340,13 @@ class _RangeSearch:
 
         return np.array([round_end(pair[0], 1), round_end(pair[1], -1)])
 
-    def evaluate_ranges(
-        self, ranges: FloatArray, sample: int
-    ) -> tuple[NDArray[np.bool_], list[tuple[NDArray[np.bool_], FloatArray]]]:
+    def evaluate_ranges(self, ranges: FloatArray, sample: int) -> tuple[BoolArray, list[tuple[BoolArray, FloatArray]]]:
         """Return for a held-out sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
 
         The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
         """
-        poses, generator = (
-            sample_box_poses(self._claim, self._targets, self._seed, sample),
-            np.random.default_rng([self._seed, sample, 1]),
-        )
-        parts = max(self._values - 2, 1)
+        poses = sample_box_poses(self._claim, self._targets, self._seed, sample)
+        parts, generator = max(self._values - 2, 1), np.random.default_rng([self._seed, sample, 1])
         between = (np.arange(parts) + generator.random(parts)) / parts
         values = [
             lower + (upper - lower) * np.concatenate([[0], between, [1]]) if joint in self._claim.locks else np.empty(0)
@@ -373,7 +354,7 @@ class _RangeSearch:
         ]
         return self._check_healthy(ranges, poses), list(zip(self._check_survival(values, poses, sample), values, strict=True))
 
-    def shorten_ranges(self, ranges: FloatArray, survives: list[tuple[NDArray[np.bool_], FloatArray]]) -> bool:
+    def shorten_ranges(self, ranges: FloatArray, survives: list[tuple[BoolArray, FloatArray]]) -> bool:
         """Shorten ranges in place to the longest run of values that lose no target; return whether any was shortened."""
         changed = False
         for joint, (table, values) in enumerate(survives):
@@ -386,7 +367,7 @@ class _RangeSearch:
         return changed
 
 
-def _find_runs(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _find_runs(flags: BoolArray) -> IndexArray:
     """Return the first and last index (R, 2) of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int64), [0]])))
     return np.asarray(edges.reshape(-1, 2) - [0, 1], dtype=np.int64)
@@ -395,6 +376,5 @@ def _find_runs(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
 def _relative_widths(arm: Arm, ranges: FloatArray) -> FloatArray:
     lower, upper = sampling_limits(arm)
     limit_widths = np.where(arm.prismatic, upper - lower, np.minimum(upper - lower, 2 * np.pi))
-    return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(limit_widths > 0, limit_widths, 1.0) + (
-        limit_widths <= 0
-    )
+    has_width = limit_widths > 0
+    return np.minimum(ranges[:, 1] - ranges[:, 0], limit_widths) / np.where(has_width, limit_widths, 1.0) + ~has_width

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.claims import TolerantClaim, tolerant_claim
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.workspace import TolerantWorkspace
 
@@ -34,13 +33,11 @@ def make_workspace_claim(workspace: TolerantWorkspace) -> TolerantClaim:
     box = find_inner_box(workspace.points[:, : len(rows)], workspace.inside)
     if box is None:
         raise InputError("too few points are inside to suggest a box; sample more")
-    ranges: dict[str | int, tuple[float, float]] = {
-        joint: (float(lower), float(upper)) for joint, (lower, upper) in enumerate(workspace.limits)
-    }
+    ranges = dict[str | int, tuple[float, float]](enumerate(map(tuple, workspace.limits.tolist())))
     return tolerant_claim(workspace.arm, box.mean(axis=1), box[:, 1] - box[:, 0], working_ranges=ranges)
 
 
-def find_inner_box(points: FloatArray, inside: NDArray[np.bool_]) -> FloatArray | None:
+def find_inner_box(points: FloatArray, inside: BoolArray) -> FloatArray | None:
     """Find a large box with sampled points inside the region and none outside.
 
     Args:

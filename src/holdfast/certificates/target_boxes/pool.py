@@ -11,23 +11,18 @@ from numpy.typing import NDArray
 from holdfast.certificates.taylor import ReachSolver, TaylorForm
 from holdfast.core.typing import FloatArray, IndexArray
 
-# _INITIAL_TARGETS, _MAX_TARGETS and _RANDOM_STARTS: targets at first and at most, and random starts of each
-_INITIAL_TARGETS = 250
-_MAX_TARGETS = 1000
-_RANDOM_STARTS = 10
+_INITIAL_TARGETS = 250  # targets at first
+_MAX_TARGETS = 1000  # targets at most
+_RANDOM_STARTS = 10  # random starts of each
 _CELLS_PER_TARGET = 64  # cells for each target: where there are more, there are more targets
 _MAX_SELF_MOTION_STEP_RAD = 0.5  # along self-motions, rad
-# _LOCAL_SEARCH_STEPS, _FINAL_SEARCH_STEPS and _TEST_CELL_SCALE: such steps, of the best more, to prove more of cells so many
-# times wider than without,
-_LOCAL_SEARCH_STEPS = 10
-_FINAL_SEARCH_STEPS = 30
-_TEST_CELL_SCALE = 2.0
-# _WIDEN_ABOVE_FRACTION and _CELL_SCALE_RANGE: or twice as wide after so much of them is, in such a range
-_WIDEN_ABOVE_FRACTION = 0.75
-_CELL_SCALE_RANGE = (2.0**-10, 2.0**10)
-# _ESTIMATE_SAMPLES and _MAX_ESTIMATE_HALVINGS: for the estimate: so many, until so many halvings
-_ESTIMATE_SAMPLES = 200
-_MAX_ESTIMATE_HALVINGS = 60
+_LOCAL_SEARCH_STEPS = 10  # such steps, to prove more
+_FINAL_SEARCH_STEPS = 30  # of the best
+_TEST_CELL_SCALE = 2.0  # of cells so many times wider than without,
+_WIDEN_ABOVE_FRACTION = 0.75  # or twice as wide after so much of them is proved,
+_CELL_SCALE_RANGE = (2.0**-10, 2.0**10)  # in this range
+_ESTIMATE_SAMPLES = 200  # for the estimate
+_MAX_ESTIMATE_HALVINGS = 60  # of a sample
 _TRIALS_PER_CELL = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
 _TARGET_TOLERANCE = 1e-9  # m and rad
 
@@ -98,10 +93,8 @@ class ConfigurationPool:
         q = reach.solve_inverse_kinematics(q, coordinates[:, : reach.axes], 40)
         is_reached = (reach.measure_pose_error(q, coordinates[:, : reach.axes]) < _TARGET_TOLERANCE).all(axis=1)
         if not self.sampled_targets:
-            self.sampled_targets, self.unreached_targets = (
-                len(coordinates) // _RANDOM_STARTS,
-                int((~is_reached.reshape(-1, _RANDOM_STARTS).any(axis=1)).sum()),
-            )
+            self.sampled_targets = len(coordinates) // _RANDOM_STARTS
+            self.unreached_targets = int((~is_reached.reshape(-1, _RANDOM_STARTS).any(axis=1)).sum())
         q, coordinates = q[is_reached], coordinates[is_reached]
         if not self._test_half.any():
             self._test_half = _TEST_CELL_SCALE / 2 * self._width * 0.5 ** self._estimate_cost(q, coordinates)[1]
@@ -124,19 +117,17 @@ class ConfigurationPool:
         for step in range(1 + steps * self._reach.is_redundant):
             if monotonic() > self._deadline:
                 break
-            candidates = (
-                self._reach.solve_inverse_kinematics(step_self_motion(self._reach, q, self._rng), targets) if step else q
-            )
+            candidates = q
+            if step:
+                candidates = self._reach.solve_inverse_kinematics(step_self_motion(self._reach, q, self._rng), targets)
             half = np.minimum(self._test_half * widths[:, None], self._width / 2)
-            scale = widths * TaylorForm.expand_at(self._reach, candidates, targets).find_provable_width_fraction(
-                half, best_scale / widths if step else None
-            )
+            form = TaylorForm.expand_at(self._reach, candidates, targets)
+            scale = widths * form.find_provable_width_fraction(half, best_scale / widths if step else None)
             improved = scale > best_scale
             q[improved], best_scale[improved] = candidates[improved], scale[improved]
-            widths = np.clip(
-                np.where(best_scale > _WIDEN_ABOVE_FRACTION * widths, 2 * widths, np.where(best_scale > 0, widths, widths / 2)),
-                *_CELL_SCALE_RANGE,
-            )
+            narrowed = np.where(best_scale > 0, widths, widths / 2)
+            widths = np.where(best_scale > _WIDEN_ABOVE_FRACTION * widths, 2 * widths, narrowed)
+            widths = np.clip(widths, *_CELL_SCALE_RANGE)
         return q, best_scale, widths
 
     def add_configurations(self, center: FloatArray, q: FloatArray) -> None:
@@ -151,11 +142,8 @@ class ConfigurationPool:
             from scipy.spatial import KDTree
 
             coordinates, self._configurations = (np.concatenate(arrays) for arrays in zip(*self._added, strict=True))
-            self._added, self._indexed_count, self._nearest_index = (
-                [(coordinates, self._configurations)],
-                len(coordinates),
-                KDTree(coordinates),
-            )
+            self._added, self._indexed_count = [(coordinates, self._configurations)], len(coordinates)
+            self._nearest_index = KDTree(coordinates)
         count = min(count, self._indexed_count)
         if not count:
             return np.empty((len(center), 0)), np.empty((len(center), 0), dtype=np.int64)
@@ -221,13 +209,10 @@ class ConfigurationPool:
             halvings[open_rows, axis] += 1
             half[open_rows, axis] /= 2
         started = perf_counter()
-        TaylorForm.expand_at(
-            self._reach, self._reach.solve_inverse_kinematics(form.q, targets), targets
-        ).find_provable_width_fraction(half)
+        solutions = self._reach.solve_inverse_kinematics(form.q, targets)
+        TaylorForm.expand_at(self._reach, solutions, targets).find_provable_width_fraction(half)
         trial_seconds = (perf_counter() - started) / len(sample)
-        finished = halvings[
-            np.setdiff1d(np.arange(len(sample)), open_rows)
-        ]  # one at a limit proves nothing, however small the cell
+        finished = np.delete(halvings, open_rows, axis=0)  # one at a limit proves nothing, however small the cell
         if not len(finished):
             return np.inf, np.zeros(len(self._root)), np.inf
         cells = float(2 ** np.median(finished.sum(axis=1)))

@@ -5,18 +5,17 @@ proves each.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from time import monotonic
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.certificates.target_boxes.pool import ConfigurationPool, step_self_motion
 from holdfast.certificates.taylor import CENTER_UNIT, ReachSolver, TaylorForm
-from holdfast.certificates.tree import BisectionTree, CellBatch
+from holdfast.certificates.tree import PROVED_TOKEN, BisectionTree, CellBatch, SearchState
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-
-FractionCallback = Callable[[float], None]
 
 _POOL_TRIALS = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
 _SELF_MOTION_TRIALS = 4  # along self-motions
@@ -48,6 +47,9 @@ class TargetBoxSearch:
         pool: Where it began.
         nodes: Cells that were looked at.
         open_fraction, proved_fraction: Shares of the root: still to be looked at, and proved.
+        split_axes, refusal: As of :class:`holdfast.certificates.target_boxes.jobs.TargetBoxResult`.
+        is_settled: Nothing is to be looked for here.
+        warning: Of targets of which no configuration was found.
     """
 
     def __init__(
@@ -55,6 +57,8 @@ class TargetBoxSearch:
     ) -> None:
         self.reach, self.root, self.halvings = reach, root, np.broadcast_to(halvings, len(root))
         self.rng, self.tree, self.nodes = np.random.default_rng(seed), BisectionTree(), 0
+        self.split_axes, self.refusal, self.warning, self.is_settled = tuple[int, ...](), "", "", False
+        self._centers = dict[int, IndexArray]()  # of each proved node, in units of 2^-24 rad
         self.width = root[:, 1] - root[:, 0]
         self.pool = ConfigurationPool(reach, root, self.rng, deadline)
         self.open_fraction = self.proved_fraction = 0.0
@@ -66,18 +70,33 @@ class TargetBoxSearch:
         zeros = np.zeros(1, dtype=np.int64)
         self._enqueue_cells(CellBatch(root_index, root_index, zeros, start, zeros), np.ones(1))
 
+    @property
+    def state(self) -> SearchState:
+        """Progress, as fractions of the root."""
+        open_fraction = min(max(self.open_fraction, 0.0), 1.0)
+        remainder = max(1 - open_fraction - self.proved_fraction, 0.0)
+        return SearchState(
+            proved=self.proved_fraction, undecided=remainder, open=open_fraction, nodes=self.nodes, warning=self.warning
+        )
+
+    @property
+    def centers(self) -> IndexArray:
+        """Centers (leaves, n) of the proved nodes, in pre-order."""
+        nodes = [node for node in self.tree.preorder_nodes() if self.tree.tokens[node] == PROVED_TOKEN]
+        return np.array([self._centers[node] for node in nodes], dtype=np.int64).reshape(-1, self.reach.n)
+
     def run(
         self,
         deadline: float = np.inf,
         should_stop: Callable[[], bool] = lambda: False,
-        report_closed: FractionCallback = lambda closed: None,
+        report_progress: Callable[[], None] = lambda: None,
     ) -> bool:
         """Search down to the smallest cells, the most promising first, until a monotonic time or a stop request.
 
         Args:
             deadline: ``monotonic``.
             should_stop: Asked before each batch of cells.
-            report_closed: Is told what share of the root is closed, of each batch.
+            report_progress: Called after each batch of cells.
 
         Returns:
             Whether nothing is left to do.
@@ -92,7 +111,7 @@ class TargetBoxSearch:
             batch = [heappop(self._open_cells) for _ in range(min(_BATCH_CELLS, len(self._open_cells)))]
             _, node_ids, *columns, barren = map(np.array, zip(*batch, strict=True))
             self._process_cells(CellBatch(columns[0], columns[1], node_ids, columns[2], barren))
-            report_closed(1 - self.open_fraction)
+            report_progress()
         return not self._open_cells
 
     def _retry_abandoned(self, deadline: float) -> bool:
@@ -102,10 +121,8 @@ class TargetBoxSearch:
         They cannot be proved, or all that was near them was bad: configurations are drawn for them alone.
         """
         cells = self.tree.merge_undecided_siblings(CellBatch.concatenate(self._abandoned_cells))
-        order, retry_count = (
-            self.rng.permutation(len(cells.name)),
-            _FIRST_RETRY_CELLS if self._retry_goal is None else len(cells.name),
-        )
+        order = self.rng.permutation(len(cells.name))
+        retry_count = _FIRST_RETRY_CELLS if self._retry_goal is None else len(cells.name)
         if cells.root_fraction > _MAX_RETRY_FRACTION if self._retry_goal is None else self.proved_fraction <= self._retry_goal:
             self._abandoned_cells = [cells]
             return False
@@ -137,105 +154,69 @@ class TargetBoxSearch:
         """Examine a batch of cells: proved cells become leaves, the others are halved and queued."""
         self.nodes += len(cells.name)
         self.open_fraction -= cells.root_fraction
-        scale = 0.5 ** (cells.depth + 1)
+        scale, has_width = 0.5 ** (cells.depth + 1), self.width > 0
         half, center = self.width * scale, self.root[:, 0] + self.width * (2 * cells.place + 1) * scale
-        q, is_proved, fractions = self._test_configurations(cells.q, center, half)
-        smallest = np.asarray((cells.depth >= self.halvings)[:, self.width > 0].all(axis=1))
-        self._try_pool(q, is_proved, fractions, smallest, center, half)
-        self._try_self_motions(q, is_proved, fractions, smallest, center, half)
+        is_smallest = np.asarray((cells.depth >= self.halvings)[:, has_width].all(axis=1))
+        trials = _CellTrials(center, half, is_smallest, *self._test_configurations(cells.q, center, half))
+        self._try_pool(trials)
+        self._try_self_motions(trials)
+        q, is_proved, fractions = trials.q, trials.is_proved, trials.fractions
         center_units = np.round(q / CENTER_UNIT).astype(np.int64)
         center_units[:, ~self.reach.free] = 0
         self.proved_fraction += cells.select(np.flatnonzero(is_proved)).root_fraction
-        for index in np.flatnonzero(is_proved):
-            self.tree.mark_proved(int(cells.name[index]), center_units[index])
+        self.tree.tokens[cells.name[is_proved]] = PROVED_TOKEN
+        self._centers |= zip(cells.name[is_proved].tolist(), center_units[is_proved], strict=True)
         self.pool.add_configurations(center[is_proved], q[is_proved])
         # Where no configuration comes nearer to the middle than the cell is wide, and none is known of another part of it, none
         # is looked for in its parts.
         distances, orientation_errors = self.reach.measure_pose_error(q, center[:, : self.reach.axes]).T
-        half_angles = half[:, self.reach.axes :].sum(axis=1)
-        is_unreachable = distances > 2 * (
-            np.linalg.norm(half[:, : self.reach.linear], axis=1) + half_angles * self.reach.max_lock_displacement_rate
-        )
+        extents = np.linalg.norm(half[:, : self.reach.linear], axis=1)
+        extents = extents + half[:, self.reach.axes :].sum(axis=1) * self.reach.max_lock_displacement_rate
+        is_unreachable = distances > 2 * extents
         is_unreachable |= orientation_errors > 2 * half[:, self.reach.linear :].sum(axis=1) + _ORIENTATION_SLACK_RAD
         is_unreachable[is_unreachable] = ~self.pool.has_configuration_nearby(center[is_unreachable], half[is_unreachable])
         # Nor in small cells after nothing was proved of as many around each other as there are axes.
         barren = np.where(fractions > 0, 0, cells.barren + 1)
-        axis_count = int((self.width > 0).sum())
-        is_unreachable |= (barren >= axis_count) & (
-            cells.depth.sum(axis=1) >= _SMALL_CELL_FRACTION * self.halvings[self.width > 0].sum()
-        )
-        split_rows = np.flatnonzero(~is_proved & ~smallest & ~is_unreachable)
-        if (abandoned := np.flatnonzero(~is_proved & (smallest | is_unreachable))).size:
+        is_small = cells.depth.sum(axis=1) >= _SMALL_CELL_FRACTION * self.halvings[has_width].sum()
+        is_unreachable |= (barren >= has_width.sum()) & is_small
+        split_rows = np.flatnonzero(~is_proved & ~is_smallest & ~is_unreachable)
+        if (abandoned := np.flatnonzero(~is_proved & (is_smallest | is_unreachable))).size:
             self._abandoned_cells.append(cells.select(abandoned))
-        remaining = cells.select(split_rows)
-        remaining.q, remaining.barren = q[split_rows], barren[split_rows]
+        remaining = replace(cells.select(split_rows), q=q[split_rows], barren=barren[split_rows])
         form = TaylorForm.expand_at(self.reach, remaining.q, center[split_rows, : self.reach.axes])
-        axis = form.choose_split_axis(half[split_rows], (remaining.depth < self.halvings) & (self.width > 0))
+        axis = form.choose_split_axis(half[split_rows], (remaining.depth < self.halvings) & has_width)
         self._enqueue_cells(self.tree.halve_cells(remaining, axis), np.repeat(fractions[split_rows], 2))
 
-    def _try_pool(
-        self,
-        q: FloatArray,
-        is_proved: BoolArray,
-        fractions: FloatArray,
-        smallest: BoolArray,
-        center: FloatArray,
-        half: FloatArray,
-    ) -> None:
-        """Try in place the configurations that prove most near each cell, and for weak cells also the nearest of the pool."""
-        open_rows = np.flatnonzero(~is_proved)
-        best = self.pool.find_best_configurations(center[open_rows])
+    def _try_pool(self, trials: _CellTrials) -> None:
+        """Try the configurations that prove most near each cell, and for weak cells also the nearest of the pool."""
+        open_rows = np.flatnonzero(~trials.is_proved)
+        best = self.pool.find_best_configurations(trials.center[open_rows])
         if len(best):
-            self._replace_weaker_configurations(q, is_proved, fractions, open_rows, best, center, half)
-        weak_rows = np.flatnonzero(~is_proved & ((fractions < _HOPELESS_FRACTION) | smallest))
-        candidates = self.pool.find_nearest_configurations(center[weak_rows], _POOL_TRIALS[1])
+            self._replace_weaker_configurations(trials, open_rows, best)
+        weak_rows = np.flatnonzero(~trials.is_proved & ((trials.fractions < _HOPELESS_FRACTION) | trials.is_smallest))
+        candidates = self.pool.find_nearest_configurations(trials.center[weak_rows], _POOL_TRIALS[1])
         for rank in range(candidates.shape[1]):
-            remaining = ~is_proved[weak_rows] & (
-                (fractions[weak_rows] < _HOPELESS_FRACTION) & (rank < _POOL_TRIALS[0]) | smallest[weak_rows]
-            )
+            is_weak = (trials.fractions[weak_rows] < _HOPELESS_FRACTION) & (rank < _POOL_TRIALS[0])
+            remaining = ~trials.is_proved[weak_rows] & (is_weak | trials.is_smallest[weak_rows])
             if remaining.any():
-                self._replace_weaker_configurations(
-                    q, is_proved, fractions, weak_rows[remaining], candidates[remaining, rank], center, half
-                )
+                self._replace_weaker_configurations(trials, weak_rows[remaining], candidates[remaining, rank])
 
-    def _try_self_motions(
-        self,
-        q: FloatArray,
-        is_proved: BoolArray,
-        fractions: FloatArray,
-        smallest: BoolArray,
-        center: FloatArray,
-        half: FloatArray,
-    ) -> None:
-        """Try in place configurations on the self-motions of cells that are nearly proved, not proved at all, or smallest."""
+    def _try_self_motions(self, trials: _CellTrials) -> None:
+        """Try configurations on the self-motions of cells that are nearly proved, not proved at all, or smallest."""
         for _ in range(_SELF_MOTION_TRIALS * self.reach.is_redundant):
-            open_rows = np.flatnonzero(~is_proved & ((fractions > _PROMISING_FRACTION) | smallest | (fractions == 0)))
+            is_tried = (trials.fractions > _PROMISING_FRACTION) | trials.is_smallest | (trials.fractions == 0)
+            open_rows = np.flatnonzero(~trials.is_proved & is_tried)
             if not open_rows.size:
                 break
-            self._replace_weaker_configurations(
-                q, is_proved, fractions, open_rows, step_self_motion(self.reach, q[open_rows], self.rng), center, half
-            )
+            self._replace_weaker_configurations(trials, open_rows, step_self_motion(self.reach, trials.q[open_rows], self.rng))
 
-    def _replace_weaker_configurations(
-        self,
-        q: FloatArray,
-        is_proved: BoolArray,
-        fractions: FloatArray,
-        rows: NDArray[np.intp],
-        initial: FloatArray,
-        center: FloatArray,
-        half: FloatArray,
-    ) -> None:
-        """Replace in place the configurations of cells where other starting points prove more."""
-        candidates, now_proved, new_fractions = self._test_configurations(
-            initial, center[rows], half[rows], np.minimum(fractions[rows], _RECENTER_FRACTION)
-        )
-        improved = now_proved | (new_fractions > fractions[rows])
-        q[rows[improved]], is_proved[rows[improved]], fractions[rows[improved]] = (
-            candidates[improved],
-            now_proved[improved],
-            new_fractions[improved],
-        )
+    def _replace_weaker_configurations(self, trials: _CellTrials, rows: IndexArray, initial: FloatArray) -> None:
+        """Replace the configurations of cells where other starting points prove more."""
+        minimum = np.minimum(trials.fractions[rows], _RECENTER_FRACTION)
+        q, is_proved, fractions = self._test_configurations(initial, trials.center[rows], trials.half[rows], minimum)
+        improved = is_proved | (fractions > trials.fractions[rows])
+        trials.q[rows[improved]], trials.is_proved[rows[improved]] = q[improved], is_proved[improved]
+        trials.fractions[rows[improved]] = fractions[improved]
 
     def _test_configurations(
         self, q: FloatArray, center: FloatArray, half: FloatArray, minimum: FloatArray | None = None
@@ -245,11 +226,14 @@ class TargetBoxSearch:
 
         ``minimum`` (N,): Less than that is told to be that.
         """
-        targets = center[:, : self.reach.axes]
-        q = self._round_free_joints(
-            self.reach.solve_inverse_kinematics(self.reach.set_nonfree_joints(q, center), targets), center
-        )
-        form = TaylorForm.expand_at(self.reach, q, targets)
+        reach, targets = self.reach, center[:, : self.reach.axes]
+
+        def solve_and_round(q: FloatArray, rows: Any, *options: Any) -> FloatArray:
+            q = reach.solve_inverse_kinematics(q, targets[rows], *options)
+            return reach.set_nonfree_joints(np.round(q / CENTER_UNIT) * CENTER_UNIT, center[rows])
+
+        q = solve_and_round(reach.set_nonfree_joints(q, center), slice(None))
+        form = TaylorForm.expand_at(reach, q, targets)
         is_proved = form.is_cell_proved(half)
         fractions = is_proved.astype(float)
         open_rows = np.flatnonzero(~is_proved)
@@ -258,25 +242,32 @@ class TargetBoxSearch:
                 half[open_rows], None if minimum is None else minimum[open_rows]
             )
             # The error in the middle may cancel half of the curvature.
-            nearly_proved = open_rows[fractions[open_rows] > _RECENTER_FRACTION]
-            form, zeros = form.select(nearly_proved), np.zeros((nearly_proved.size, self.reach.m))
-            upper_error, lower_error, _ = form.bound_error_and_travel(half[nearly_proved], zeros)
-            upper_error, lower_error, _ = form.bound_error_and_travel(half[nearly_proved], np.maximum(upper_error, lower_error))
-            recentered = self._round_free_joints(
-                self.reach.solve_inverse_kinematics(
-                    q[nearly_proved], targets[nearly_proved], 3, (lower_error - upper_error) / 2
-                ),
-                center[nearly_proved],
-            )
-            now_proved = TaylorForm.expand_at(self.reach, recentered, targets[nearly_proved]).is_cell_proved(
-                half[nearly_proved]
-            )
-            q[nearly_proved[now_proved]], is_proved[nearly_proved[now_proved]], fractions[nearly_proved[now_proved]] = (
-                recentered[now_proved],
-                True,
-                1.0,
-            )
+            rows = open_rows[fractions[open_rows] > _RECENTER_FRACTION]
+            form = form.select(rows)
+            upper_error, lower_error, _ = form.bound_error_and_travel(half[rows], np.zeros((rows.size, reach.m)))
+            upper_error, lower_error, _ = form.bound_error_and_travel(half[rows], np.maximum(upper_error, lower_error))
+            recentered = solve_and_round(q[rows], rows, 3, (lower_error - upper_error) / 2)
+            now_proved = TaylorForm.expand_at(reach, recentered, targets[rows]).is_cell_proved(half[rows])
+            rows = rows[now_proved]
+            q[rows], is_proved[rows], fractions[rows] = recentered[now_proved], True, 1.0
         return q, is_proved, fractions
 
-    def _round_free_joints(self, q: FloatArray, center: FloatArray) -> FloatArray:
-        return self.reach.set_nonfree_joints(np.round(q / CENTER_UNIT) * CENTER_UNIT, center)
+
+@dataclass(eq=False)
+class _CellTrials:
+    """Cells, and what the best configuration that was tried proves of each.
+
+    Attributes:
+        center, half: (N, A) middles and half widths.
+        is_smallest: (N,) whether no axis may be halved.
+        q: (N, n) the configurations.
+        is_proved: (N,) whether they prove the cells.
+        fractions: (N,) proved fractions, by width.
+    """
+
+    center: FloatArray
+    half: FloatArray
+    is_smallest: BoolArray
+    q: FloatArray
+    is_proved: BoolArray
+    fractions: FloatArray

@@ -1,16 +1,17 @@
-"""Cells of lock instants and path, and the enclosures in them."""
+"""Slabs of lock instants, cells of the path behind them, and the enclosures in these cells."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from holdfast.certificates.tree import RowBatch
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 SEGMENT_INSTANTS = 1 << 20  # instants to a segment
 PATH_CENTER_UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
+_MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # of cells, or a quarter of their slab
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +39,7 @@ class PathCellBatch:
 
 
 @dataclass(frozen=True, eq=False)
-class PathFormBatch:
+class PathFormBatch(RowBatch):
     """Enclosures in N cells, each with one column for each coordinate: lock, path, tube, section.
 
     Attributes:
@@ -59,28 +60,70 @@ class PathFormBatch:
     only: FloatArray
     good: BoolArray
 
-    def select(self, rows: IndexArray) -> PathFormBatch:
-        """Return the forms of some rows."""
-        return PathFormBatch(*(getattr(self, field.name)[rows] for field in fields(self)))
-
     @classmethod
     def make_zero_form(cls, n: int, m: int, coordinate_count: int) -> PathFormBatch:
         """Make the empty form of one cell."""
-        response, half = np.zeros((1, m + 1, coordinate_count)), np.zeros((1, coordinate_count))
-        flags = np.zeros(1, dtype=bool)
-        return cls(np.zeros((1, n)), np.zeros(1), flags, response, half, np.zeros((1, m)), flags)
-
-    @classmethod
-    def concatenate(cls, parts: Sequence[PathFormBatch]) -> PathFormBatch:
-        """Concatenate batches of forms."""
-        return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
-
-    def append(self, others: PathFormBatch) -> PathFormBatch:
-        """Return these forms followed by others."""
-        return PathFormBatch.concatenate([self, others])
+        flags, response = np.zeros(1, dtype=bool), np.zeros((1, m + 1, coordinate_count))
+        return cls(np.zeros((1, n)), np.zeros(1), flags, response, response[:, 0], np.zeros((1, m)), flags)
 
     def replace_rows(self, rows: IndexArray, others: PathFormBatch) -> PathFormBatch:
         """Return the forms with other forms in place of some rows."""
         order = np.arange(len(self.q))
         order[rows] = len(self.q) + np.arange(len(rows))
-        return self.append(others).select(order)
+        return PathFormBatch.concatenate([self, others]).select(order)
+
+
+@dataclass
+class LockSlab:
+    """Lock instants from ``begin`` to ``stop``, with the cells found for them.
+
+    Attributes:
+        begin, stop: Instants in one segment.
+        halvings: That made it.
+        ends: Of its cells, in order; of one that is turned less its half width, in units of the file.
+        centers: (n,) of each, in units of the file; 0 of joints that are not free. Of a cell that is turned, or the next
+            one, that of the locked joint is the place on the path, in instants from the last knot.
+        step: Of the next cell.
+        last_form: In the last of its cells, while it waits.
+    """
+
+    begin: int
+    stop: int
+    halvings: int = 0
+    ends: list[int] = field(default_factory=list)
+    centers: list[IndexArray] = field(default_factory=list)
+    step: int = 0
+    last_form: PathFormBatch | None = None
+
+    @property
+    def restarted_slab(self) -> LockSlab:
+        """The slab without cells, whose first cell is as long as the slab."""
+        return LockSlab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
+
+    @property
+    def halves(self) -> list[LockSlab]:
+        """The two halves of the slab."""
+        middle = (self.begin + self.stop) // 2
+        return [
+            LockSlab(begin, stop, self.halvings + 1).restarted_slab
+            for begin, stop in ((self.begin, middle), (middle, self.stop))
+        ]
+
+    @property
+    def at(self) -> int:
+        """Instant up to which the path is proved."""
+        return self.ends[-1] if self.ends else self.begin
+
+    @property
+    def next(self) -> int:
+        """Instant at which the next cell ends."""
+        return self.at + self.step
+
+    @property
+    def has_shortest_step(self) -> bool:
+        """True if the next cell may not be shorter."""
+        return not self.ends or self.step <= max(1, min(_MIN_CELL_INSTANTS, (self.stop - self.begin) // 4))
+
+    def lengthen_step(self) -> None:
+        """Lengthen the next step, at most to twice its length, so that cells are binary fractions of a segment."""
+        self.step = min(2 * self.step, self.at & -self.at, SEGMENT_INSTANTS)

@@ -94,15 +94,10 @@ def path_claim(
         require_planar(arm, "a planar pose is")
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, len(TASK_ROWS[task]), task, tuple((joint,) for joint in locks))
-    configurations = require_real_numbers(
-        getattr(motion, "q", motion), "motion", f"configurations, (K + 1, {arm.n}), rad and m"
-    )
-    if (
-        configurations.ndim != 2
-        or configurations.shape[1] != arm.n
-        or len(configurations) < 2
-        or not np.isfinite(configurations).all()
-    ):
+    wanted = f"configurations, (K + 1, {arm.n}), rad and m"
+    configurations = require_real_numbers(getattr(motion, "q", motion), "motion", wanted)
+    is_motion = configurations.ndim == 2 and configurations.shape[1] == arm.n and len(configurations) >= 2
+    if not is_motion or not np.isfinite(configurations).all():
         raise InputError(
             f"a motion needs two configurations or more of {arm.n} finite numbers, not an array of {configurations.shape}"
         )
@@ -111,10 +106,9 @@ def path_claim(
             f"a joint of the motion is at {np.abs(configurations).max():.3g} rad or m; for certificates of paths "
             f"{_MAX_JOINT_VALUE:g} is most"
         )
-    outside = ((configurations < arm.lower) | (configurations > arm.upper)).any(axis=1)
-    if outside.any():
-        row = int(np.flatnonzero(outside)[0])
-        joint = int(np.flatnonzero((configurations[row] < arm.lower) | (configurations[row] > arm.upper))[0])
+    outside = np.argwhere((configurations < arm.lower) | (configurations > arm.upper))
+    if outside.size:
+        row, joint = outside[0].tolist()
         raise InputError(f"configuration {row + 1} of the motion is beyond the limits of {arm.joint_names[joint]}")
     knots = configurations
     if segments is not None:

@@ -7,13 +7,14 @@ here is doubles and may be wrong: the verifier decides.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.tool_derivatives import (
     axial_vector,
     axial_vector_jacobian,
@@ -23,30 +24,25 @@ from holdfast.certificates.tool_paths.tool_derivatives import (
     tangents_and_pseudo_inverses,
     transverse_axes,
 )
+from holdfast.certificates.tree import RowBatch
+from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-# _SECTION_ROUNDS and _TIGHTENING_ROUNDS: of the section box: wider until it does, then narrower
-_SECTION_ROUNDS = 30
-_TIGHTENING_ROUNDS = 6
-# _VERIFIER_MARGIN and _MIN_SLACK: of what the verifier must be able to show
-_VERIFIER_MARGIN = 1.003
-_MIN_SLACK = 1e-9
-# _MIN_ROTATION_TRACE and _MAX_ROTATION_CHANGE_RAD: of rotations: the trace in the middle, and what is turned from there
-_MIN_ROTATION_TRACE = 2.91
-_MAX_ROTATION_CHANGE_RAD = 1.19
+_SECTION_ROUNDS = 30  # of the section box, each wider until it does
+_TIGHTENING_ROUNDS = 6  # then narrower
+_VERIFIER_MARGIN = 1.003  # of what the verifier must be able to show
+_MIN_SLACK = 1e-9  # likewise, m and rad
+_MIN_ROTATION_TRACE = 2.91  # of rotations, in the middle
+_MAX_ROTATION_CHANGE_RAD = 1.19  # of rotations, from there
 _UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
 _ENCLOSURE_NEWTON_STEPS = 6
 _NEWTON_TOLERANCE = 1e-10
-_SECTION_FRACTION = (
-    0.4  # of a box with one solution: so narrow must that be in which it is found, for the next cell to take it over
-)
-# _FIRST_STEP_INSTANTS, _MAX_STEP_INSTANTS and _MIN_STEP_INSTANTS: instants, of the look ahead
-_FIRST_STEP_INSTANTS = SEGMENT_INSTANTS >> 8
+_SECTION_FRACTION = 0.4  # of a box with one solution: the part in which it is found, for the next cell to take it over
+_FIRST_STEP_INSTANTS = SEGMENT_INSTANTS >> 8  # of the look ahead
 _MAX_STEP_INSTANTS = SEGMENT_INSTANTS >> 1
 _MIN_STEP_INSTANTS = SEGMENT_INSTANTS >> 14
-# _TRACKING_TOLERANCE and _MAX_JOINT_JUMP: m and rad
-_TRACKING_TOLERANCE = 1e-6
-_MAX_JOINT_JUMP = 0.3
+_TRACKING_TOLERANCE = 1e-6  # m and rad
+_MAX_JOINT_JUMP = 0.3  # rad and m
 _MAX_SECTION_SIZE = 10.0  # m and rad: no section box is so wide
 
 
@@ -60,27 +56,29 @@ class LockedTrackingEnclosure:
         driven: The locked joint, then those that go on with the healthy motion.
         tube: (m,) half widths, m and rad; or none, (0,).
         limits: (n, 2) rad and m.
-        slides: (n,) which joints slide.
     """
 
     def __init__(
-        self,
-        chain: CertificateChain,
-        knots: FloatArray,
-        task: str,
-        *,
-        driven: list[int],
-        tube: FloatArray,
-        limits: FloatArray,
-        slides: BoolArray,
+        self, chain: CertificateChain, knots: FloatArray, task: str, *, driven: list[int], tube: FloatArray, limits: FloatArray
     ) -> None:
         self.chain, self.knots, self.driven, self.tube, self.limits = chain, knots, driven, tube, limits
-        self.n, self.slides, self._rows = knots.shape[1], slides, TASK_ROWS[task]
+        self.n, self.slides, self._rows = knots.shape[1], chain.slides, TASK_ROWS[task]
         self.m = len(self._rows)
         self.uses_rotation, self._pointing = self._rows[-1] > 2, task == "pointing"
         self.free = [joint for joint in range(self.n) if joint not in driven]
         self._linear = sum(row < 3 for row in self._rows)
-        self._revolute = np.tile(~slides, 2).astype(float)
+        self._revolute = np.tile(~chain.slides, 2).astype(float)
+
+    @classmethod
+    def from_claim(cls, claim: PathClaim, driven: list[int], tube: FloatArray) -> LockedTrackingEnclosure:
+        """Enclose the arm of a claim on its motion."""
+        chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
+        return cls(chain, claim.knots, claim.task, driven=driven, tube=tube, limits=limits)
+
+    @cached_property
+    def empty_form(self) -> PathFormBatch:
+        """Form of one cell that encloses nothing."""
+        return PathFormBatch.make_zero_form(self.n, self.m, 2 + len(self.tube) + self.m)
 
     def healthy_joints_and_rates(
         self, doubled_instants: IndexArray, rate_instants: IndexArray
@@ -108,9 +106,12 @@ class LockedTrackingEnclosure:
             error, jacobian = self.tracking_error_and_jacobian(tool_state, target)
             if np.abs(error).max(initial=0.0) < _NEWTON_TOLERANCE:
                 break
-            q[:, self.free] -= np.clip(solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
+            q[:, self.free] -= self._newton_step(error, jacobian)
         q[:, self.free] = np.round(q[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
         return q
+
+    def _newton_step(self, error: FloatArray, jacobian: FloatArray) -> FloatArray:
+        return np.clip(solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5)
 
     def enclose_cell_motions(self, q: FloatArray, cells: PathCellBatch) -> PathFormBatch:
         """Enclose the motion around the centers q (N, n) of cells."""
@@ -124,25 +125,16 @@ class LockedTrackingEnclosure:
         directions = np.zeros((len(q), 2 * n, 2 + tube + m))
         path_motion = path_rate[:, :, None] * response[:, -1:]
         directions[:, self.driven[0], 0] = lock_rate[:, self.driven[0]]
-        directions[:, self.driven[1:]], directions[:, n:], directions[:, self.free] = (
-            path_motion[:, self.driven[1:]],
-            path_motion,
-            response[:, :-1],
-        )
+        directions[:, self.driven[1:]], directions[:, n:] = path_motion[:, self.driven[1:]], path_motion
+        directions[:, self.free] = response[:, :-1]
         second = self._error_hessian(tool_state, target, directions)
-        residual = np.abs(
-            gradients @ directions - np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1)
-        )
+        desired = np.concatenate([np.zeros((m, 2)), *[np.eye(m)] * (2 if tube else 1)], axis=1)
         half = np.concatenate([cells.half_widths, np.tile(self.tube, (len(q), 1)), np.zeros((len(q), m))], axis=1)
         positions = np.concatenate([q, goal], axis=1)
         bounds = _CellBounds(
-            error,
-            np.abs(directions),
-            residual,
-            np.abs(second),
-            np.einsum("nacc->nac", second),
-            np.abs(positions) * (1 - self._revolute),
-        )
+            error=error, reach=np.abs(directions), left=np.abs(gradients @ directions - desired), second=np.abs(second),
+            own=np.einsum("nacc->nac", second), out=np.abs(positions) * (1 - self._revolute),
+        )  # fmt: skip
         closed, joint_travel, angle = self._find_invariant_section_boxes(bounds, half)
         s = half[:, -m:]
         unique_box, is_unique = np.zeros_like(s), np.zeros(len(q), dtype=bool)
@@ -158,9 +150,8 @@ class LockedTrackingEnclosure:
         closed &= (s < _SECTION_FRACTION * unique_box).all(axis=1)
         is_valid = closed & is_unique & ((q[:, self.free] - travel >= lower) & (q[:, self.free] + travel <= upper)).all(axis=1)
         if self.uses_rotation:
-            is_valid &= (angle < _MAX_ROTATION_CHANGE_RAD) & (
-                self.compute_rotation_trace(tool_state, target) > _MIN_ROTATION_TRACE
-            )
+            is_valid &= angle < _MAX_ROTATION_CHANGE_RAD
+            is_valid &= self.compute_rotation_trace(tool_state, target) > _MIN_ROTATION_TRACE
         path_position = (cells.start + cells.end) / (2 * SEGMENT_INSTANTS)
         if (tangent_rows := np.flatnonzero(is_tangent)).size:
             overshoot = (path_position - (cells.end - 1) // SEGMENT_INSTANTS - 1)[tangent_rows]
@@ -185,18 +176,23 @@ class LockedTrackingEnclosure:
         response[:, :-1, :2] = -inverse @ np.stack([drift, path_gradient], axis=2)
         response[:, :-1, 2:] = np.concatenate([inverse] * (2 if tube else 1), axis=2)
         if is_tangent.any():
-            tangent, pseudo_inverse = tangents_and_pseudo_inverses(
-                np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)[is_tangent]
-            )
+            matrices = np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)[is_tangent]
+            tangent, pseudo_inverse = tangents_and_pseudo_inverses(matrices)
             # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
             lock_speed = (tangent[:, :-1] * lock_rate[is_tangent][:, self.free]).sum(axis=1) + tangent[:, -1]
-            response[is_tangent, :, 0] = tangent * lock_speed[:, None] - np.einsum(
-                "nkm,nm->nk", pseudo_inverse, drift[is_tangent]
-            )
+            drifts = np.einsum("nkm,nm->nk", pseudo_inverse, drift[is_tangent])
+            response[is_tangent, :, 0] = tangent * lock_speed[:, None] - drifts
             response[is_tangent, :, 1], response[is_tangent, :, 2:] = tangent, pseudo_inverse
         return response
 
-    def contains_lock_configurations(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
+    def continue_motion(
+        self, is_first: BoolArray, previous: PathFormBatch, forms: PathFormBatch, cells: PathCellBatch
+    ) -> BoolArray:
+        """Return a mask of valid cells whose solution is that of the previous cell, or of the lock instants for first cells."""
+        continues = self._continues_previous_solution(previous, forms)
+        return np.asarray(forms.good & np.where(is_first, self._contains_lock_configurations(forms, cells), continues))
+
+    def _contains_lock_configurations(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
         """Return a mask of cells whose solutions contain the configurations at all lock instants of their slabs."""
         q, rate = (values[:, self.free] for values in self.healthy_joints_and_rates(cells.begin + cells.stop, cells.stop))
         start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT_INSTANTS)])
@@ -204,7 +200,7 @@ class LockedTrackingEnclosure:
         offsets = (departure - forms.own[:, :, 0]) * forms.half[:, :1]
         return self._is_in_unique_box(start, offsets[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
-    def continues_previous_solution(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
+    def _continues_previous_solution(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
         """Return a mask of cells whose solution is that of the previous cell, on the face where the previous cell ends."""
         end_q, end_position = self.cell_end_configurations(previous)
         columns = [column for column in range(previous.half.shape[1] - self.m) if column != 1]
@@ -255,11 +251,10 @@ class LockedTrackingEnclosure:
             path_gradient += np.einsum("nmk,nk->nm", jacobian[:, :, self.driven[1:]], path_rate[:, self.driven[1:]])
             extended = np.concatenate([jacobian[:, :, self.free], path_gradient[:, :, None]], axis=2)
             transposed = extended.transpose(0, 2, 1)
-            step = (
-                tangents_and_pseudo_inverses(extended)[0] * distances[:, None]
-                if iteration == 0
-                else -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
-            )
+            if iteration == 0:
+                step = tangents_and_pseudo_inverses(extended)[0] * distances[:, None]
+            else:
+                step = -(transposed @ solve_regularized(extended @ transposed, error[:, :, None]))[:, :, 0]
             z[:, [*self.free, -1]] += step
             z[:, -1] = np.rint(z[:, -1] * SEGMENT_INSTANTS) / SEGMENT_INSTANTS
         z[:, self.free] = np.round(z[:, self.free] / PATH_CENTER_UNIT) * PATH_CENTER_UNIT
@@ -282,9 +277,7 @@ class LockedTrackingEnclosure:
                 error, jacobian = self.tracking_error_and_jacobian(self.tool_pose_and_jacobian(next_q), target)
                 if np.abs(error).max(initial=0.0) < _TRACKING_TOLERANCE:
                     break
-                next_q[:, self.free] -= np.clip(
-                    solve_regularized(jacobian[:, :, self.free], error[:, :, None])[:, :, 0], -0.5, 0.5
-                )
+                next_q[:, self.free] -= self._newton_step(error, jacobian)
             converged = (np.abs(error) < _TRACKING_TOLERANCE).all(axis=1) & ((next_q >= lower) & (next_q <= upper)).all(axis=1)
             converged &= (np.abs(next_q - q[active]) < _MAX_JOINT_JUMP).all(axis=1)
             q[active[converged]], instants[active[converged]] = next_q[converged], next_instants[converged]
@@ -322,36 +315,31 @@ class LockedTrackingEnclosure:
         error, jacobian = tool_state[0] - target[0], tool_state[3].transpose(0, 2, 1)
         if self.uses_rotation:
             rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
-            angular_error = (
-                (transverse_axes(target) @ tool_state[1][:, :, 2:])[:, :, 0] if self._pointing else axial_vector(rotation_error)
-            )
+            if self._pointing:
+                angular_error = (transverse_axes(target) @ tool_state[1][:, :, 2:])[:, :, 0]
+                angular_jacobian = transverse_axes(target) @ axis_jacobian(tool_state)
+            else:
+                angular_error = axial_vector(rotation_error)
+                angular_jacobian = axial_vector_jacobian(rotation_error) @ tool_state[2].transpose(0, 2, 1)
             error = np.concatenate([error, angular_error], axis=1)
-            angular_jacobian = (
-                transverse_axes(target) @ axis_jacobian(tool_state)
-                if self._pointing
-                else axial_vector_jacobian(rotation_error) @ tool_state[2].transpose(0, 2, 1)
-            )
             jacobian = np.concatenate([jacobian, angular_jacobian], axis=1)
         return error[:, self._rows], jacobian[:, self._rows]
 
     def compute_rotation_trace(self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]) -> FloatArray:
         """Return (N,) 1 + 2 cos of the angle between the tools and their targets."""
+        rotation, wanted = tool_state[1], np.broadcast_to(target[1], tool_state[1].shape)
         if self._pointing:
-            return np.asarray(
-                1 + 2 * np.einsum("ni,ni->n", tool_state[1][:, :, 2], np.broadcast_to(target[1], tool_state[1].shape)[:, :, 2])
-            )
-        return np.asarray(np.einsum("nij,nij->n", tool_state[1], np.broadcast_to(target[1], tool_state[1].shape)))
+            return np.asarray(1 + 2 * np.einsum("ni,ni->n", rotation[:, :, 2], wanted[:, :, 2]))
+        return np.asarray(np.einsum("nij,nij->n", rotation, wanted))
 
     def _healthy_jacobian(self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]) -> FloatArray:
         """Return the Jacobian (N, m, n) of the error by the healthy arm's joints."""
         jacobian = -target[3].transpose(0, 2, 1)
         if self.uses_rotation:
             rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
-            angular_jacobian = (
-                transverse_axes(target) @ axis_jacobian(target)
-                if self._pointing
-                else axial_vector_jacobian(rotation_error) @ rotation_error @ target[2].transpose(0, 2, 1)
-            )
+            angular_jacobian = axial_vector_jacobian(rotation_error) @ rotation_error @ target[2].transpose(0, 2, 1)
+            if self._pointing:
+                angular_jacobian = transverse_axes(target) @ axis_jacobian(target)
             jacobian = np.concatenate([jacobian, -angular_jacobian], axis=1)
         return np.asarray(jacobian[:, self._rows])
 
@@ -361,15 +349,14 @@ class LockedTrackingEnclosure:
         """Return the second derivatives (N, m, c, c) of the error along the columns of ``directions``."""
         n, locked_moves, healthy_moves = self.n, directions[:, : self.n], directions[:, self.n :]
         # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
-        second = directional_second_derivatives(tool_state[2], tool_state[3], locked_moves) - directional_second_derivatives(
-            target[2], target[3], healthy_moves
-        )
+        second = directional_second_derivatives(tool_state[2], tool_state[3], locked_moves)
+        second = second - directional_second_derivatives(target[2], target[3], healthy_moves)
         if self._pointing:
-            axis_terms = (
+            locked_axis, healthy_axis = (
                 directional_second_derivatives(state[2], axis_jacobian(state).transpose(0, 2, 1), moves)
                 for state, moves in ((tool_state, locked_moves), (target, healthy_moves))
             )
-            rows = np.einsum("nri,nicd->nrcd", transverse_axes(target), next(axis_terms) - next(axis_terms))
+            rows = np.einsum("nri,nicd->nrcd", transverse_axes(target), locked_axis - healthy_axis)
             second = np.concatenate([second, rows], axis=1)
         elif self.uses_rotation:
             rotation_error = tool_state[1] @ target[1].transpose(0, 2, 1)
@@ -391,10 +378,8 @@ class LockedTrackingEnclosure:
         """Return the (N, m) remainder after second order; ``slide_extent`` (N, 2n) is the extent of the slides."""
         position_remainder, slide_range = np.zeros(len(joint_travel)), joint_travel * (1 - self._revolute)
         for joints in (slice(0, self.n), slice(self.n, None)):
-            c, max_lengths = (
-                np.cumsum((joint_travel * self._revolute)[:, joints], axis=1),
-                self.chain.lengths + (slide_extent + slide_range)[:, joints],
-            )
+            c = np.cumsum((joint_travel * self._revolute)[:, joints], axis=1)
+            max_lengths = self.chain.lengths + (slide_extent + slide_range)[:, joints]
             position_remainder += (c**3 * max_lengths + 3 * c**2 * slide_range[:, joints]).sum(axis=1) / 6
         rotation_remainder = (joint_travel @ self._revolute) ** 3 / 6
         return np.stack([position_remainder] * self._linear + [rotation_remainder] * (self.m - self._linear), axis=1)
@@ -404,12 +389,8 @@ class LockedTrackingEnclosure:
         and the rotation of the tool.
         """
         count, s = len(half), half[:, -self.m :]
-        closed, joint_travel, angle = (
-            np.zeros(count, dtype=bool),
-            np.full((count, 2 * self.n), _MAX_SECTION_SIZE),
-            np.full(count, _MAX_SECTION_SIZE),
-        )
-        rows = np.arange(count)
+        closed, rows = np.zeros(count, dtype=bool), np.arange(count)
+        joint_travel, angle = np.full((count, 2 * self.n), _MAX_SECTION_SIZE), np.full(count, _MAX_SECTION_SIZE)
         for iteration in range(_SECTION_ROUNDS + _TIGHTENING_ROUNDS):
             if not rows.size and iteration < _SECTION_ROUNDS:  # each is closed, or never will be
                 continue
@@ -418,10 +399,8 @@ class LockedTrackingEnclosure:
             is_closed = (_VERIFIER_MARGIN * excess + _MIN_SLACK <= s[rows]).all(axis=1) & (s[rows] < 1).all(axis=1)
             closed[rows] = is_closed
             if iteration < _SECTION_ROUNDS:
-                rows = rows[~is_closed]
-                s[rows] = np.clip(
-                    np.nan_to_num(1.05 * excess[~is_closed] + 2 * _MIN_SLACK, nan=_MAX_SECTION_SIZE), 0, _MAX_SECTION_SIZE
-                )
+                rows, wider = rows[~is_closed], 1.05 * excess[~is_closed] + 2 * _MIN_SLACK
+                s[rows] = np.clip(np.nan_to_num(wider, nan=_MAX_SECTION_SIZE), 0, _MAX_SECTION_SIZE)
                 rows = rows[(s[rows] < 1).all(axis=1)]
             else:
                 s[rows] = _VERIFIER_MARGIN * excess + 1.01 * _MIN_SLACK
@@ -447,14 +426,11 @@ class LockedTrackingEnclosure:
         response = bounds.reach[:, :, columns]
         for joints in (slice(0, self.n), slice(self.n, None)):
             revolute = self._revolute[joints]
-            c, cumulative = (
-                np.cumsum(joint_travel[:, joints] * revolute, axis=1),
-                np.cumsum(response[:, joints] * revolute[:, None], axis=1),
-            )
+            c = np.cumsum(joint_travel[:, joints] * revolute, axis=1)
+            cumulative = np.cumsum(response[:, joints] * revolute[:, None], axis=1)
             weights = (self.chain.lengths + (bounds.out + slide_range)[:, joints]) * c**2 + 2 * c * slide_range[:, joints]
-            gradients[:, : self._linear] += (
-                weights[:, None] @ cumulative + (c**2 * (1 - revolute))[:, None] @ response[:, joints]
-            ) / 2
+            slides = (c**2 * (1 - revolute))[:, None] @ response[:, joints]
+            gradients[:, : self._linear] += (weights[:, None] @ cumulative + slides) / 2
             angle_gradient += cumulative[:, -1]
         gradients[:, self._linear :] += (angle_gradient * (joint_travel @ self._revolute)[:, None] ** 2 / 2)[:, None]
         return np.asarray(gradients)
@@ -477,7 +453,7 @@ class LockedTrackingEnclosure:
 
 
 @dataclass(frozen=True, eq=False)
-class _CellBounds:
+class _CellBounds(RowBatch):
     """Bounds of cells: errors, response, gradient residual and second derivatives (magnitudes), curvature, slide extents."""
 
     error: FloatArray
@@ -486,7 +462,3 @@ class _CellBounds:
     second: FloatArray
     own: FloatArray
     out: FloatArray
-
-    def select(self, rows: IndexArray) -> _CellBounds:
-        """Return the bounds of some rows."""
-        return _CellBounds(*(getattr(self, field.name)[rows] for field in fields(self)))

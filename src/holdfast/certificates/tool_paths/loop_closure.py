@@ -13,8 +13,8 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection
-from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points
+from holdfast.certificates.joint_boxes.halving import BoxBisection, BoxVerdicts
+from holdfast.certificates.joint_boxes.segments import ChainSegment, find_axis_points, limit_to_one_turn
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
 from holdfast.certificates.tool_paths.claims import PathClaim
@@ -23,12 +23,10 @@ from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 Point = tuple[int, FloatArray]  # link, and where in its frame, m
 
-_DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
 _MAX_PAIRS = 12  # pairs of points
 _MAX_SIMILAR_PAIRS = 2  # of those whose distances depend on the same joints
-# _MAX_TREE_NODES and _MAX_HALVINGS: boxes of a tree, and how often each joint is halved
-_MAX_TREE_NODES = 4000
-_MAX_HALVINGS = 16
+_MAX_TREE_NODES = 4000  # boxes of a tree
+_MAX_HALVINGS = 16  # of each joint
 _PATH_SAMPLES = 8  # on the path, where the tool is looked for
 # _RANDOM_STARTS, _NEWTON_STEPS and _TARGET_TOLERANCE: of Newton's method; m and rad
 _RANDOM_STARTS = 40
@@ -72,13 +70,8 @@ class _LoopBranch:
     @classmethod
     def from_loop(cls, loop: CertificateChain, first: int, last: int, start: FloatArray, end: FloatArray) -> _LoopBranch:
         """Cut successive joints out of a loop."""
-        segment = ChainSegment.from_chain(loop, first, last, end)
-        return cls(
-            segment,
-            np.arange(first, last) % (len(loop.lengths) // 2),
-            start,
-            np.arange(last - first) >= segment.count_leading_axes_through(start),
-        )
+        segment, joints = ChainSegment.from_chain(loop, first, last, end), np.arange(first, last) % (len(loop.lengths) // 2)
+        return cls(segment, joints, start, np.arange(last - first) >= segment.count_leading_axes_through(start))
 
     def bound_distance(
         self, middle: FloatArray, half: FloatArray, from_above: bool
@@ -91,10 +84,9 @@ class _LoopBranch:
             distance = np.full(count, np.linalg.norm(self.segment.end - self.start))
             return distance, distance, joint_costs
         q, half_range = middle[:, self.joints], half[:, self.joints] * self.moves
+        bound_distance = self.segment.upper_distance_bound if from_above else self.segment.lower_distance_bound
         starts, zeros = np.broadcast_to(self.start, (count, 3)), np.zeros((count, 3))
-        bound, center_distance, costs = (
-            self.segment.upper_distance_bound if from_above else self.segment.lower_distance_bound
-        )(q, half_range, starts, zeros)
+        bound, center_distance, costs = bound_distance(q, half_range, starts, zeros)
         if from_above:
             costs = costs / np.maximum(center_distance, 1e-9)[:, None]
         joint_costs[:, self.joints] = costs[:, : len(self.joints)]
@@ -112,24 +104,20 @@ class LoopClosureExclusion:
 
     def __init__(self, enclosure: LockedTrackingEnclosure, uses_rotation: bool, planar: bool) -> None:
         self._enclosure, self._uses_rotation, chain = enclosure, uses_rotation, enclosure.chain
-        self._chain = replace(chain, origins=chain.origins * np.array([1, 1, not planar]))
-        self._joint, self._limits, half_turn = enclosure.driven[0], enclosure.limits.copy(), np.nextafter(np.pi, 4)
-        self._limits[~chain.slides & (self._limits[:, 1] - self._limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
-        self._path_end, self._plane_mask = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS, np.array([1, 1, not planar])
+        self._plane_mask = np.array([1, 1, not planar])
+        self._chain = replace(chain, origins=chain.origins * self._plane_mask)
+        self._joint, self._limits = enclosure.driven[0], limit_to_one_turn(enclosure.limits, chain.slides)
+        self._path_end = self._last_position = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
         self._rng = np.random.default_rng(_RANDOM_SEED)
         self.points, self.pairs = self._choose_pairs()
-        self._last_position = self._path_end
 
     def _choose_pairs(self) -> tuple[list[Point], list[tuple[int, int]]]:
         """Choose points of links, and pairs of them whose distances depend on few joints."""
         chain, n = self._chain, self._enclosure.n
         axis_points = find_axis_points(chain, self._limits, self._rng)
         scale = float(chain.lengths.mean())
-        points = (
-            [*axis_points, *((link, position + scale * chain.rotations[link][:, 2]) for link, position in axis_points)]
-            if self._uses_rotation
-            else axis_points
-        )
+        others = [(link, position + scale * chain.rotations[link][:, 2]) for link, position in axis_points]
+        points = [*axis_points, *others] if self._uses_rotation else axis_points
         points = [*sorted(points, key=lambda point: point[0]), (n, chain.origins[-1])]
         q = self._rng.uniform(self._limits[:, 0], self._limits[:, 1], (8, n))
         candidates = list[tuple[int, bytes, tuple[int, int]]]()
@@ -144,7 +132,7 @@ class LoopClosureExclusion:
             if depends_on.any():
                 candidates.append((int(depends_on.sum()), depends_on.tobytes(), (i, j)))
         pairs, seen = list[tuple[int, int]](), list[bytes]()
-        for _, signature, pair in sorted(candidates, key=lambda candidate: (candidate[0], candidate[1])):
+        for _, signature, pair in sorted(candidates, key=lambda candidate: candidate[:2]):
             if seen.count(signature) < _MAX_SIMILAR_PAIRS and len(pairs) < _MAX_PAIRS:
                 seen.append(signature)
                 pairs.append(pair)
@@ -155,32 +143,24 @@ class LoopClosureExclusion:
         instant.
         """
         chain, n, ((first, a), (last, b)) = self._chain, self._enclosure.n, (points[index] for index in pair)
-        position, rotation = (
-            values[0]
-            for values in self._enclosure.tool_pose_and_jacobian(
-                self._enclosure.healthy_joints_and_rates(np.array([2 * path_instant]), np.array([path_instant]))[0]
-            )[:2]
-        )
+        q, _ = self._enclosure.healthy_joints_and_rates(np.array([2 * path_instant]), np.array([path_instant]))
+        position, rotation = (values[0] for values in self._enclosure.tool_pose_and_jacobian(q)[:2])
         base_rotation = chain.rotations[n] @ rotation.T
         base_origin = chain.origins[n] - base_rotation @ (position * self._plane_mask)
         rotations = np.concatenate([chain.rotations[:n], [base_rotation @ chain.rotations[0]], chain.rotations[1:]])
         origins = np.concatenate([chain.origins[:n], [base_origin + base_rotation @ chain.origins[0]], chain.origins[1:]])
         loop = CertificateChain(rotations, origins, np.tile(chain.lengths, 2), np.tile(chain.slides, 2))
-        return _LoopBranch.from_loop(loop, first, last, a, b), _LoopBranch.from_loop(
-            loop, last, n + first, b, a if first else base_origin + base_rotation @ a
-        )
+        end = a if first else base_origin + base_rotation @ a
+        return _LoopBranch.from_loop(loop, first, last, a, b), _LoopBranch.from_loop(loop, last, n + first, b, end)
 
     def refute_lock_interval(self, begin: int, stop: int) -> tuple[RefutedInterval | None, bool, int]:
         """Try to refute the lock instants of one segment; return the interval or None, whether parts of it may be refuted, and
         the number of examined boxes.
         """
         locks, may_split = np.array([begin, (begin + stop) // 2, stop]), False
-        for path_instant in dict.fromkeys(
-            [
-                self._last_position,
-                *np.linspace(self._path_end, -(-stop // SEGMENT_INSTANTS) * SEGMENT_INSTANTS, _PATH_SAMPLES, dtype=np.int64),
-            ]
-        ):
+        next_knot = -(-stop // SEGMENT_INSTANTS) * SEGMENT_INSTANTS
+        samples = np.linspace(self._path_end, next_knot, _PATH_SAMPLES, dtype=np.int64)
+        for path_instant in dict.fromkeys([self._last_position, *samples]):
             position = int(path_instant) // SEGMENT_INSTANTS * SEGMENT_INSTANTS
             if position < stop:
                 continue
@@ -189,11 +169,8 @@ class LoopClosureExclusion:
             if not has_solution.any():
                 self._last_position = position
                 halving, is_excluded = self._bisect_joint_ranges(begin, stop, position)
-                return (
-                    (RefutedInterval(begin, stop, position, halving.preorder_tokens()) if is_excluded else None),
-                    True,
-                    halving.tested,
-                )
+                tree = halving.tree.preorder_tokens()
+                return RefutedInterval(begin, stop, position, tree) if is_excluded else None, True, halving.tested
         return None, may_split, 0
 
     def _has_reaching_configuration(self, locks: IndexArray, path_instant: int) -> BoolArray:
@@ -212,21 +189,16 @@ class LoopClosureExclusion:
         for _ in range(_NEWTON_STEPS):
             error, jacobian = enclosure.tracking_error_and_jacobian(enclosure.tool_pose_and_jacobian(q), target)
             free_jacobian = jacobian[:, :, enclosure.free]
-            gram = free_jacobian @ free_jacobian.transpose(0, 2, 1) + 1e-9 * np.eye(enclosure.m)
-            q[:, enclosure.free] -= np.clip(
-                (free_jacobian.transpose(0, 2, 1) @ np.linalg.solve(gram, error[:, :, None]))[:, :, 0], -0.4, 0.4
-            )
+            transposed = free_jacobian.transpose(0, 2, 1)
+            gram = free_jacobian @ transposed + 1e-9 * np.eye(enclosure.m)
+            q[:, enclosure.free] -= np.clip((transposed @ np.linalg.solve(gram, error[:, :, None]))[:, :, 0], -0.4, 0.4)
         # Nearest to the middles of the limits, of all that are the same.
-        q -= (
-            2
-            * np.pi
-            * np.round((q - (lower + upper) / 2) / (2 * np.pi))
-            * ([joint in enclosure.free for joint in range(enclosure.n)] & ~enclosure.slides)
-        )
+        turns = [joint in enclosure.free for joint in range(enclosure.n)] & ~enclosure.slides
+        q -= 2 * np.pi * np.round((q - (lower + upper) / 2) / (2 * np.pi)) * turns
         tool_state = enclosure.tool_pose_and_jacobian(q)
-        is_solved = (np.abs(enclosure.tracking_error_and_jacobian(tool_state, target)[0]) < _TARGET_TOLERANCE).all(axis=1) & (
-            (q >= lower) & (q <= upper)
-        )[:, enclosure.free].all(axis=1)
+        error, _ = enclosure.tracking_error_and_jacobian(tool_state, target)
+        is_solved = (np.abs(error) < _TARGET_TOLERANCE).all(axis=1)
+        is_solved &= ((q >= lower) & (q <= upper))[:, enclosure.free].all(axis=1)
         if enclosure.uses_rotation:
             is_solved &= enclosure.compute_rotation_trace(tool_state, target) > 1
         return np.asarray(is_solved.reshape(count, -1).any(axis=1))
@@ -248,15 +220,11 @@ def make_loop_closure_exclusion(claim: PathClaim, joint: int) -> LoopClosureExcl
     """Make the loop closure test for a joint; None for an arm with unlimited slides, or one that leaves the plane
     of its task.
     """
-    chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
-    planar = claim.task.startswith("planar")
-    endless = claim.arm.prismatic & ~np.isfinite(limits).all(axis=1)
+    enclosure = LockedTrackingEnclosure.from_claim(claim, [joint], np.empty(0))
+    chain, planar = enclosure.chain, claim.task.startswith("planar")
     in_plane = not chain.slides.any() and (np.abs(chain.rotations[:, 2, 2]) == 1).all()
-    if endless.any() or (planar and not in_plane):
+    if not np.isfinite(enclosure.limits[chain.slides]).all() or (planar and not in_plane):
         return None
-    enclosure = LockedTrackingEnclosure(
-        chain, claim.knots, claim.task, driven=[joint], tube=np.empty(0), limits=limits, slides=claim.arm.prismatic
-    )
     return LoopClosureExclusion(enclosure, "pose" in claim.task, planar)
 
 
@@ -268,37 +236,19 @@ class _LoopExclusionTest:
 
     def __call__(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the tokens of boxes and the gain of halving each joint."""
-        tokens, best_ratios, gain = (
-            np.full(len(middle), OPEN_TOKEN, dtype=np.int64),
-            np.full(len(middle), -np.inf),
-            np.zeros(half.shape),
-        )
+        verdicts = BoxVerdicts(half)
         for token, branches in enumerate(self._pairs):
-            rows = np.flatnonzero(tokens == OPEN_TOKEN)
+            rows = verdicts.open_rows
             if not rows.size:
                 break
-            distances = [
-                np.linalg.norm(
-                    branch.segment.point_axes_and_derivatives(middle[rows][:, branch.joints])[0] - branch.start, axis=1
-                )
-                for branch in branches
-            ]
-            for longer, shorter, mask in ((0, 1, distances[0] >= distances[1]), (1, 0, distances[0] < distances[1])):
+            tips = (branch.segment.point_axes_and_derivatives(middle[rows][:, branch.joints])[0] for branch in branches)
+            offsets = (tip - branch.start for tip, branch in zip(tips, branches, strict=True))
+            first, second = (np.linalg.norm(offset, axis=1) for offset in offsets)
+            for (longer, shorter), mask in ((branches, first >= second), (branches[::-1], first < second)):
                 chosen = rows[mask]
-                if not chosen.size:
-                    continue
-                lower, longer_center, longer_costs = branches[longer].bound_distance(
-                    middle[chosen], half[chosen], from_above=False
-                )
-                upper, shorter_center, shorter_costs = branches[shorter].bound_distance(
-                    middle[chosen], half[chosen], from_above=True
-                )
-                margins, center_margins = lower - upper, longer_center - shorter_center
-                tokens[chosen[margins > _DISTANCE_MARGIN_M]] = token
-                ratios = center_margins / np.maximum(center_margins - margins, 1e-12)  # 1: just excluded
-                improved = ratios > best_ratios[chosen]
-                best_ratios[chosen[improved]], gain[chosen[improved]] = (
-                    ratios[improved],
-                    (longer_costs + shorter_costs)[improved],
-                )
-        return tokens, gain
+                if chosen.size:
+                    lower, longer_center, longer_costs = longer.bound_distance(middle[chosen], half[chosen], from_above=False)
+                    upper, shorter_center, shorter_costs = shorter.bound_distance(middle[chosen], half[chosen], from_above=True)
+                    costs = longer_costs + shorter_costs
+                    verdicts.record(chosen, token, lower - upper, longer_center - shorter_center, costs)
+        return verdicts.tokens, verdicts.gain

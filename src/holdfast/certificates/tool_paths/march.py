@@ -4,67 +4,110 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
 from time import monotonic
 
 import numpy as np
+from numpy.typing import NDArray
 
-from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, PathCellBatch, PathFormBatch
+from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, LockSlab, PathCellBatch, PathFormBatch
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.certificates.tool_paths.loop_closure import LoopClosureExclusion, RefutedInterval
-from holdfast.certificates.tool_paths.singular_cells import MIN_SINGULAR_HALVINGS, march_through_singularity
-from holdfast.certificates.tool_paths.slabs import LockSlab
+from holdfast.certificates.tree import SearchState
+from holdfast.core.typing import IndexArray
 
+TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centres, and what is found in the last cell
+
+MIN_SINGULAR_HALVINGS = 2  # halvings of a slab before its cells are turned
+_MAX_TANGENT_CELLS = 24  # cells in a row
+_CENTER_STEP = 0.8  # the middle of one, in half widths ahead
+_HALF_WIDTHS = 0.5 * 0.5 ** np.arange(16)  # half widths
 _MAX_ACTIVE_SLABS = 64  # slabs that march side by side
 
 
-@dataclass(frozen=True, kw_only=True)
-class LockedPath:
-    """Result of the search for the lock of one joint.
-
-    Attributes:
-        joint: Index of it.
-        followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
-        slabs: Intervals of lock instants that are proved, in order, each with its cells.
-        refuted_intervals: Those that are refuted, in order.
-        proved, refuted: Exact parts of the lock instants.
-        nodes: Cells that were looked at.
-        finished: False if the search was stopped.
-        seconds: Measured.
+def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequence[LockSlab]) -> list[TangentPassage | None]:
+    """March slabs through a singularity by tangent cells and one plain cell behind them; None for a slab without such a
+    passage.
     """
-
-    joint: int
-    followers: tuple[int, ...]
-    slabs: tuple[LockSlab, ...]
-    refuted_intervals: tuple[RefutedInterval, ...]
-    proved: Fraction
-    refuted: Fraction
-    nodes: int
-    finished: bool
-    seconds: float
-
-    @property
-    def proved_lock_intervals(self) -> list[tuple[int, int]]:
-        """Proved intervals of lock instants."""
-        return [(slab.begin, slab.stop) for slab in self.slabs]
-
-    @property
-    def refuted_lock_intervals(self) -> list[tuple[int, int]]:
-        """Refuted intervals of lock instants."""
-        return [(interval.begin, interval.stop) for interval in self.refuted_intervals]
-
-    @property
-    def undecided(self) -> Fraction:
-        """Exact fraction of the lock instants that is neither proved nor refuted."""
-        return 1 - self.proved - self.refuted
-
-    @property
-    def leaves(self) -> int:
-        """Number of cells of proved slabs and of joint boxes that refute others."""
-        return (
-            sum(len(slab.ends) for slab in self.slabs) + sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
+    passages: list[TangentPassage | None] = [None] * len(slabs)
+    if not slabs:
+        return passages
+    begin, stop, reached = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at"))
+    segment_starts, is_first = reached // SEGMENT_INSTANTS * SEGMENT_INSTANTS, np.array([not slab.ends for slab in slabs])
+    previous = PathFormBatch.concatenate([slab.last_form or enclosure.empty_form for slab in slabs])
+    q, path_position = enclosure.cell_end_configurations(previous)
+    q[is_first] = enclosure.healthy_joints_and_rates(begin + stop, stop)[0][is_first]
+    path_position[is_first] = ((begin + stop) / (2 * SEGMENT_INSTANTS))[is_first]
+    cell_lists = [(list[int](), list[IndexArray]()) for _ in slabs]
+    active = np.arange(len(slabs))
+    for _ in range(_MAX_TANGENT_CELLS):
+        owners, step_widths = np.repeat(active, len(_HALF_WIDTHS)), np.tile(_HALF_WIDTHS, len(active))
+        middles, instants = enclosure.step_along_tangent(
+            q[owners], path_position[owners], segment_starts[owners], _CENTER_STEP * step_widths
         )
+        inside = np.flatnonzero((instants > segment_starts[owners]) & (instants <= segment_starts[owners] + SEGMENT_INSTANTS))
+        owners, middles, instants = owners[inside], middles[inside], instants[inside]
+        half_widths = np.rint(step_widths[inside] / PATH_CENTER_UNIT).astype(np.int64)
+        cells = PathCellBatch(begin[owners], stop[owners], instants, instants, half_widths)
+        forms = enclosure.enclose_cell_motions(enclosure.set_driven_joints(middles, cells), cells)
+        accepted = np.flatnonzero(enclosure.continue_motion(is_first[owners], previous.select(owners), forms, cells))
+        active, widest = np.unique(owners[accepted], return_index=True)
+        if not active.size:
+            break
+        chosen = accepted[widest]
+        chosen_forms = forms.select(chosen)
+        previous, is_first[active] = previous.replace_rows(active, chosen_forms), False
+        for slab_index, row in zip(active.tolist(), chosen.tolist(), strict=True):
+            center = _encode_center(enclosure, forms.q[row], int(instants[row] - segment_starts[slab_index]))
+            cell_lists[slab_index][0].append(-int(half_widths[row]))
+            cell_lists[slab_index][1].append(center)
+        plain_cells = _find_nontangent_cells(enclosure, (begin[active], stop[active]), segment_starts[active], chosen_forms)
+        for slab_index, plain_cell in zip(active.tolist(), plain_cells, strict=True):
+            if plain_cell is not None:
+                (form, start, end), (ends, centers) = plain_cell, cell_lists[slab_index]
+                center = _encode_center(enclosure, form.q[0], start - int(segment_starts[slab_index]))
+                passages[slab_index] = [*ends, end], [*centers, center], form
+        active = np.array([slab_index for slab_index in active.tolist() if passages[slab_index] is None], dtype=np.int64)
+        q, path_position = enclosure.cell_end_configurations(previous)
+    return passages
+
+
+def _find_nontangent_cells(
+    enclosure: LockedTrackingEnclosure,
+    slab_bounds: tuple[IndexArray, IndexArray],
+    segment_starts: IndexArray,
+    previous: PathFormBatch,
+) -> list[tuple[PathFormBatch, int, int] | None]:
+    """Return the longest plain cells behind tangent cells, with their starts and ends; None where there is none."""
+    q, path_position = enclosure.cell_end_configurations(previous)
+    response, half = np.abs(previous.own[:, -1]), previous.half
+    spread = response[:, 0] * half[:, 0] + (response[:, 2:] * half[:, 2:]).sum(axis=1)
+    lower = np.floor((path_position - 1.01 * spread) * SEGMENT_INSTANTS).astype(np.int64)
+    upper = np.floor((path_position + 1.01 * spread) * SEGMENT_INSTANTS).astype(np.int64) + 1
+    starts, owners, ends = np.maximum(lower - 1, segment_starts), list[int](), list[int]()
+    for index, (a, b, segment_end) in enumerate(
+        zip(lower.tolist(), upper.tolist(), (segment_starts + SEGMENT_INSTANTS).tolist(), strict=True)
+    ):
+        candidates = {min((b >> d) + 1 << d, segment_end) for d in range(max(1, (b - a).bit_length() - 1), 20)}
+        valid_ends = sorted(end for end in candidates if end > b)
+        owners, ends = owners + [index] * len(valid_ends), ends + valid_ends
+    plain_cells: list[tuple[PathFormBatch, int, int] | None] = [None] * len(lower)
+    if owners:
+        rows = np.array(owners)
+        begin, stop = (bounds[rows] for bounds in slab_bounds)
+        cells = PathCellBatch(begin, stop, starts[rows], np.array(ends), np.zeros_like(rows))
+        forms = enclosure.enclose_cell_motions(enclosure.solve_centers(q[rows], cells), cells)
+        is_first = np.zeros(len(rows), dtype=bool)
+        for index in np.flatnonzero(enclosure.continue_motion(is_first, previous.select(rows), forms, cells)).tolist():
+            plain_cells[owners[index]] = forms.select(np.array([index])), int(starts[owners[index]]), ends[index]
+    return plain_cells
+
+
+def _encode_center(enclosure: LockedTrackingEnclosure, q: NDArray[np.float64], instant: int) -> IndexArray:
+    """Return a center in units of the file."""
+    row = np.round(q / PATH_CENTER_UNIT).astype(np.int64)
+    row[enclosure.driven] = 0
+    row[enclosure.driven[0]] = instant
+    return np.asarray(row)
 
 
 class LockSlabSearch:
@@ -76,6 +119,7 @@ class LockSlabSearch:
         halvings: Of slabs, at most.
         max_nodes: Cells that are looked at before no more slabs begin.
         exclusion: What refutes slabs that lead nowhere; None: nothing does.
+        claimed_instants: Instants of the claim, of which the state tells fractions.
 
     Attributes:
         proved: Slabs, in no order.
@@ -91,17 +135,15 @@ class LockSlabSearch:
         halvings: int,
         max_nodes: float = np.inf,
         exclusion: LoopClosureExclusion | None = None,
+        claimed_instants: int = 1,
     ) -> None:
         self.enclosure, self._max_halvings, self._max_nodes, self._exclusion = enclosure, halvings, max_nodes, exclusion
         self._path_end = (len(enclosure.knots) - 1) * SEGMENT_INSTANTS
-        self.proved: list[LockSlab] = []
-        self.refuted: list[RefutedInterval] = []
-        self.nodes, self.closed_instants = 0, 0
+        self.proved, self.refuted = list[LockSlab](), list[RefutedInterval]()
+        self.nodes, self.closed_instants, self._claimed_instants = 0, 0, claimed_instants
         self._waiting = deque(slab.restarted_slab for slab in slabs)
-        self._active: list[LockSlab] = []
-        self._failed: list[LockSlab] = []
-        self._hopeless: list[LockSlab] = []
-        self._previous: PathFormBatch | None = None
+        self._active, self._failed, self._hopeless = list[LockSlab](), list[LockSlab](), list[LockSlab]()
+        self._previous = enclosure.empty_form.select(np.empty(0, dtype=np.int64))
 
     def run(self, deadline: float, should_stop: Callable[[], bool], report_progress: Callable[[], None]) -> bool:
         """Search until a monotonic time or a stop request; return True if only slabs that were not started remain."""
@@ -120,25 +162,29 @@ class LockSlabSearch:
         return not (self._active or self._failed or self._hopeless or (self._waiting and self.nodes < self._max_nodes))
 
     @property
-    def deferred_slabs(self) -> list[LockSlab]:
+    def deferred_slabs(self) -> tuple[LockSlab, ...]:
         """Slabs that were not started, in order."""
-        return [slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin)]
+        return tuple(slab.restarted_slab for slab in sorted(self._waiting, key=lambda slab: slab.begin))
+
+    @property
+    def state(self) -> SearchState:
+        """Progress, as fractions of the lock instants of one joint."""
+        proved, refuted = (sum(span.stop - span.begin for span in spans) for spans in (self.proved, self.refuted))
+        instants = {"proved": proved, "refuted": refuted, "undecided": self.closed_instants - proved - refuted}
+        fractions = {key: count / self._claimed_instants for key, count in instants.items()}
+        return SearchState(**fractions, open=1 - self.closed_instants / self._claimed_instants, nodes=self.nodes)
 
     def _activate_slabs(self) -> None:
         """Activate waiting slabs while there is capacity."""
         new_slabs = [self._waiting.popleft() for _ in range(min(_MAX_ACTIVE_SLABS - len(self._active), len(self._waiting)))]
-        if not new_slabs:
-            return
         self._active += new_slabs
-        enclosure = self.enclosure
-        empty = PathFormBatch.make_zero_form(enclosure.n, enclosure.m, 2 + len(enclosure.tube) + enclosure.m)
+        forms = [slab.last_form or self.enclosure.empty_form for slab in new_slabs]
+        self._previous = PathFormBatch.concatenate([self._previous, *forms])
         for slab in new_slabs:
-            form, slab.last_form = slab.last_form or empty, None
-            self._previous = form if self._previous is None else self._previous.append(form)
+            slab.last_form = None
 
     def _try_next_cells(self) -> None:
         """Try the next cell of each active slab: accept it, halve its length, or give the slab up."""
-        assert self._previous is not None
         enclosure, slabs, previous = self.enclosure, self._active, self._previous
         begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
         cells = PathCellBatch(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
@@ -151,12 +197,7 @@ class LockSlabSearch:
         center_units[:, enclosure.driven] = 0
         forms = enclosure.enclose_cell_motions(q, cells)
         self.nodes += len(slabs)
-        continues = np.where(
-            is_first,
-            enclosure.contains_lock_configurations(forms, cells),
-            enclosure.continues_previous_solution(previous, forms),
-        )
-        accepted, active_rows = forms.good & continues, []
+        accepted, active_rows = enclosure.continue_motion(is_first, previous, forms, cells), []
         for index, slab in enumerate(slabs):
             if accepted[index]:
                 slab.ends.append(slab.next)
@@ -172,9 +213,8 @@ class LockSlabSearch:
                 active_rows.append(index)
             else:
                 self._record_proved(slab)
-        self._previous = previous.replace_rows(np.flatnonzero(accepted), forms.select(np.flatnonzero(accepted))).select(
-            np.array(active_rows, dtype=np.int64)
-        )
+        rows = np.flatnonzero(accepted)
+        self._previous = previous.replace_rows(rows, forms.select(rows)).select(np.array(active_rows, dtype=np.int64))
         self._active = [slabs[index] for index in active_rows]
 
     def _record_proved(self, slab: LockSlab) -> None:

@@ -10,21 +10,20 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.options import JsonOption, PlotOption
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import FailuresOption, JsonOption, PlotOption, SeedOption
 from holdfast.interface.cli.values import read_numbers, read_numbers_by_joint
+from holdfast.model.failure_modes.sets import read_failures
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
     Ranges = dict[str | int, tuple[float, float]]
 
-# REJECTED_EXIT_CODE and REFUTED_EXIT_CODE: exit codes
 REJECTED_EXIT_CODE = 1
 REFUTED_EXIT_CODE = 4
 
-LockOption = Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."]
 LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]
-RowsOption = Annotated[str, "pose; planar-pose for arms in a plane."]
 AnglesOption = Annotated[bool, "Angles are in degrees (slides stay in m)."]
 HalvingsOption = Annotated[int, "Of each axis of the box, at most."]
 JointHalvingsOption = Annotated[int, "Of each joint, at most."]
@@ -47,44 +46,59 @@ class TargetBoxOptions:
 
     def claim_arguments(self) -> dict[str, Any]:
         """Return the targets as arguments of a claim."""
-        return {
-            "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
-            "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
-            **self._rotation_arguments(),
-        }
-
-    def _rotation_arguments(self) -> dict[str, Any]:
         from holdfast.model.arm.urdf import rpy_rotation
 
+        box = {
+            "centre": read_numbers("--box", self.box, "two or three numbers, m,"),
+            "size": read_numbers("--size", self.size, "one number, or one for each axis, m,"),
+        }
         if self.rotation is None:
             if self.rotation_size is not None or self.pointing:
                 raise InputError(
                     "--rotation-size is a box around --rotation, and --pointing about its z axis; give --rotation as well"
                 )
-            return {}
+            return box
         angles = read_numbers("--rotation", self.rotation, "roll, pitch and yaw")
         edges = read_numbers("--rotation-size", self.rotation_size or "0", "one number, or three,")
         if angles.size not in (1, 3) or edges.size not in (1, angles.size) or not (edges >= 0).all():
             raise InputError(
                 "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
             )
-        radians_per_degree, task = np.pi / 180, {"task": "pointing"} if self.pointing else {}
+        radians_per_degree, arguments = np.pi / 180, box | ({"task": "pointing"} if self.pointing else {})
         if angles.size == 3 and not edges.any():
-            return {"rotation": rpy_rotation((radians_per_degree * angles).tolist()), **task}
+            return arguments | {"rotation": rpy_rotation((radians_per_degree * angles).tolist())}
         intervals = radians_per_degree * np.column_stack([angles - edges / 2, angles + edges / 2])
-        return {"rpy": intervals if angles.size == 3 else intervals[0], **task}
+        return arguments | {"rpy": intervals if angles.size == 3 else intervals[0]}
+
+
+@dataclass(frozen=True)
+class LockedTargetBoxOptions(TargetBoxOptions):
+    """Options for a box of targets and the joint that is locked."""
+
+    lock: Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."] = None
+    limit: LimitOption = None
+    degrees: AnglesOption = False
+
+    def read_claim_arguments(self, arm: Arm) -> dict[str, Any]:
+        """Return targets, lock and limits as arguments of a claim."""
+        locked = None if self.lock is None else read_joint_intervals(arm, "--lock", [self.lock], self.degrees)
+        limits = read_joint_intervals(arm, "--limit", self.limit, self.degrees)
+        return self.claim_arguments() | {"locked": locked, "limits": limits}
 
 
 @dataclass(frozen=True)
 class ConfigurationBoxOptions:
-    """Options for a box of configurations: intervals around a center, or within limits."""
+    """Options for a box of configurations, intervals around a center or within limits, and what may happen in it."""
 
     around: Annotated[str | None, "Middle of the box: a value of each joint, rad. Default: limits."] = None
     within: Annotated[str | None, "Half widths of it, rad: one number, or one for each joint."] = None
     limit: LimitOption = None
+    task: Annotated[str, "pose; planar-pose for arms in a plane."] = "pose"
+    degrees: AnglesOption = False
+    failures: FailuresOption = "single"
 
-    def read_ranges(self, arm: Arm, degrees: bool) -> Ranges:
-        """Return the range of each joint, as an argument of a claim."""
+    def read_claim_arguments(self, arm: Arm) -> dict[str, Any]:
+        """Return the box, failures and task as arguments of a claim."""
         box: Ranges = {}
         if (self.around is None) != (self.within is None):
             raise InputError("--around and --within go together: the middle of the box and its half widths")
@@ -97,8 +111,9 @@ class ConfigurationBoxOptions:
                 raise InputError("--within must not be negative: it is half widths")
             pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
             texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
-            box = read_joint_intervals(arm, "--around", texts, degrees)
-        return box | read_joint_intervals(arm, "--limit", self.limit, degrees)
+            box = read_joint_intervals(arm, "--around", texts, self.degrees)
+        box |= read_joint_intervals(arm, "--limit", self.limit, self.degrees)
+        return {"joint_box": box, "failures": read_failures(arm, self.failures), "task": self.task}
 
 
 @dataclass(frozen=True)
@@ -117,10 +132,27 @@ class SearchOptions:
 class CertificateOutput:
     """Options for the output files of a certificate and its display."""
 
-    out: CertificateOption
+    out: CertificateOption = Path()
     plot: PlotOption = None
     report: Annotated[Path | None, "Write a page of what is proved into this HTML file."] = None
     json_: JsonOption = False
+
+
+@dataclass(frozen=True)
+class SeedOptions:
+    """Option for the seed."""
+
+    seed: SeedOption = 0
+
+
+@dataclass(frozen=True)
+class UnseededProofOptions(CertificateOutput, ArmSourceOptions, SearchOptions):
+    """Options of all commands that prove a claim; those of the last class come first in the help."""
+
+
+@dataclass(frozen=True)
+class ProofOptions(CertificateOutput, SeedOptions, ArmSourceOptions, SearchOptions):
+    """Options of commands that prove a claim by a search with random draws."""
 
 
 def read_joint_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:

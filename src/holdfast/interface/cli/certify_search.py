@@ -5,7 +5,6 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -13,50 +12,45 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.certify_options import REFUTED_EXIT_CODE, REJECTED_EXIT_CODE, CertificateOutput, SearchOptions
+from holdfast.interface.cli.certify_options import REFUTED_EXIT_CODE, REJECTED_EXIT_CODE, ProofOptions, UnseededProofOptions
 from holdfast.interface.cli.larger.study import stop_on_signal
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.presentation.printing import print_json
 from holdfast.interface.presentation.results import current_command, print_result, write_outputs
 
+Options = UnseededProofOptions | ProofOptions
 if TYPE_CHECKING:
     from holdfast.certificates import WorkingRanges
     from holdfast.model.arm.model import Arm
 
 
-def _check_output_path(out: Path, folder: bool) -> None:
-    """Raise before the search if the output path cannot be written or would replace another file."""
+def _check_output_and_flint(options: Options, folder: bool) -> None:
+    """Raise before any search if its certificate could not be written or checked, or would replace another file."""
+    from holdfast.certificates.checks import require_flint
+
+    out = options.out
     if out.is_dir() and not folder:
         raise InputError(f"--out '{out}' is a folder; give the name of a file")
     if out.is_file() and out.suffix not in ("", ".certificate", ".zip"):
         raise InputError(f"--out '{out}' is there, and no certificate; give another name, such as {out.stem}.certificate")
     if (out.suffix or not folder) and not out.absolute().parent.is_dir():
         raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
-
-
-def _check_output_and_flint(search: SearchOptions, output: CertificateOutput, folder: bool) -> None:
-    """Raise before any search if its certificate could not be written or checked."""
-    from holdfast.certificates.checks import require_flint
-
-    _check_output_path(output.out, folder)
-    if search.check:
+    if options.check:
         require_flint()
 
 
-def prove_with_found_ranges(
-    arm: Arm, claim_arguments: dict[str, Any], search: SearchOptions, output: CertificateOutput, **certify_options: Any
-) -> None:
+def prove_with_found_ranges(arm: Arm, claim_arguments: dict[str, Any], options: Options, **certify_options: Any) -> None:
     """Find working ranges for a failure-tolerant box, print them with the command that sets them, and prove the claim."""
-    _check_output_and_flint(search, output, folder=True)
+    _check_output_and_flint(options, folder=True)
     working_ranges = hf.find_working_ranges(arm, **claim_arguments, seed=certify_options["seed"])
-    if not (working_ranges.ok and output.json_):
-        print_result(working_ranges, output.json_)
+    if not (working_ranges.ok and options.json_):
+        print_result(working_ranges, options.json_)
     if not working_ranges.ok:
         raise typer.Exit(NOT_MET_EXIT_CODE)
-    if not output.json_:
+    if not options.json_:
         typer.echo(f"The same claim without the search: {_command_with_ranges(working_ranges.options)}\n")
-    prove_claim(working_ranges.claim, search, output, ranges=working_ranges, **certify_options)
+    prove_claim(working_ranges.claim, options, ranges=working_ranges, **certify_options)
 
 
 def _command_with_ranges(ranges: Sequence[str]) -> str:
@@ -72,58 +66,49 @@ def _command_with_ranges(ranges: Sequence[str]) -> str:
     return f"holdfast {shlex.join([*retained, '--degrees', *(word for interval in ranges for word in ('--range', interval))])}"
 
 
-def prove_claim(
-    claim: Any, search: SearchOptions, output: CertificateOutput, ranges: WorkingRanges | None = None, **certify_options: Any
-) -> None:
+def prove_claim(claim: Any, options: Options, ranges: WorkingRanges | None = None, **certify_options: Any) -> None:
     """Prove a claim, write and check the certificate, draw it and print the result; ranges found for the claim are on the page
     and in the JSON.
     """
     from holdfast.certificates.checks import CheckStopped
     from holdfast.interface.presentation.certificates.console import format_state
 
-    _check_output_and_flint(search, output, len(claim.parts) > 1)
+    _check_output_and_flint(options, len(claim.parts) > 1)
     # Of a limited time half is kept for the check, which gets what the search leaves as well.
-    start_time, search_limit = monotonic() - (ranges.seconds if ranges else 0.0), search.time_limit
+    start_time, search_limit = monotonic() - (ranges.seconds if ranges else 0.0), options.time_limit
     if search_limit is not None:
-        search_limit = max(search_limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if search.check else 1)
-    bar = ProgressBar(output.json_, "ten-thousandths")
+        search_limit = max(search_limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if options.check else 1)
+    bar = ProgressBar(options.json_, "ten-thousandths")
+    certify_options |= {"time_limit": search_limit, "workers": options.workers, "store": options.store}
     with stop_on_signal("") as stop, bar as progress:
-        certify_options |= {"time_limit": search_limit, "workers": search.workers, "store": search.store}
         proof = hf.certify(
-            claim,
-            **certify_options,
-            progress=progress,
-            state=lambda progress_state: bar.set_text(format_state(progress_state)),
-            stop=stop,
+            claim, **certify_options, progress=progress, state=lambda state: bar.set_text(format_state(state)), stop=stop
         )
-    file = proof.write(output.out)
+    file = proof.write(options.out)
     verdict = None
-    if search.check and not stop():
-        remaining_time = None if search.time_limit is None else max(0.0, search.time_limit - (monotonic() - start_time))
+    if options.check and not stop():
+        remaining_time = None if options.time_limit is None else max(0.0, options.time_limit - (monotonic() - start_time))
         try:
             verdict = hf.check_certificate(file, time_limit=remaining_time)
         except CheckStopped:
             typer.echo(
-                f"The time limit of {search.time_limit:g} s ended the check, so {file} is not verified; "
+                f"The time limit of {options.time_limit:g} s ended the check, so {file} is not verified; "
                 f"'holdfast certificate check {file}' verifies it.",
                 err=True,
             )
-    report_options = {"ranges": ranges} if ranges else {}
-    report_files = (
-        []
-        if output.report is None
-        else [proof.report(output.report, command=current_command(), check=verdict, file=file, **report_options)]
-    )
-    files = [file, *write_outputs(proof, output.plot), *report_files]
-    if output.json_ and ranges:
+    files = [file, *write_outputs(proof, options.plot)]
+    if options.report is not None:
+        report_options = {"ranges": ranges} if ranges else {}
+        files.append(proof.report(options.report, command=current_command(), check=verdict, file=file, **report_options))
+    if options.json_ and ranges:
         print_json((verdict or proof).to_dict() | {"found_ranges": ranges.to_dict()})
     else:
-        print_result(verdict or proof, output.json_, files)
+        print_result(verdict or proof, options.json_, files)
     if stop():
         raise KeyboardInterrupt
     if verdict is not None and verdict.rejected:
         raise typer.Exit(REJECTED_EXIT_CODE)
     if getattr(proof, "refuted", False):
         raise typer.Exit(REFUTED_EXIT_CODE)
-    if not proof.ok or (search.check and verdict is None):
+    if not proof.ok or (options.check and verdict is None):
         raise typer.Exit(NOT_MET_EXIT_CODE)

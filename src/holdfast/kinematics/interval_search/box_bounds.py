@@ -40,6 +40,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import Cholesky
 from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
+from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, plane_normal
 
@@ -246,7 +247,10 @@ def _nearest_axis_point(arm: Arm) -> FloatArray | None:
 
 def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolute: list[bool], point: FloatArray) -> list[SX]:
     """Return ``rho`` of every joint, for a point given in the last link's frame."""
-    max_distances, half_widths = _max_axis_distances(arm, point, *box), box[1]
+    # Slides count as far as the box goes, not the arm's limits: a lock may be outside them.
+    centers, half_widths = box
+    extensions = [ca.fabs(centers[index]) + half_widths[index] for index in range(arm.n)]
+    max_distances = bound_axis_distances(arm, ca.SX(float(np.linalg.norm(point))), extensions)
     rho: list[SX] = [ca.SX(1)] * arm.n
     outer_motion = ca.SX(0)
     for index in reversed(range(arm.n)):
@@ -254,20 +258,6 @@ def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolut
             rho[index] = ca.fmin(max_distances[index], ca.sqrt(ca.sumsqr(jacobian[:3, index])) + outer_motion)
         outer_motion += rho[index] * half_widths[index]
     return rho
-
-
-def _max_axis_distances(arm: Arm, point: FloatArray, centers: SX, half_widths: SX) -> list[SX]:
-    """Bound the distance of the point from each joint's axis over the box by the lengths of the links beyond the axis.
-
-    Slides count as far as the box goes, not the arm's limits: a lock may be outside them.
-    """
-    length, distances = ca.SX(float(np.linalg.norm(point))), []
-    for index, joint in reversed(list(enumerate(arm.joints))):
-        if joint.prismatic:
-            length += ca.fabs(centers[index]) + half_widths[index]
-        distances.append(length)
-        length += float(np.linalg.norm(joint.origin[:3, 3]))
-    return distances[::-1]
 
 
 def _position_remainders(rho: list[SX], half_widths: SX, is_revolute: list[bool]) -> tuple[SX, SX]:

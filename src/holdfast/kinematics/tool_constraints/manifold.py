@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
+from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 
@@ -51,7 +52,9 @@ class ConstraintManifold:
     ) -> None:
         self.arm, self.keep, self.free = arm, tuple(keep), free
         self._low, self._high = limits
-        joint_index, lever_arms = np.arange(arm.n), _max_axis_distances(arm, *limits)
+        tool_length, extensions = float(np.linalg.norm(arm.tool[:3, 3])), np.maximum(*np.abs(limits)).tolist()
+        joint_index = np.arange(arm.n)
+        lever_arms = np.where(arm.prismatic, 1.0, bound_axis_distances(arm, tool_length, extensions))
         self._revolute = (~arm.prismatic).astype(np.float64)
         self._lever_arms = lever_arms
         self._second_derivative_bounds = (
@@ -248,14 +251,3 @@ def _perpendicular_vectors(axis: FloatArray) -> FloatArray:
     least_aligned = np.eye(3)[np.abs(axis).argmin(axis=1)]
     across = np.cross(axis, least_aligned)
     return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))
-
-
-def _max_axis_distances(arm: Arm, low: FloatArray, high: FloatArray) -> FloatArray:
-    """Bound the distance (n,) of the tool point from each joint axis, m, by the lengths beyond it; 1 for a prismatic joint."""
-    length, lever_arms = float(np.linalg.norm(arm.tool[:3, 3])), []
-    for index, joint in reversed(list(enumerate(arm.joints))):
-        if joint.prismatic:
-            length += float(max(abs(low[index]), abs(high[index])))
-        lever_arms.append(1.0 if joint.prismatic else length)
-        length += float(np.linalg.norm(joint.origin[:3, 3]))
-    return np.array(lever_arms[::-1])

@@ -1,6 +1,9 @@
-"""Check configurations and finite joint limits to sample between."""
+"""Configurations, finite joint limits to sample between, and lengths that bound how far a joint moves a point."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.machine import ArmData
+
+Length = TypeVar("Length", bound=Any)  # a number or a symbolic expression, m
 
 
 def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
@@ -38,3 +43,20 @@ def replace_infinite_limits(
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))
     finite_upper = np.where(np.isfinite(upper), upper, np.maximum(default_bound, lower + default_bound))
     return finite_lower, finite_upper
+
+
+def bound_axis_distances(arm: ArmData, end_length: Length, extensions: Sequence[Length]) -> list[Length]:
+    """Bound the distance of a point of the last link from the axis of each joint, m, by the lengths beyond the axis.
+
+    Args:
+        arm: The arm.
+        end_length: Distance of the point from the frame of the last joint, m.
+        extensions: How far each prismatic joint is out at most, m; not read for revolute joints.
+    """
+    length, distances = end_length, list[Length]()
+    for joint, extension in zip(reversed(arm.joints), reversed(extensions), strict=True):
+        if joint.prismatic:
+            length = length + extension
+        distances.append(length)
+        length = length + float(np.linalg.norm(joint.origin[:3, 3]))
+    return distances[::-1]

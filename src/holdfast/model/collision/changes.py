@@ -37,12 +37,7 @@ def pair_lipschitz_bounds(
         ]
         for joint in range(first.link + 1, second.link + 1):
             # Outwards from axis k to the second capsule; inwards from it to the first.
-            outward = (
-                extensions[joint]
-                + offsets[joint + 1 : second.link + 1].sum()
-                + extensions[joint + 1 : second.link + 1].sum()
-                + end_distances[1]
-            )
+            outward = _bound_outward_distance(extensions, offsets, joint, second.link) + end_distances[1]
             inward = offsets[first.link + 1 : joint + 1].sum() + extensions[first.link + 1 : joint].sum() + end_distances[0]
             pair_bounds[joint] = 1.0 if arm.prismatic[joint] else min(outward, inward)
     return bounds
@@ -64,9 +59,7 @@ def link_lipschitz_bounds(
     bounds = np.zeros((len(links), arm.n))
     for link_bounds, link, max_distance in zip(bounds, links, max_distances, strict=True):
         for joint in range(link + 1):
-            outward = (
-                extensions[joint] + offsets[joint + 1 : link + 1].sum() + extensions[joint + 1 : link + 1].sum() + max_distance
-            )
+            outward = _bound_outward_distance(extensions, offsets, joint, link) + max_distance
             link_bounds[joint] = 1.0 if arm.prismatic[joint] else outward
     return bounds
 
@@ -77,3 +70,9 @@ def _joint_extents(arm: Arm, lower: FloatArray, upper: FloatArray) -> tuple[Floa
     """
     extensions = np.where(arm.prismatic, np.maximum(np.abs(lower), np.abs(upper)), 0.0)
     return extensions, np.array([float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints])
+
+
+def _bound_outward_distance(extensions: FloatArray, offsets: FloatArray, joint: int, link: int) -> float:
+    """Bound the distance of the frame of a link from the axis of a joint, m."""
+    beyond = slice(joint + 1, link + 1)
+    return float(extensions[joint] + offsets[beyond].sum() + extensions[beyond].sum())

@@ -10,52 +10,42 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.before.certify_path import path
 from holdfast.interface.cli.certify_options import (
     AnglesOption,
     CertificateOption,
-    CertificateOutput,
     CheckOption,
     ConfigurationBoxOptions,
     HalvingsOption,
     JointHalvingsOption,
-    LimitOption,
-    LockOption,
-    RowsOption,
-    SearchOptions,
+    LockedTargetBoxOptions,
+    ProofOptions,
     TargetBoxOptions,
+    UnseededProofOptions,
     read_joint_intervals,
 )
 from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption, SeedOption
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption
+from holdfast.interface.cli.values import read_numbers
 from holdfast.interface.presentation.results import print_result
 from holdfast.model.failure_modes.sets import read_failures
 
 command = typer.Typer(
-    name="certify",
-    help="Prove a property for every point of a box and write a certificate.",
-    no_args_is_help=True,
+    name="certify", help="Prove a property for every point of a box and write a certificate.", no_args_is_help=True
 )
 
 
 @dataclass(frozen=True)
-class _CertificateFolder(CertificateOutput):
-    out: Annotated[Path, "Folder for the certificate and those of its parts; or FILE.zip."]
+class _BundleOptions(ProofOptions):
+    out: Annotated[Path, "Folder for the certificate and those of its parts; or FILE.zip."] = Path()
 
 
 @command.command()
 def reach(
     arm: ArmArgument,
-    targets: TargetBoxOptions,
-    lock: LockOption = None,
-    limit: LimitOption = None,
-    degrees: AnglesOption = False,
+    targets: LockedTargetBoxOptions,
     halvings: HalvingsOption = 8,
-    search: SearchOptions = SearchOptions(),
-    chain: ArmSourceOptions = ArmSourceOptions(),
-    seed: SeedOption = 0,
-    written: CertificateOutput = CertificateOutput(Path("reach.certificate")),
+    options: ProofOptions = ProofOptions(out=Path("reach.certificate")),
 ) -> None:
     """Prove that every target in a box is reachable, with or without a locked joint.
 
@@ -64,28 +54,17 @@ def reach(
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
-    model = chain.resolve_arm(arm)
-    claim = hf.certificates.reach_claim(
-        model,
-        **targets.claim_arguments(),
-        locked=None if lock is None else read_joint_intervals(model, "--lock", [lock], degrees),
-        limits=read_joint_intervals(model, "--limit", limit, degrees),
-    )
-    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+    model = options.resolve_arm(arm)
+    claim = hf.certificates.reach_claim(model, **targets.read_claim_arguments(model))
+    prove_claim(claim, options, halvings=halvings, seed=options.seed)
 
 
 @command.command("out-of-reach")
 def out_of_reach(
     arm: ArmArgument,
-    targets: TargetBoxOptions,
-    lock: LockOption = None,
-    limit: LimitOption = None,
-    degrees: AnglesOption = False,
+    targets: LockedTargetBoxOptions,
     halvings: Annotated[int, "Of each joint and axis of the box, at most."] = 16,
-    search: SearchOptions = SearchOptions(),
-    chain: ArmSourceOptions = ArmSourceOptions(),
-    seed: SeedOption = 0,
-    written: CertificateOutput = CertificateOutput(Path("out-of-reach.certificate")),
+    options: ProofOptions = ProofOptions(out=Path("out-of-reach.certificate")),
 ) -> None:
     """Prove that no target in a box is reachable, with or without a locked joint.
 
@@ -94,14 +73,9 @@ def out_of_reach(
 
     Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
     """
-    model = chain.resolve_arm(arm)
-    claim = hf.certificates.out_of_reach_claim(
-        model,
-        **targets.claim_arguments(),
-        locked=None if lock is None else read_joint_intervals(model, "--lock", [lock], degrees),
-        limits=read_joint_intervals(model, "--limit", limit, degrees),
-    )
-    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+    model = options.resolve_arm(arm)
+    claim = hf.certificates.out_of_reach_claim(model, **targets.read_claim_arguments(model))
+    prove_claim(claim, options, halvings=halvings, seed=options.seed)
 
 
 @command.command()
@@ -118,10 +92,7 @@ def tolerant(
     ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
-    search: SearchOptions = SearchOptions(),
-    chain: ArmSourceOptions = ArmSourceOptions(),
-    seed: SeedOption = 0,
-    written: _CertificateFolder = _CertificateFolder(Path("certificates")),
+    options: _BundleOptions = _BundleOptions(out=Path("certificates")),
 ) -> None:
     """Prove that every target in a box stays reachable after any single lock.
 
@@ -130,16 +101,17 @@ def tolerant(
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
-    model = chain.resolve_arm(arm)
+    model = options.resolve_arm(arm)
     texts = [*(_read_range_options(ranges) if ranges is not None else []), *(range_ or [])]
     claim_arguments = targets.claim_arguments() | {
         "working_ranges": read_joint_intervals(model, "--range", texts, degrees),
         "failures": read_failures(model, failures),
     }
     if find_ranges:
-        prove_with_found_ranges(model, claim_arguments, search, written, halvings=halvings, seed=seed)
+        prove_with_found_ranges(model, claim_arguments, options, halvings=halvings, seed=options.seed)
     else:
-        prove_claim(hf.certificates.tolerant_claim(model, **claim_arguments), search, written, halvings=halvings, seed=seed)
+        claim = hf.certificates.tolerant_claim(model, **claim_arguments)
+        prove_claim(claim, options, halvings=halvings, seed=options.seed)
 
 
 @command.command()
@@ -147,14 +119,8 @@ def ceiling(
     arm: ArmArgument,
     below: Annotated[float, "Threshold, between 0 and 1."],
     configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
-    task: RowsOption = "pose",
-    degrees: AnglesOption = False,
-    failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
-    search: SearchOptions = SearchOptions(),
-    chain: ArmSourceOptions = ArmSourceOptions(),
-    seed: SeedOption = 0,
-    written: CertificateOutput = CertificateOutput(Path("ceiling.certificate")),
+    options: ProofOptions = ProofOptions(out=Path("ceiling.certificate")),
 ) -> None:
     """Prove an upper bound on relative manipulability over a box of configurations.
 
@@ -164,11 +130,9 @@ def ceiling(
 
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
-    model = chain.resolve_arm(arm)
-    claim = hf.certificates.ceiling_claim(
-        model, configurations.read_ranges(model, degrees), below, failures=read_failures(model, failures), task=task
-    )
-    prove_claim(claim, search, written, halvings=halvings, seed=seed)
+    model = options.resolve_arm(arm)
+    claim = hf.certificates.ceiling_claim(model, threshold=below, **configurations.read_claim_arguments(model))
+    prove_claim(claim, options, halvings=halvings, seed=options.seed)
 
 
 @command.command()
@@ -176,14 +140,8 @@ def floor(
     arm: ArmArgument,
     above: Annotated[float, "Threshold, between 0 and 1."],
     configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
-    task: RowsOption = "pose",
-    degrees: AnglesOption = False,
-    failures: FailuresOption = "single",
     halvings: JointHalvingsOption = 16,
-    search: SearchOptions = SearchOptions(),
-    chain: ArmSourceOptions = ArmSourceOptions(),
-    seed: SeedOption = 0,
-    written: CertificateOutput = CertificateOutput(Path("floor.certificate")),
+    options: ProofOptions = ProofOptions(out=Path("floor.certificate")),
 ) -> None:
     """Prove a lower bound on relative manipulability over a box of configurations.
 
@@ -193,14 +151,46 @@ def floor(
 
     Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
     """
-    model = chain.resolve_arm(arm)
-    claim = hf.certificates.floor_claim(
-        model, configurations.read_ranges(model, degrees), above, failures=read_failures(model, failures), task=task
+    model = options.resolve_arm(arm)
+    claim = hf.certificates.floor_claim(model, threshold=above, **configurations.read_claim_arguments(model))
+    prove_claim(claim, options, halvings=halvings, seed=options.seed)
+
+
+@command.command()
+def path(
+    arm: ArmArgument,
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with a column for each joint.")],
+    failures: FailuresOption = "single",
+    during: Annotated[str, "When a joint may lock: two parts of the motion."] = "0 1",
+    tube: Annotated[str, "How far off the path may be, m, and rad where the tool turns; or one number for both."] = "0",
+    task: Annotated[str, "What follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
+    segments: Annotated[int | None, "Use so many of the motion. Default: all."] = None,
+    halvings: Annotated[int, "Of intervals of lock instants, at most."] = 6,
+    options: UnseededProofOptions = UnseededProofOptions(out=Path("path.certificate")),
+) -> None:
+    """Prove that a tool path can be completed after any single lock at any time.
+
+    The motion is a table of the healthy arm's configurations, such as follow writes; between them joints move along straight
+    lines. The exit code is 0 if all is proved, 3 if something is undecided, 4 if something is refuted, 1 if the check rejects
+    something. Ctrl-C writes what is found so far; with --store the same command resumes.
+
+    Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
+    """
+    from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+
+    model, failure_times = options.resolve_arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
+    if len(failure_times) != 2:
+        raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
+    claim = hf.certificates.path_claim(
+        model,
+        read_joint_table(model, motion, "motion", "time_s").select_columns(joint_columns(model)),
+        failures=read_failures(model, failures),
+        during=tuple(failure_times),
+        tube=read_numbers("--tube", tube, "one number or two, m and rad,"),
+        task=task,
+        segments=segments,
     )
-    prove_claim(claim, search, written, halvings=halvings, seed=seed)
-
-
-command.command()(path)
+    prove_claim(claim, options, halvings=halvings)
 
 
 @command.command("structural-zero")

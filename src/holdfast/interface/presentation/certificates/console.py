@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -15,6 +14,7 @@ from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier import format_percent
 from holdfast.interface.presentation import results
 from holdfast.interface.presentation.certificates import joint_boxes, slices
+from holdfast.interface.presentation.certificates.pages import fraction_entry
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable
 
@@ -35,26 +35,28 @@ def to_dict(result: Found | StructuralZero) -> dict[str, Any]:
     if isinstance(result, StructuralZero):
         data = {"claim": result.describe()[0], "proved": result.ok, "verified": False}
         return data | {"turned": result.turned, "shifted": result.shifted}
-    shares, counts, witness = _decided_fractions(result), {"leaves": result.leaves}, dict[str, Any]()
-    parts: Mapping[str, Found]
+    is_check, parts = isinstance(result, CertificateCheck), list[tuple[str, Found]]()
+    keys = ["refuted", "undecided", "tolerant"] if is_check else ["proved", "undecided"]
+    counts, extra = ["leaves", "nodes", "finished"], dict[str, Any]()
     if isinstance(result, CertificateCheck):
-        claim, parts = result.claim, dict(zip(map(_lock_name, result.parts), result.parts, strict=True))
-        counts |= {"accepted": result.accepted, "rejected": result.rejected}
+        claim, parts = result.claim, [(_lock_name(part), part) for part in result.parts]
+        counts = ["leaves", "accepted", "rejected"]
     elif isinstance(result, TolerantProof):
-        claim, parts = result.document()["claim"], {result.part_label(part_result): part_result for part_result in result.parts}
+        claim, parts, keys = (
+            result.document()["claim"],
+            [(result.part_label(part), part) for part in result.parts],
+            [*keys, "tolerant"],
+        )
     else:
-        claim, parts = result.document["claim"], {}
-    if not isinstance(result, CertificateCheck):
-        counts |= {"nodes": result.nodes, "finished": result.finished, "verified": False}
+        claim = result.document["claim"]
     if isinstance(result, Refutation):
-        witness = {"witness": None if result.witness is None else result.witness.tolist()}
+        extra = {"witness": None if result.witness is None else result.witness.tolist()}
     if isinstance(result, ManipulabilityBound):
-        witness = {"extreme": result.extreme.tolist(), "value": result.value}
-    fractions = {
-        key: {"value": float(part_result), "fraction": _format_fraction(part_result)} for key, part_result in shares.items()
-    }
-    data = {"claim": claim, **fractions, **counts, **witness, "seconds": result.seconds}
-    return data | ({"parts": {name: to_dict(part_result) for name, part_result in parts.items()}} if parts else {})
+        extra = {"extreme": result.extreme.tolist(), "value": result.value}
+    data = {"claim": claim} | {key: fraction_entry(getattr(result, key)) for key in keys}
+    data |= {key: getattr(result, key) for key in counts} | ({} if is_check else {"verified": False})
+    data |= extra | {"seconds": result.seconds}
+    return data | ({"parts": {name: to_dict(part) for name, part in parts}} if parts else {})
 
 
 def format_state(search_state: SearchState) -> str:
@@ -65,13 +67,6 @@ def format_state(search_state: SearchState) -> str:
         for name, fraction in (("undecided", search_state.undecided), ("open", search_state.open))
     ]
     return f"{', '.join([*shares, *open_fractions])}; {search_state.nodes:,} boxes"
-
-
-def _decided_fractions(result: Found) -> dict[str, Fraction]:
-    if isinstance(result, CertificateCheck):
-        return {"refuted": result.refuted, "undecided": result.undecided, "tolerant": result.tolerant}
-    fractions = {"proved": result.proved, "undecided": result.undecided}
-    return fractions | {"tolerant": result.tolerant} if isinstance(result, TolerantProof) else fractions
 
 
 def _lock_name(check: CertificateCheck) -> str:
@@ -101,9 +96,8 @@ def tables(result: Found | StructuralZero) -> list[TextTable]:
 def key_table(result: Found | StructuralZero) -> TextTable:
     """Tabulate fractions and cells; for a structural zero the shift of the geometry."""
     if isinstance(result, StructuralZero):
-        return TextTable(
-            ["", ""], [["frames turned, rad", f"{result.turned:.2g}"], ["frames shifted, m", f"{result.shifted:.2g}"]]
-        )
+        rows = [["frames turned, rad", f"{result.turned:.2g}"], ["frames shifted, m", f"{result.shifted:.2g}"]]
+        return TextTable(["", ""], rows)
     if isinstance(result, CertificateCheck):
         rows = [
             ["accepted", f"{result.accepted:,}"],
@@ -124,28 +118,18 @@ def key_table(result: Found | StructuralZero) -> TextTable:
 def _tabulate_locks(result: Found) -> list[TextTable]:
     """Tabulate the fractions and cells of each locked joint."""
     if isinstance(result, CertificateCheck):
-        rows = [
-            [
-                _lock_name(part),
-                format_percent(1 - part.refuted - part.undecided),
-                format_percent(part.refuted),
-                format_percent(part.undecided, up=True),
-                *counts,
-            ]
-            for part in result.parts
-            for counts in [[f"{part.accepted:,}", f"{part.rejected:,}"]]
-        ]
-        return [TextTable(["lock of", "proved", "refuted", "undecided", "accepted", "rejected"], rows)] if rows else []
+        header = ["lock of", "proved", "refuted", "undecided", "accepted", "rejected"]
+        rows = []
+        for part in result.parts:
+            shares = [format_percent(1 - part.refuted - part.undecided), format_percent(part.refuted)]
+            undecided, counts = format_percent(part.undecided, up=True), [f"{part.accepted:,}", f"{part.rejected:,}"]
+            rows.append([_lock_name(part), *shares, undecided, *counts])
+        return [TextTable(header, rows)] if rows else []
     if isinstance(result, TolerantProof):
         header = ["lock of", "proved, not yet verified", "undecided", "cells", "s"]
-        cells = [[f"{part.leaves:,}", f"{part.seconds:.1f}"] for part in result.parts]
-        shares = [
-            [result.part_label(part), format_percent(part.proved), format_percent(part.undecided, up=True)]
-            for part in result.parts
-        ]
-        return [TextTable(header, [[*share, *count] for share, count in zip(shares, cells, strict=True)])]
+        rows = []
+        for proof in result.parts:
+            shares = [format_percent(proof.proved), format_percent(proof.undecided, up=True)]
+            rows.append([result.part_label(proof), *shares, f"{proof.leaves:,}", f"{proof.seconds:.1f}"])
+        return [TextTable(header, rows)]
     return []
-
-
-def _format_fraction(fraction: Fraction) -> str:
-    return f"{fraction.numerator}/{fraction.denominator}"

@@ -18,7 +18,7 @@ from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.tree import UNDECIDED_TOKEN
 from holdfast.certificates.verifier import format_percent
 from holdfast.core.typing import FloatArray, IndexArray
-from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
+from holdfast.interface.presentation.certificates.pages import SCOPE_NOTE, UNVERIFIED_NOTE, add_legend, bind_percent_sign
 from holdfast.interface.presentation.certificates.pages import write as write
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable
@@ -31,7 +31,6 @@ Found = Refutation | ManipulabilityBound
 
 _MAX_DRAWN_HALVINGS = 7  # halvings of an axis that a picture shows
 _HARDEST_ROWS = 5
-_SCOPE_NOTE = "collisions, torques, speed; links are rigid, the geometry is the file's, locks do not slip"
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,28 +56,17 @@ class LeafBoxes:
         """Read the leaves of a proof, or those of its largest lemma if that has more boxes than the rest."""
         arm, document = proof.claim.arm, proof.document
         names, turns, packed_tree = list(arm.joint_names), ~arm.prismatic, document["tree"]
-        if isinstance(proof, Refutation):
-            axis_letters = document["target"]["axes"]
-            box_ends, last_token, lock_token = (
-                np.vstack([joint_ranges(proof.claim), proof.claim.box]),
-                2 + len(document["lemmas"]),
-                256,
-            )
+        if isinstance(proof, ManipulabilityBound):
+            box, last_token, lock_token = proof.claim.joint_box, 2, verifier.FIRST_LOCK_TOKEN
+        elif lemma := _find_largest_lemma(document):
+            behind, last_token, lock_token = slice(lemma["link"], arm.n), 2, 256
+            box, names, turns, packed_tree = joint_ranges(proof.claim)[behind], names[behind], turns[behind], lemma["tree"]
+        else:
+            box, axis_letters = np.vstack([joint_ranges(proof.claim), proof.claim.box]), document["target"]["axes"]
+            last_token, lock_token = 2 + len(document["lemmas"]), 256
             names += [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in axis_letters]
             turns = np.append(turns, [axis not in "xyz" for axis in axis_letters])
-            lemma = _find_largest_lemma(document)
-            if lemma is not None:
-                joints_behind = slice(lemma["link"], arm.n)
-                box_ends, last_token, names, turns, packed_tree = (
-                    box_ends[joints_behind],
-                    2,
-                    names[joints_behind],
-                    turns[joints_behind],
-                    lemma["tree"],
-                )
-        else:
-            box_ends, last_token, lock_token = proof.claim.joint_box, 2, verifier.FIRST_LOCK_TOKEN
-        return cls(box_ends, names, turns, *_unpack_leaves(packed_tree, len(box_ends), last_token, lock_token))
+        return cls(box, names, turns, *_unpack_leaves(packed_tree, len(box), last_token, lock_token))
 
     @property
     def halvings(self) -> IndexArray:
@@ -111,16 +99,14 @@ class LeafBoxes:
         """Project the boxes onto two axes (2^7, 2^7): the largest number of halvings over the other axes, and the undecided
         area.
         """
-        max_halvings, undecided_area = (
-            np.zeros((1 << _MAX_DRAWN_HALVINGS,) * 2),
-            np.zeros((1 << _MAX_DRAWN_HALVINGS,) * 2, dtype=bool),
-        )
+        max_halvings = np.zeros((1 << _MAX_DRAWN_HALVINGS,) * 2)
+        undecided_area = max_halvings > 0
         excess_halvings = np.maximum(self.depth[:, axes] - _MAX_DRAWN_HALVINGS, 0)
         cell_indices, depth = self.cell_indices[:, axes] >> excess_halvings, self.depth[:, axes] - excess_halvings
         for depths in np.unique(depth, axis=0):
             box_rows = np.flatnonzero((depth == depths).all(axis=1))
-            grid_halvings, is_open = np.zeros((1 << depths).tolist()), np.zeros((1 << depths).tolist(), dtype=bool)
-            grid_index = tuple(cell_indices[box_rows].T)
+            grid_halvings, grid_index = np.zeros((1 << depths).tolist()), tuple(cell_indices[box_rows].T)
+            is_open = grid_halvings > 0
             np.maximum.at(grid_halvings, grid_index, self.halvings[box_rows])
             np.logical_or.at(is_open, grid_index, self.undecided[box_rows])
             pixel_block = np.ones((1 << (_MAX_DRAWN_HALVINGS - depths)).tolist(), dtype=bool)
@@ -161,25 +147,21 @@ def _find_largest_lemma(document: dict[str, Any]) -> dict[str, Any] | None:
 def figures(proof: Found) -> dict[str, Figure]:
     """Draw the distance of the values from a bound, and the box sizes or the witness that refutes the claim."""
     drawings = {"bound": _draw_value_scale(proof)} if isinstance(proof, ManipulabilityBound) else {}
-    return drawings | (
-        {"witness": _draw_witness(proof)} if proof.refuted else {"boxes": _draw_boxes(proof, LeafBoxes.from_proof(proof))}
-    )
+    # The configuration that refutes a claim, or comes nearest to a bound.
+    q = proof.witness if isinstance(proof, Refutation) else proof.extreme
+    if proof.refuted:
+        assert q is not None
+        return drawings | {"witness": _draw_witness(proof, q)}
+    return drawings | {"boxes": _draw_boxes(LeafBoxes.from_proof(proof), q)}
 
 
-def _refuting_or_extreme_configuration(proof: Found) -> FloatArray | None:
-    """Return the configuration that refutes a claim, or comes nearest to a bound."""
-    return proof.witness if isinstance(proof, Refutation) else proof.extreme
-
-
-def _draw_witness(proof: Found) -> Figure:
+def _draw_witness(proof: Found, q: FloatArray) -> Figure:
     """Draw the position of each joint within its range."""
     from matplotlib.figure import Figure
 
     from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
 
-    arm, q = proof.claim.arm, _refuting_or_extreme_configuration(proof)
-    spans = joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
-    assert q is not None
+    arm, spans = proof.claim.arm, joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
     scale = _display_factors(~arm.prismatic)
     with style():
         figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
@@ -215,47 +197,30 @@ def _draw_value_scale(proof: ManipulabilityBound) -> Figure:
             (bound, BLUE, f"{claim.kind} {bound:.4g}", is_upper_bound == proof.refuted),
         ):
             axes.axvline(position, color=color, linewidth=1.6)
-            axes.annotate(
-                label,
-                (position, 1.03),
-                xycoords=("data", "axes fraction"),
-                ha="right" if is_left else "left",
-                va="bottom",
-                color=color,
-            )
+            place = {"xycoords": ("data", "axes fraction"), "ha": "right" if is_left else "left", "va": "bottom"}
+            axes.annotate(label, (position, 1.03), color=color, **place)
         axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
         axes.grid(visible=False)
         return settle_layout(figure)
 
 
-def _draw_boxes(proof: Found, leaves: LeafBoxes) -> Figure:
+def _draw_boxes(leaves: LeafBoxes, marked: FloatArray | None) -> Figure:
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
     from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
 
     with style():
         figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
         plane, bars = figure.subplots(1, 2)
-        _draw_projection(plane, leaves, _refuting_or_extreme_configuration(proof))
-        counts = [np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided)]
-        for series, box_counts in enumerate(counts):
-            bar_style = (
-                {"facecolor": EMPTY_COLOR, "hatch": "////", "linewidth": 0.3}
-                if series
-                else {"facecolor": SKY, "linewidth": 0.6}
-            )
-            bar_bottom = np.zeros(len(box_counts))
-            if series:
-                bar_bottom[: len(counts[0])] = counts[0][: len(box_counts)]
-            bars.bar(np.arange(len(box_counts)), box_counts, bottom=bar_bottom, width=1.0, edgecolor=INK, **bar_style)
+        _draw_projection(plane, leaves, marked)
+        proved, undecided = (np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided))
+        bottom, bar_style = np.pad(proved, (0, len(undecided)))[: len(undecided)], {"width": 1.0, "edgecolor": INK}
+        bars.bar(np.arange(len(proved)), proved, facecolor=SKY, linewidth=0.6, **bar_style)
+        hatching = {"facecolor": EMPTY_COLOR, "hatch": "////", "linewidth": 0.3}
+        bars.bar(np.arange(len(undecided)), undecided, bottom=bottom, **hatching, **bar_style)
         bars.set(xlabel="halvings of the whole", ylabel="boxes", title="How small they are")
         bars.xaxis.get_major_locator().set_params(integer=True)
-        patches = [
-            Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved (darker: smaller boxes)"),
-            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
-        ]
-        figure.legend(handles=patches, loc="outside lower center", ncols=2)
+        add_legend(figure, {"proved (darker: smaller boxes)": SKY})
         return settle_layout(figure)
 
 
@@ -339,7 +304,7 @@ def _report_refutation(proof: Refutation) -> PageContent:
         facts=facts,
         figures=_figure_captions(proof, other_axes, lemma_text),
         tables=[] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()],
-        method=[("Proof", proof_text), ("Not said", f"{_SCOPE_NOTE}; nor what is reached outside of the box")],
+        method=[("Proof", proof_text), ("Not said", f"{SCOPE_NOTE}; nor what is reached outside of the box")],
         arm=claim.arm,
     )
 
@@ -347,10 +312,9 @@ def _report_refutation(proof: Refutation) -> PageContent:
 def _figure_captions(proof: Found, other_axes: str, lemma_text: str = "") -> dict[str, tuple[str, str]]:
     """Return titles and captions of the figures of boxes, or of the configuration that refutes the claim."""
     text = (
-        f"{lemma_text}Left: the two axes that were halved most often, to scale, the worst over {other_axes}; the "
-        f"darker, the smaller the "
+        f"{lemma_text}Left: the two axes that were halved most often, to scale, the worst over {other_axes}; the darker, the "
     )
-    text += "boxes that it took. Hatched: something is undecided. Right: boxes by their size."
+    text += "smaller the boxes that it took. Hatched: something is undecided. Right: boxes by their size."
     if isinstance(proof, ManipulabilityBound):
         text += " The dot is the configuration that comes nearest to the bound."
     return {
@@ -365,10 +329,8 @@ def _report_bound(proof: ManipulabilityBound) -> PageContent:
     occurrence = f"{proof.value:.6f} occurs, at ({_format_configuration(proof.extreme, proof)}) deg"
     answer = _describe_proved_fraction(proof, f"the box is proved to keep the {claim.kind} of {claim.threshold:g}")
     facts = [*_list_facts(proof, f"of the box: {claim.kind} {claim.threshold:g}"), (f"{proof.value:.4g}", "occurs")]
-    caption = (
-        f"Blue: proved that nothing of the box is {side} the {claim.kind}. Hatched: the {extreme_word} value of the "
-        f"box is in here."
-    )
+    caption = f"Blue: proved that nothing of the box is {side} the {claim.kind}. Hatched: the {extreme_word} value of the box "
+    caption += "is in here."
     if not proof.ok:
         caption = f"Blue: nothing is {side} the {claim.kind} but for what is undecided. Hatched: between it and what occurs."
     if proof.refuted:
@@ -380,9 +342,8 @@ def _report_bound(proof: ManipulabilityBound) -> PageContent:
         answer += f"{occurrence}, and nothing is {side} {claim.threshold:g}."
     else:
         answer += f" {occurrence}."
-    proof_text = "in each box of a bisection tree one wrench bounds what a lock leaves" if is_upper_bound else (
-        "in each box of a bisection tree one inverse bounds what every lock leaves, as a series"
-    )  # fmt: skip
+    bound_text = "wrench bounds what a lock leaves" if is_upper_bound else "inverse bounds what every lock leaves, as a series"
+    proof_text = f"in each box of a bisection tree one {bound_text}"
     return PageContent(
         f"A {claim.kind} of relative manipulability of {claim.arm.name}",
         f"{answer} {UNVERIFIED_NOTE}",
@@ -390,6 +351,6 @@ def _report_bound(proof: ManipulabilityBound) -> PageContent:
         facts=facts,
         figures={"bound": ("The bound, and what occurs", caption), **_figure_captions(proof, "all other joints")},
         tables=[] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()],
-        method=[("Proof", proof_text), ("Not said", f"{_SCOPE_NOTE}; nor anything of configurations outside of the box")],
+        method=[("Proof", proof_text), ("Not said", f"{SCOPE_NOTE}; nor anything of configurations outside of the box")],
         arm=claim.arm,
     )

@@ -7,19 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS
-from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.proof import PathProof
-from holdfast.certificates.tool_paths.slabs import LockSlab
+from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, LockSlab
+from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
-from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
+from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, add_legend, bind_percent_sign, fraction_entry
 from holdfast.interface.presentation.certificates.pages import write as write
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -32,24 +28,21 @@ def to_dict(proof: PathProof) -> dict[str, Any]:
     """
     parts: dict[str, Any] = {}
     for part in proof.parts:
-        gaps = [[begin / SEGMENT_INSTANTS, end / SEGMENT_INSTANTS] for begin, end in proof.gaps(part)]
-        counts = {"leaves": part.leaves, "nodes": part.nodes, "finished": part.finished, "seconds": part.seconds}
-        shares = {key: _fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")}
-        followers = [proof.claim.arm.joint_names[joint] for joint in part.followers]
-        parts[_joint_name(proof, part)] = shares | {"undecided_between_knots": gaps, "followers": followers} | counts
-    total_fractions = {
-        "proved": proof.proved,
-        "refuted": proof.refuted,
-        "undecided": proof.undecided,
-        "tolerant": proof.tolerant,
+        parts[_joint_name(proof, part)] = {
+            **{key: fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")},
+            "undecided_between_knots": [[begin / SEGMENT_INSTANTS, end / SEGMENT_INSTANTS] for begin, end in proof.gaps(part)],
+            "followers": [proof.claim.arm.joint_names[joint] for joint in part.followers],
+            **{key: getattr(part, key) for key in ("leaves", "nodes", "finished", "seconds")},
+        }
+    return {
+        "claim": proof.document["claim"],
+        **{key: fraction_entry(getattr(proof, key)) for key in ("proved", "refuted", "undecided", "tolerant")},
+        **{key: getattr(proof, key) for key in ("leaves", "nodes", "finished")},
+        "verified": False,
+        "deviation": proof.claim.deviation,
+        "seconds": proof.seconds,
+        "parts": parts,
     }
-    data = {"claim": proof.document["claim"], **{key: _fraction_entry(share) for key, share in total_fractions.items()}}
-    counts = {"leaves": proof.leaves, "nodes": proof.nodes, "finished": proof.finished, "verified": False}
-    return data | counts | {"deviation": proof.claim.deviation, "seconds": proof.seconds, "parts": parts}
-
-
-def _fraction_entry(fraction: Fraction) -> dict[str, Any]:
-    return {"value": float(fraction), "fraction": f"{fraction.numerator}/{fraction.denominator}"}
 
 
 def _joint_name(proof: PathProof, part: LockedPath) -> str:
@@ -58,14 +51,11 @@ def _joint_name(proof: PathProof, part: LockedPath) -> str:
 
 def tables(proof: PathProof) -> list[TextTable]:
     """Tabulate the fractions of each lock, then those of all locks."""
-    rows = [
-        [
-            _joint_name(proof, part), format_percent(part.proved), format_percent(part.refuted),
-            format_percent(part.undecided, up=True),
-            _format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}",
-        ]
-        for part in proof.parts
-    ]  # fmt: skip
+    rows = []
+    for part in proof.parts:
+        shares = [format_percent(part.proved), format_percent(part.refuted), format_percent(part.undecided, up=True)]
+        counts = [_format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}"]
+        rows.append([_joint_name(proof, part), *shares, *counts])
     header = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
     return [TextTable(header, rows), key_table(proof)]
 
@@ -109,10 +99,8 @@ def story(proof: PathProof) -> PageContent:
         refuted_joints = [_joint_name(proof, part) for part in proof.parts if part.refuted]
         if refuted_joints:
             remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
-        answer = (
-            f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
-            f"be finished; {remainder}."
-        )
+        answer = f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
+        answer += f"be finished; {remainder}."
     undecided = [[_joint_name(proof, path), _format_undecided_intervals(proof, path)] for path in proof.parts]
     return PageContent(
         f"What {claim.arm.name} finishes after a lock",
@@ -143,38 +131,26 @@ def story(proof: PathProof) -> PageContent:
 def figures(proof: PathProof) -> dict[str, Figure]:
     """Draw the lock instants against the path, one panel for each lock."""
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
+    from holdfast.interface.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, settle_layout, style
 
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
+    width = WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS)
     with style():
-        figure = Figure(
-            figsize=(
-                WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS),
-                2.7 * row_count + 0.7,
-            ),
-            layout="constrained",
-        )
+        figure = Figure(figsize=(width, 2.7 * row_count + 0.7), layout="constrained")
         panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
-        for panel, axes in enumerate(panels):
-            if panel < len(proof.parts):
-                _draw_panel(axes, proof, proof.parts[panel])
-            else:
-                axes.set_visible(False)
-        for panel in range(len(proof.parts)):
-            panels[panel].set_xlabel("path [knots]" if panel + column_count >= len(proof.parts) else "")
-            panels[panel].xaxis.set_tick_params(labelbottom=panel + column_count >= len(proof.parts))
+        for panel, part in zip(panels, proof.parts, strict=False):
+            _draw_panel(panel, proof, part)
+        for panel in panels[len(proof.parts) :]:
+            panel.set_visible(False)
+        for index, panel in enumerate(panels[: len(proof.parts)]):
+            is_last = index + column_count >= len(proof.parts)
+            panel.set_xlabel("path [knots]" if is_last else "")
+            panel.xaxis.set_tick_params(labelbottom=is_last)
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
-        patches = [
-            Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved to be finished"),
-            Patch(facecolor=BLUE, edgecolor=INK, linewidth=0.6, label="in turned cells"),
-            Patch(facecolor=ORANGE, edgecolor=INK, linewidth=0.6, label="refuted"),
-            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
-        ]
-        figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
+        add_legend(figure, {"proved to be finished": SKY, "in turned cells": BLUE, "refuted": ORANGE})
         return {"slices": settle_layout(figure)}
 
 
@@ -184,35 +160,25 @@ def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
     from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY
 
     path_end = proof.claim.segments
-    proved, rotated, faces = [], [], []
-    for slab in part.slabs:
-        begin, stop = slab.begin / SEGMENT_INSTANTS, slab.stop / SEGMENT_INSTANTS
-        proved.append([(begin, begin), (path_end, begin), (path_end, stop), (stop, stop)])
-        faces += [
-            [(instant / SEGMENT_INSTANTS, begin), (instant / SEGMENT_INSTANTS, stop)]
-            for instant in slab.ends[:-1]
-            if instant > 0
-        ]
-        rotated += [
-            [(left_edge, begin), (right_edge, begin), (right_edge, stop), (left_edge, stop)]
-            for left_edge, right_edge in _rotated_intervals(slab, part.joint)
-        ]
+
+    def fill(outlines: list[Any], color: str, **style: Any) -> None:
+        axes.add_collection(PolyCollection(outlines, facecolor=color, **{"edgecolor": "face", "linewidth": 0.2} | style))
 
     def outline_intervals(spans: list[tuple[int, int]]) -> list[list[tuple[float, float]]]:
         """Return the outlines of the path that follows intervals of lock instants."""
-        return [
-            [(a, a), (path_end, a), (path_end, b), (b, b)]
-            for a, b in ((first / SEGMENT_INSTANTS, last / SEGMENT_INSTANTS) for first, last in spans)
-        ]
+        ends = ((first / SEGMENT_INSTANTS, last / SEGMENT_INSTANTS) for first, last in spans)
+        return [[(a, a), (path_end, a), (path_end, b), (b, b)] for a, b in ends]
 
-    axes.add_collection(PolyCollection(proved, facecolor=SKY, edgecolor="face", linewidth=0.2))
-    axes.add_collection(PolyCollection(rotated, facecolor=BLUE, edgecolor="face", linewidth=0.2))
-    axes.add_collection(
-        PolyCollection(outline_intervals(part.refuted_lock_intervals), facecolor=ORANGE, edgecolor="face", linewidth=0.2)
-    )
-    axes.add_collection(
-        PolyCollection(outline_intervals(proof.gaps(part)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3)
-    )
+    rotated, faces = list[Any](), list[Any]()
+    for slab in part.slabs:
+        begin, stop = slab.begin / SEGMENT_INSTANTS, slab.stop / SEGMENT_INSTANTS
+        instants = [instant / SEGMENT_INSTANTS for instant in slab.ends[:-1] if instant > 0]
+        faces += [[(instant, begin), (instant, stop)] for instant in instants]
+        rotated += [[(a, begin), (b, begin), (b, stop), (a, stop)] for a, b in _rotated_intervals(slab, part.joint)]
+    fill(outline_intervals(part.proved_lock_intervals), SKY)
+    fill(rotated, BLUE)
+    fill(outline_intervals(part.refuted_lock_intervals), ORANGE)
+    fill(outline_intervals(proof.gaps(part)), EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3)
     axes.add_collection(LineCollection(faces, colors=INK, linewidths=0.1))
     axes.plot([0, path_end], [0, path_end], color=INK, linewidth=0.8)
     axes.set(
@@ -230,8 +196,7 @@ def _rotated_intervals(slab: LockSlab, joint: int) -> list[tuple[float, float]]:
             run_start = position if run_start < 0 else run_start
             continue
         if run_start >= 0:
-            intervals.append(
-                (run_start / SEGMENT_INSTANTS, position // SEGMENT_INSTANTS + int(center[joint]) / SEGMENT_INSTANTS)
-            )
+            last = position // SEGMENT_INSTANTS + int(center[joint]) / SEGMENT_INSTANTS
+            intervals.append((run_start / SEGMENT_INSTANTS, last))
         position, run_start = end, -1
     return intervals

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,18 +12,20 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import Proof, TolerantProof
-from holdfast.certificates.tool_paths.march import LockedPath
-from holdfast.certificates.tool_paths.proof import PathProof
+from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.interface.presentation import call_presenter, results
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from matplotlib.figure import Figure
 
     from holdfast.certificates import WorkingRanges
 
+SCOPE_NOTE = "collisions, torques, speed; links are rigid, the geometry is the file's, locks do not slip"
 UNVERIFIED_NOTE = "Found by the prover, not yet verified."
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
@@ -51,6 +53,22 @@ def write(
         method=[*content.method, *_list_check_instructions(proof, check, file)],
     )
     return results.write(proof, path, command, drawn, report)
+
+
+def add_legend(figure: Figure, colors: Mapping[str, str]) -> None:
+    """Add a legend below a figure, with the color of each label and the hatching of what is undecided."""
+    from matplotlib.patches import Patch
+
+    from holdfast.interface.report.figures import EMPTY_COLOR, INK
+
+    patches = [Patch(facecolor=color, edgecolor=INK, linewidth=0.6, label=label) for label, color in colors.items()]
+    patches.append(Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"))
+    figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
+
+
+def fraction_entry(fraction: Fraction) -> dict[str, Any]:
+    """Return a fraction as a number and as an exact rational."""
+    return {"value": float(fraction), "fraction": f"{fraction.numerator}/{fraction.denominator}"}
 
 
 def bind_percent_sign(text: str) -> str:
@@ -82,30 +100,23 @@ def tabulate_parts(proof: Found, check: CertificateCheck | None = None) -> TextT
             shares[1] = format_percent(part.refuted)
         elif not isinstance(part, Proof) and part.refuted:
             shares = ["0 %", "by a witness", "the rest"]
-        rows.append([_part_name(proof, part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *_verifier_cells(checked)])
+        verifier_cells = ["nobody yet", ""]
+        if checked is not None:
+            outcome = f"not: {checked.rejected:,} rejected" if checked.rejected else "sampled"
+            seconds = f"{checked.seconds:.1f}" if checked.seconds else ""
+            verifier_cells = ["verifier.py" if checked.ok else outcome, seconds]
+        rows.append([_part_name(proof, part), *shares, f"{part.leaves:,}", f"{part.seconds:.1f}", *verifier_cells])
     names = ["lock of", "proved", "refuted", "undecided", "boxes", "search, s", "verified by", "check, s"]
     has_check_times = any(row[-1] for row in rows)  # one check of all locks at once has a time of its own
     return TextTable(names if has_check_times else names[:-1], rows if has_check_times else [row[:-1] for row in rows])
-
-
-def _verifier_cells(check: CertificateCheck | None) -> list[str]:
-    """Return the verifier and its time in seconds, as table cells."""
-    if check is None:
-        return ["nobody yet", ""]
-    verifier_text = "verifier.py" if check.ok else f"not: {check.rejected:,} rejected" if check.rejected else "sampled"
-    return [verifier_text, f"{check.seconds:.1f}" if check.seconds else ""]
 
 
 def _part_name(proof: Found, part: Found | LockedPath) -> str:
     if isinstance(part, LockedPath):
         return proof.claim.arm.joint_names[part.joint]
     if isinstance(part, ManipulabilityBound):
-        locks = part.claim.locks
-        return (
-            "any one joint"
-            if len(locks) == part.claim.arm.n
-            else ", ".join(part.claim.arm.joint_names[joint] for joint in locks)
-        )
+        names = [part.claim.arm.joint_names[joint] for joint in part.claim.locks]
+        return "any one joint" if len(names) == part.claim.arm.n else ", ".join(names)
     assert not isinstance(part, TolerantProof | PathProof)
     locked = getattr(part.claim, "locked", -1)  # a claim about no lock has no such attribute
     return "healthy" if locked < 0 else part.claim.arm.joint_names[locked]
@@ -122,9 +133,6 @@ def _list_check_instructions(proof: Found, check: CertificateCheck | None, file:
         ("Digest of the certificate", code.format(document["digest"])),
     ]
     if check is not None:
-        try:
-            flint_version = f"python-flint {version('python-flint')}"
-        except PackageNotFoundError:
-            flint_version = "python-flint"
-        entries.append(("Verified with", f"verifier.py in ball arithmetic, {flint_version}, {check.seconds:.1f} s"))
+        flint = f"python-flint {version('python-flint')}"
+        entries.append(("Verified with", f"verifier.py in ball arithmetic, {flint}, {check.seconds:.1f} s"))
     return entries

@@ -10,16 +10,15 @@ from holdfast.certificates import documents
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.certificates.verifier_parts.tree import Cell
-from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
+from holdfast.interface.presentation.certificates.pages import SCOPE_NOTE, UNVERIFIED_NOTE, add_legend, bind_percent_sign
 from holdfast.interface.presentation.certificates.pages import write as write
 from holdfast.interface.presentation.page_content import PageContent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
+    from holdfast.core.typing import FloatArray
 
 _AXIS_LABELS = ("x [m]", "y [m]", "z [m]")
 
@@ -35,7 +34,7 @@ def figures(proof: Proof | TolerantProof) -> dict[str, Figure]:
     return {"slices": _draw_slices(box, cells, [*middle_slices, (0, 1, (2, worst_height))])}
 
 
-def _undecided_cells(proof: Proof | TolerantProof) -> Array:
+def _undecided_cells(proof: Proof | TolerantProof) -> FloatArray:
     """Return the parts of the box, as fractions of it (N, axes, 2), over which something is undecided."""
     parts = proof.parts if isinstance(proof, TolerantProof) else (proof,)
     count = min(3, len(proof.claim.box))
@@ -45,7 +44,7 @@ def _undecided_cells(proof: Proof | TolerantProof) -> Array:
     ).reshape(-1, count, 2)
 
 
-def _find_worst_height(box: Array, cells: Array) -> float:
+def _find_worst_height(box: FloatArray, cells: FloatArray) -> float:
     """Return the height z, m, of the plane in which the undecided cells cover most; cells may overlap."""
     fraction = 0.5
     if len(cells):
@@ -56,25 +55,22 @@ def _find_worst_height(box: Array, cells: Array) -> float:
     return float(box[2, 0] + fraction * (box[2, 1] - box[2, 0]))
 
 
-def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
+def _draw_slices(box: FloatArray, cells: FloatArray, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
-    from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
+    from holdfast.interface.report.figures import SKY, WIDTH_IN, settle_layout, style
 
     with style():
         figure = Figure(figsize=(WIDTH_IN if len(slices) > 1 else WIDTH_IN / 2, 3.9), layout="constrained")
         for axes, (first_axis, second_axis, fixed_axis) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
             _draw_slice(axes, box, cells, (first_axis, second_axis), fixed_axis)
-        patches = [
-            Patch(facecolor=SKY, edgecolor=INK, linewidth=0.6, label="proved"),
-            Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"),
-        ]
-        figure.legend(handles=patches, loc="outside lower center", ncols=2)
+        add_legend(figure, {"proved": SKY})
         return settle_layout(figure)
 
 
-def _draw_slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], fixed_axis: tuple[int, float] | None) -> None:
+def _draw_slice(
+    axes: Axes, box: FloatArray, cells: FloatArray, across: tuple[int, int], fixed_axis: tuple[int, float] | None
+) -> None:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
@@ -103,23 +99,21 @@ def _draw_slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], f
 
 def story(proof: Proof | TolerantProof) -> PageContent:
     """Compose the report: the proved fraction, its meaning, and its limits."""
-    tolerant = isinstance(proof, TolerantProof)
-    arm = proof.claim.arm
-    locked = -1 if isinstance(proof, TolerantProof) else proof.claim.locked
-    object_text = "targets" if locked < 0 else f"targets and locked angles of {arm.joint_names[locked]}"
-    fraction = proof.tolerant if isinstance(proof, TolerantProof) else proof.proved
-    condition = " while healthy and whatever locks" if tolerant else ""
+    arm, place_text, condition = proof.claim.arm, "within limits", ""
+    object_text, fraction = "targets", proof.proved
+    if isinstance(proof, TolerantProof):
+        fraction, condition = proof.tolerant, " while healthy and whatever locks"
+        place_text = "wherever a joint locks, and while healthy"
+    elif proof.claim.locked >= 0:
+        place_text, object_text = "at every locked angle", f"targets and locked angles of {arm.joint_names[proof.claim.locked]}"
     answer = "Nothing is proved: all is undecided."
     if fraction:
         remainder = "the rest is undecided" if fraction < 1 else "nothing is undecided"
-        answer = (
-            f"Of the {object_text}, {bind_percent_sign(format_percent(fraction))} are proved to be "
-            f"reached{condition}; {remainder}."
-        )
-    place_text = (
-        "wherever a joint locks, and while healthy" if tolerant else "at every locked angle" if locked >= 0 else "within limits"
-    )
+        percent = bind_percent_sign(format_percent(fraction))
+        answer = f"Of the {object_text}, {percent} are proved to be reached{condition}; {remainder}."
     orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
+    caption = f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
+    caption += "say that it is out of reach. Through the middle of the box, and where most is undecided."
     return PageContent(
         f"What is proved of {arm.name}",
         f"{answer} {UNVERIFIED_NOTE}",
@@ -128,20 +122,10 @@ def story(proof: Proof | TolerantProof) -> PageContent:
             (bind_percent_sign(format_percent(fraction)), f"of the {object_text}{condition}"),
             (f"{proof.leaves:,}", "boxes, each with one configuration"),
         ],
-        figures={
-            "slices": (
-                "Where it is proved",
-                f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which "
-                f"does not say that it is "
-                "out of reach. Through the middle of the box, and where most is undecided.",
-            )
-        },
+        figures={"slices": ("Where it is proved", caption)},
         method=[
             ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
-            (
-                "Not said",
-                "collisions, torques, speed, the way there; links are rigid, the geometry is the file's, locks do not slip",
-            ),
+            ("Not said", SCOPE_NOTE.replace("speed", "speed, the way there")),
         ],
         arm=arm,
     )

@@ -24,11 +24,7 @@ def to_dict(working_ranges: WorkingRanges) -> dict[str, Any]:
         "targets": working_ranges.targets,
         "locked_values_per_joint": working_ranges.values,
         "reached_healthy": working_ranges.healthy,
-        "lost": {
-            joint.name: int(working_ranges.lost[joint_index])
-            for joint_index, joint in enumerate(arm.joints)
-            if joint_index in locks
-        },
+        "lost": {arm.joint_names[joint]: int(working_ranges.lost[joint]) for joint in sorted(locks)},
         "passed": working_ranges.passed,
         "seconds": working_ranges.seconds,
     }
@@ -37,9 +33,8 @@ def to_dict(working_ranges: WorkingRanges) -> dict[str, Any]:
 def tables(working_ranges: WorkingRanges) -> list[TextTable]:
     """Return each range, its width, and the number of sampled targets that its locks lose."""
     rows = []
-    for joint_index, (joint, limits, relative) in enumerate(
-        zip(working_ranges.claim.arm.joints, working_ranges.ranges, working_ranges.relative_widths, strict=True)
-    ):
+    columns = working_ranges.claim.arm.joints, working_ranges.ranges, working_ranges.relative_widths
+    for joint_index, (joint, limits, relative) in enumerate(zip(*columns, strict=True)):
         factor, unit = joint.display_unit
         loss_text = str(working_ranges.lost[joint_index]) if joint_index in working_ranges.claim.locks else "does not lock"
         width = f"{factor * (limits[1] - limits[0]):.4g} {unit}"
