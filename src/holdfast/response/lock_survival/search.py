@@ -14,6 +14,7 @@ from holdfast.core.validation import check_arguments
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.paths.timed_path import TimedPath
 from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.best_paths import BestPathTable
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.kinematics.solvers.self_motions import TRACING_STARTS
 from holdfast.kinematics.tool_constraints.labels import KeepLike
@@ -23,7 +24,7 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike
 from holdfast.response.lock_survival import tables
 from holdfast.response.lock_survival.conditions import compute_task_jacobian
-from holdfast.response.lock_survival.dynamic_program import BestPathTable, SearchBounds, advance_tables, smooth_motion
+from holdfast.response.lock_survival.dynamic_program import SearchBounds, advance_tables, smooth_motion
 from holdfast.response.lock_survival.given_motion import with_baselines
 from holdfast.response.lock_survival.grid import CurveNodes, make_nodes
 from holdfast.response.lock_survival.lock_evaluation import PATH_TOLERANCE, find_survived_locks, is_off_path
@@ -179,16 +180,13 @@ class _CurveSearch:
             weight * lock_table.maximize_survived_rates(pose_nodes, problem.rates.each)
             for weight, lock_table, pose_nodes in zip(weights, self._lock_tables, self._nodes, strict=True)
         ]
-        self._path_tables, bound_table = (
-            (BestPathTable(self._gains), BestPathTable(self._gains, problem.spacing)),
-            BestPathTable(nearby_gains, problem.spacing),
-        )
+        self._path_tables = BestPathTable(self._gains), BestPathTable(self._gains, problem.spacing)
+        bound_table = BestPathTable(nearby_gains, problem.spacing)
         advance_tables(arm, self._nodes, max_steps, (*self._path_tables, bound_table))
         if bound_table.last_pose is not None:
             raise HoldfastError(
                 f"no continuous motion along the path was found: it ends at {problem.time[bound_table.last_pose]:.4g} s; "
-                f"slow the path "
-                "down, take more samples, or prescribe fewer rows"
+                "slow the path down, take more samples, or prescribe fewer rows"
             )
         self._bound = bound_table.best_total / self._total_weight
         self.survival_interval = (
@@ -258,8 +256,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     if not attempts:
         raise HoldfastError(
             f"no continuous motion along the path was found that holds {problem.redundancy - 1} joints: slow the path "
-            f"down, or give "
-            "another start"
+            "down, or give another start"
         )
     attempts.sort(key=lambda attempt: attempt[:2], reverse=True)
     results, last_error = [], None
