@@ -11,18 +11,17 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.equilibria.solutions import SolutionSearch
 from holdfast.control.equilibria.stability import linearisation
 from holdfast.control.laws.law import Law
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 SOLUTION_DISTANCE = 0.1  # rad (and m): how far the solution may be
 MIN_DECAY_RATE = 1e-9  # 1/Ke: slower than this is not told from rest
 
 
-def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: NDArray[np.int64]) -> BoolArray:
+def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: IndexArray) -> BoolArray:
     """Return (N,) True where a run at q (N, n) is next to a solution that attracts, with ``joint`` (N,) locked.
 
     The solution is found by damped least squares over the healthy joints from q, and must be within 0.1 rad; all eigenvalues

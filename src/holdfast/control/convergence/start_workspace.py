@@ -33,7 +33,7 @@ from holdfast.core.progress import reports_progress
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.result import Result
 from holdfast.core.sweeps.store import Store
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 
 if TYPE_CHECKING:
@@ -72,11 +72,11 @@ class Workspace(Result):
     bounds: tuple[tuple[tuple[float, float], ...], ...]
     method: Method
     relative_to: RelativeTo
-    configurations: NDArray[np.int64]
-    lost: NDArray[np.int64]
+    configurations: IndexArray
+    lost: IndexArray
     reach: Measures
     finish: Measures
-    ends: NDArray[np.int64]
+    ends: IndexArray
 
     @property
     def columns(self) -> tuple[str, ...]:

@@ -15,12 +15,11 @@ from holdfast.control.equilibria.stability import Kind, Kinds
 from holdfast.control.equilibria.system import RestSystem, wrap_angles
 from holdfast.control.laws.law import Law
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from holdfast.control.equilibria.points import StationaryPoints
 
-Indices = NDArray[np.intp]
 Arc = tuple[float, float]
 
 FULL_TURN_RAD = 2 * np.pi
@@ -56,7 +55,7 @@ class EquilibriumCurve:
         error: (K,) norm of the task's error, m and rad.
         closed: It comes back to its first point.
         degenerate: The whole curve lies at one locked value: a continuum of stationary points, each with an eigenvalue 0.
-        folds: Indices of points where the locked value turns back.
+        folds: IndexArray of points where the locked value turns back.
         branch_points: Of points where another curve crosses.
         rank_losses: Of points where the Jacobian loses rank; the law has no answer there.
         solutions: Of points where the target is reached.
@@ -71,11 +70,11 @@ class EquilibriumCurve:
     error: FloatArray
     closed: bool
     degenerate: bool
-    folds: Indices
-    branch_points: Indices
-    rank_losses: Indices
-    solutions: Indices
-    hopf_points: Indices
+    folds: IndexArray
+    branch_points: IndexArray
+    rank_losses: IndexArray
+    solutions: IndexArray
+    hopf_points: IndexArray
     segments: tuple[Segment, ...]
 
     @property

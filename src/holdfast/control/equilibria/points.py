@@ -15,7 +15,7 @@ from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import Progress, ignore_progress
 from holdfast.core.result import Result
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 
 WAVE_STARTS = 256
@@ -129,7 +129,7 @@ class StationaryPoints(Result):
                 )
         return lines
 
-    def _subset(self, rows: BoolArray | NDArray[np.intp]) -> StationaryPoints:
+    def _subset(self, rows: BoolArray | IndexArray) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.system import FailedArmSystem
 from holdfast.core.caching import cached_property
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.linalg import damped_least_norm
 from holdfast.kernels.loop import Loop
@@ -34,7 +33,7 @@ class SolutionSearch:
         step = damped_least_norm(jacobian @ ca.diag(self._system.mask), error, 1e-3 * squared_error + 1e-14)
         return Loop("solutions", q, self._system.parameters, next_state=q + step, residual=ca.sqrt(squared_error))
 
-    def search(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def search(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Search for configurations (N, n) from starts q (N, n), and return whether they reach the target."""
         inputs = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask])
         result = self._search_loop.run(q, np.broadcast_to(inputs, (len(q), inputs.size)), _ERROR_TOLERANCE, _MAX_STEPS)

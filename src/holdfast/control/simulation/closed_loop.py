@@ -16,7 +16,7 @@ from holdfast.control.simulation.runs import Runs, RunSettings
 from holdfast.control.simulation.tableaus import CLASSIC_RK4
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.task import target_poses
@@ -52,7 +52,7 @@ def simulate(
     q0: ArrayLike,
     target: ArrayLike,
     *,
-    locked: Locked | NDArray[np.int64] | FloatArray = (),
+    locked: Locked | IndexArray | FloatArray = (),
     cycles: bool = False,
     method: Method = "adaptive",
     time_limit: float | None = None,

@@ -12,12 +12,12 @@ from dataclasses import replace
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.registry import constructor
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.frameworks import RowFunction
 from holdfast.kernels.kernel import Kernel
@@ -254,7 +254,7 @@ class RelativeManipulability(Index):
         worst = outputs[:, 1].astype(np.int64)
         return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
 
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         values, marked = self._values_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, values, marked)
         if marked_rows.size:
@@ -270,9 +270,7 @@ class RelativeManipulability(Index):
             gradient[singular] = 0.0
         return gradient
 
-    def _find_singular_rows(
-        self, q: FloatArray, outputs: FloatArray, marked: bool
-    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _find_singular_rows(self, q: FloatArray, outputs: FloatArray, marked: bool) -> tuple[IndexArray, BoolArray]:
         """Return the rows that a kernel marked with NaN although q is finite, and which rows are singular."""
         singular = np.zeros(len(q), dtype=bool)
         marked_rows = np.zeros(0, dtype=np.int64)

@@ -11,11 +11,10 @@ from typing import Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.registry import constructor
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import HouseholderQR, dot_product, jacobi_sweep
@@ -240,7 +239,7 @@ class SpectralIndex(Index):
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         values = np.empty((len(q), len(self.failures)))
         singular = np.zeros(len(q), dtype=bool)
         for start in range(0, len(q), _BLOCK_ROWS):

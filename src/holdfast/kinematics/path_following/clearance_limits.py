@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.objects.one_row import SingleConfigurationClearance
@@ -33,7 +32,7 @@ class ClearanceHistory:
     """
 
     margin: FloatArray
-    nearest_pair: NDArray[np.int64]
+    nearest_pair: IndexArray
     pair_names: list[str]
     min_distances: FloatArray
 

@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.result import Presentable
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.paths.timing import Trapezoid
 from holdfast.model.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
@@ -156,12 +156,12 @@ class Path(Presentable):
         """
         return load_path_file(file)[0]
 
-    def _locate(self, s: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    def _locate(self, s: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the leg (N,) and the parameter u (N,) from 0 to 1 on it, of s (N,)."""
         leg = np.clip(np.searchsorted(self.bounds, s, side="right") - 1, 0, len(self.starts) - 1)
         return leg, (s - self.bounds[leg]) / np.diff(self.bounds)[leg]
 
-    def _leg_twist(self, s: FloatArray, leg: NDArray[np.intp]) -> FloatArray:
+    def _leg_twist(self, s: FloatArray, leg: IndexArray) -> FloatArray:
         """Return :meth:`twist` on legs (N,) that contain s (N,) or end at it."""
         leg_fractions = np.diff(self.bounds)[leg]
         u = (s - self.bounds[leg]) / leg_fractions

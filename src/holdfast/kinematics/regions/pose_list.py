@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kinematics.regions.weights import check_weights
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
@@ -91,12 +91,12 @@ class PoseList:
     def __hash__(self) -> int:
         return hash(self.rows.tobytes())
 
-    def sample_indices(self, uniform: FloatArray) -> NDArray[np.int64]:
+    def sample_indices(self, uniform: FloatArray) -> IndexArray:
         """Return the indices from 0 of the poses for uniform numbers (B,) in [0, 1), each pose in proportion to its weight."""
         cumulative = np.cumsum(np.ones(len(self)) if self.weights is None else self.weights)
         return np.asarray(np.searchsorted(cumulative / cumulative[-1], uniform, side="right"))
 
-    def pose_matrices(self, indices: NDArray[np.int64]) -> FloatArray:
+    def pose_matrices(self, indices: IndexArray) -> FloatArray:
         """Return the poses (B, 4, 4) with the given indices (B,)."""
         from scipy.spatial.transform import Rotation
 

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import ProgressCount
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm, factor_householder
@@ -56,7 +55,7 @@ class Component:
     barred_by: tuple[str, str] = ("", "")
 
     @property
-    def winding(self) -> NDArray[np.int64]:
+    def winding(self) -> IndexArray:
         """Full revolutions (n,) of each joint along a closed curve; 0 on others.
 
         Not 0: the joint takes every angle, which no spacing of the points blurs.
@@ -97,8 +96,8 @@ class _CurveRun:
     q: FloatArray
     tangent: FloatArray
     points: list[FloatArray]
-    closed: NDArray[np.bool_]
-    limit: NDArray[np.int64]  # joint, or -1
+    closed: BoolArray
+    limit: IndexArray  # joint, or -1
 
 
 class ManifoldTracer:
@@ -150,9 +149,7 @@ class ManifoldTracer:
             "self-motion", [q, position, rotation, *fixed_rows], [ca.vertcat(q + correction, ca.norm_2(errors), *null_vectors)]
         )
 
-    def find_seeds(
-        self, poses: FloatArray, pose_indices: NDArray[np.intp], seed: int, starts: int
-    ) -> tuple[NDArray[np.intp], FloatArray]:
+    def find_seeds(self, poses: FloatArray, pose_indices: IndexArray, seed: int, starts: int) -> tuple[IndexArray, FloatArray]:
         """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
@@ -161,13 +158,13 @@ class ManifoldTracer:
         q, converged = self._solve_from_starts(random_starts[pose_indices].reshape(-1, self.arm.n), poses[owner])
         return owner[converged], q[converged]
 
-    def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
         limits.
         """
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
-    def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
+    def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray, FloatArray]:
         """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
         there.
         """
@@ -194,7 +191,7 @@ class ManifoldTracer:
     def trace_curves(
         self,
         poses: FloatArray,
-        pose_of_seed: NDArray[np.intp],
+        pose_of_seed: IndexArray,
         q: FloatArray,
         spacing: float,
         curves_by_pose: list[list[Component]],
@@ -225,10 +222,10 @@ class ManifoldTracer:
 
     def _drop_seeds(
         self,
-        pending: NDArray[np.bool_],
+        pending: BoolArray,
         component: Component,
         pose: np.intp,
-        pose_of_seed: NDArray[np.intp],
+        pose_of_seed: IndexArray,
         q: FloatArray,
         spacing: float,
     ) -> None:
@@ -332,7 +329,7 @@ class ManifoldTracer:
         run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(all_rows[order], np.arange(1, len(q))))
         return run
 
-    def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+    def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, IndexArray]:
         """Return the fraction (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
         displacement = new - q
         distance_to_limit = np.where(displacement > 0, self.arm.upper - q, self.arm.lower - q)
@@ -341,7 +338,7 @@ class ManifoldTracer:
             fraction = np.where(outside, np.maximum(distance_to_limit / displacement, 0.0), 1.0)
         return fraction.min(axis=1), fraction.argmin(axis=1)
 
-    def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
+    def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> BoolArray:
         """Return True where the step from q to new (N, n) passes the first point of the curve, in the direction of
         its start.
         """
@@ -413,7 +410,7 @@ def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
     return segments
 
 
-def _count_earlier_equals(owner: NDArray[np.intp]) -> NDArray[np.intp]:
+def _count_earlier_equals(owner: IndexArray) -> IndexArray:
     """Return (S,) the number of earlier entries that are equal to each entry."""
     order = np.argsort(owner, kind="stable")
     first = np.searchsorted(owner[order], owner[order])

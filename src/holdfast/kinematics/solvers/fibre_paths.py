@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status, require_ok
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.best_paths import BestPathTable, NodeMoves, bound_move_length
 from holdfast.kinematics.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres
@@ -246,7 +246,7 @@ def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> FloatArray | Non
 def _unwrap_path(arm: Arm, q: FloatArray) -> FloatArray:
     """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
     displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
-    unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
+    unbroken: BoolArray = np.asarray(np.isfinite(q).all(axis=1))
     unwrapped = q.copy()
     for t in range(1, len(q)):
         if unbroken[t] and unbroken[t - 1]:

@@ -15,7 +15,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import ProgressCount, reports_progress
 from holdfast.core.status import Status, require_ok
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -29,7 +29,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task
 
-Accept = Callable[[FloatArray], NDArray[np.bool_]]
+Accept = Callable[[FloatArray], BoolArray]
 
 MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
 # _HALF_TURN_SINE, _ZERO_SINE and _ROUNDING_SINE: sines of half a turn, of no turn, and of which nothing is left but rounding
@@ -58,10 +58,10 @@ class PoseSolutions:
     status: NDArray[np.uint8]
     position_error: FloatArray
     rotation_error: FloatArray
-    restarts: NDArray[np.int64]
+    restarts: IndexArray
 
     @property
-    def success(self) -> NDArray[np.bool_]:
+    def success(self) -> BoolArray:
         """Flags (N,) of the poses that are reached within tolerance and limits."""
         return np.asarray(self.status == Status.OK)
 
@@ -179,7 +179,7 @@ def _flatten_poses(poses: FloatArray) -> FloatArray:
 @dataclass(frozen=True)
 class _StartSearchResult:
     q: FloatArray
-    restarts: NDArray[np.int64]
+    restarts: IndexArray
 
 
 class InverseKinematics:
@@ -228,7 +228,7 @@ class InverseKinematics:
 
     def attempt(
         self, q: FloatArray, poses: FloatArray, tolerance: float, fixed_joints: Sequence[int] = ()
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+    ) -> tuple[FloatArray, BoolArray]:
         """Try one start q (N, n) for each pose; return the ends, and whether each is on the pose and within the limits.
 
         Joints that are ``fixed_joints``, by index from 0, stay where they are.
@@ -253,7 +253,7 @@ class InverseKinematics:
     def solve_locked(
         self,
         poses: FloatArray,
-        locked: NDArray[np.int64],
+        locked: IndexArray,
         angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
@@ -271,7 +271,7 @@ class InverseKinematics:
         parameters = np.concatenate([_flatten_poses(poses), is_free], axis=1)
         finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
 
-        def lock_joints(start: FloatArray, chosen: NDArray[np.int64]) -> FloatArray:
+        def lock_joints(start: FloatArray, chosen: IndexArray) -> FloatArray:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
@@ -302,13 +302,13 @@ class InverseKinematics:
     def is_reachable_with_lock(
         self,
         poses: FloatArray,
-        locked: NDArray[np.int64],
+        locked: IndexArray,
         angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
         accept: Accept | None = None,
-    ) -> NDArray[np.bool_]:
+    ) -> BoolArray:
         """Return (N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
@@ -344,11 +344,11 @@ class InverseKinematics:
         self,
         loop: Loop,
         parameters: FloatArray,
-        rows: NDArray[np.int64],
+        rows: IndexArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
-        prepare: Callable[[FloatArray, NDArray[np.int64]], FloatArray],
+        prepare: Callable[[FloatArray, IndexArray], FloatArray],
         first: FloatArray | None = None,
         accept: Accept | None = None,
         steps: int = MAX_STEPS,
@@ -403,13 +403,11 @@ class InverseKinematics:
                 advance(wave_size)
         return _StartSearchResult(q, start_counts)
 
-    def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> NDArray[np.bool_]:
+    def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> BoolArray:
         """Return (N,) True where q is on the pose and within the limits."""
         return self._is_reached(q, *self.position_and_rotation_errors(q, poses), tolerance)
 
-    def _is_reached(
-        self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float
-    ) -> NDArray[np.bool_]:
+    def _is_reached(self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float) -> BoolArray:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 

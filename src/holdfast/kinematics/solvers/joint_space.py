@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 
 if TYPE_CHECKING:
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 _MAX_PAIRWISE_DISTANCES = 1 << 20
 
 
-def is_unlimited(arm: Arm) -> NDArray[np.bool_]:
+def is_unlimited(arm: Arm) -> BoolArray:
     """Return (n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
     return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
 
@@ -35,7 +34,7 @@ def build_tree(arm: Arm, q: FloatArray) -> KDTree:
     return KDTree(wrap_joints_to_positive(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
 
 
-def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, IndexArray]:
     """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
     that point.
     """
@@ -47,7 +46,7 @@ def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArra
     return np.asarray(distance), np.asarray(index)
 
 
-def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> NDArray[np.intp]:
+def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> IndexArray:
     """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
     m, in order.
     """

@@ -13,14 +13,14 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.files.output import write_table
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.clear_parts import CurveConstraint
@@ -295,7 +295,7 @@ def trace_self_motions(
         raise InputError(f"starts is {starts}; it must be 1 or more")
     arm = engine.arm
     constraint = None if clearance is None or not clearance.pair_names else CurveConstraint.from_clearance(clearance, margin)
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
+    finite: BoolArray = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
     owner, q = engine.find_seeds(targets, np.flatnonzero(finite), seed, starts)
     components: list[list[Component]] = [[] for _ in targets]
     if engine.dimension == 1:

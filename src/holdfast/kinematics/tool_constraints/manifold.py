@@ -15,14 +15,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 
-More = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray]]
+More = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
 """Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
 
 _ROUNDING_M_RAD = 1e-9  # m and rad

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.progress import reports_progress, track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.workspace.extrema import CriticalPoints, critical_point_solver
@@ -95,7 +95,7 @@ def joint_bounds(
 
 def _find_critical_values(
     solver: CriticalPoints, pose: FloatArray, seeds: FloatArray, starts: int, generator: np.random.Generator
-) -> tuple[NDArray[np.int64], FloatArray]:
+) -> tuple[IndexArray, FloatArray]:
     """Find critical points (C, n) and the joint (C,) of which each one is critical."""
     arm = solver.arm
     joint = np.repeat(np.arange(arm.n), starts)
@@ -128,12 +128,12 @@ class _JointSegments:
 
     joint: int
     cuts: FloatArray
-    is_critical: NDArray[np.bool_]
+    is_critical: BoolArray
     is_periodic: bool
     witnesses: FloatArray
 
     @property
-    def is_reached(self) -> NDArray[np.bool_]:
+    def is_reached(self) -> BoolArray:
         """Flags (S,) of the segments with a known reached value."""
         return np.asarray(~np.isnan(self.witnesses[:, 0]))
 
@@ -227,7 +227,7 @@ def _decide_segments(
 ) -> None:
     """Decide which segments are reached, then move the cuts that bound reached segments to the exact bounds."""
 
-    def check_reached(joint: NDArray[np.int64], values: FloatArray) -> NDArray[np.bool_]:
+    def check_reached(joint: IndexArray, values: FloatArray) -> BoolArray:
         poses = np.broadcast_to(pose, (joint.size, 4, 4))
         return solver.engine.is_reachable_with_lock(
             poses, joint, values, np.random.SeedSequence(seed), LOCKED_RESTARTS, _TARGET_TOLERANCE

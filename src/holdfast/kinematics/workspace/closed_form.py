@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -107,7 +106,7 @@ def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> Floa
     return np.asarray(FULL_TURN_RAD - _union_length(start, end))
 
 
-def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[NDArray[np.bool_]]:
+def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[BoolArray]:
     """Return which points (N, 2) in the task plane the healthy arm reaches within limits (3, 2) of the link angles, then for
     each joint which points it reaches wherever that joint locks. The region is the intersection of all.
     """
@@ -115,7 +114,7 @@ def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> 
     radius, direction = np.maximum(np.hypot(*displacement.T), 1e-12), np.arctan2(displacement[:, 1], displacement[:, 0])
     relative_angle = (direction - limits[0].mean())[:, None]
 
-    def outside_arcs(arcs: tuple[FloatArray, FloatArray]) -> NDArray[np.bool_]:
+    def outside_arcs(arcs: tuple[FloatArray, FloatArray]) -> BoolArray:
         start, end = arcs[0][0], arcs[1][0]
         return np.asarray(~((end > start) & ((relative_angle - start) % FULL_TURN_RAD < end - start)).any(axis=1))
 
@@ -206,7 +205,7 @@ def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) ->
     return np.where(is_excluded, 1.0, start), np.where(is_excluded, 0.0, end_point)
 
 
-def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
+def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: FloatArray) -> BoolArray:
     """Return whether the arm with link 1 along 0 reaches (r, direction) (P, R, A) within the limits of joints 2 and 3."""
     first, second, third = arm.lengths
     displacement = r[..., None] * np.exp(1j * direction) - first
@@ -219,7 +218,7 @@ def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: F
     return is_reached
 
 
-def _within_limits(angle: FloatArray, limits: FloatArray) -> NDArray[np.bool_]:
+def _within_limits(angle: FloatArray, limits: FloatArray) -> BoolArray:
     """Return whether angles (P, ...) are within limits (P, 2), modulo full turns; NaN is not."""
     shape = (-1,) + (1,) * (angle.ndim - 1)
     lower, upper = limits[:, 0].reshape(shape), limits[:, 1].reshape(shape)

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import ProgressCount, reports_progress, track
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.workspace import closed_form as tolerant_planar
 from holdfast.kinematics.workspace import samples as tolerant_sampled
@@ -67,10 +67,10 @@ class TolerantWorkspace(Result):
     size_interval: tuple[float, float]
     healthy_size: float
     points: FloatArray
-    healthy: NDArray[np.bool_]
-    within: NDArray[np.bool_]
-    survives: NDArray[np.bool_]
-    inside: NDArray[np.bool_]
+    healthy: BoolArray
+    within: BoolArray
+    survives: BoolArray
+    inside: BoolArray
     exact: bool
     angles: int
     optimised: bool

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.machine import ArmData
 
 
@@ -30,9 +30,7 @@ def sampling_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
     return replace_infinite_limits(arm.lower, arm.upper, arm.prismatic)
 
 
-def replace_infinite_limits(
-    lower: FloatArray, upper: FloatArray, prismatic: NDArray[np.bool_]
-) -> tuple[FloatArray, FloatArray]:
+def replace_infinite_limits(lower: FloatArray, upper: FloatArray, prismatic: BoolArray) -> tuple[FloatArray, FloatArray]:
     """Replace infinite limits (..., n), which need not belong to one arm, as :func:`sampling_limits` does."""
     default_bound = np.where(prismatic, 1.0, np.pi)
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))

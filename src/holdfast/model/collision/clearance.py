@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import ArmError
 from holdfast.core.probability.sobol_sequence import sobol_points
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_json, cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -334,7 +334,7 @@ class Clearance:
             self.arm, self.capsules, (self_clearance, self_clearance.by_pair), self.pairs, ignored, self.obstacles, held_objects
         )
 
-    def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
+    def sign(self, q: ArrayLike) -> BoolArray:
         """Return whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules
         cover.
 
@@ -358,7 +358,7 @@ class Clearance:
         """Library of :meth:`exact` and its accuracy: ``coal 3.0.3, to 0.001 mm``."""
         return self.exactness.library_description
 
-    def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
+    def closest_pair(self, q: ArrayLike) -> IndexArray:
         """Return the position in ``pair_names`` of the pair with the smallest margin, the first of several, (N,) or a scalar.
 
         It is -1 where q is not finite and if there is no pair to check.

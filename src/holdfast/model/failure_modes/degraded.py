@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files import output
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ class Degraded:
         return np.array([0.0 if j.name in self.locked else j.velocity for j in self.limited.joints], dtype=np.float64)
 
     @property
-    def moves(self) -> NDArray[np.bool_]:
+    def moves(self) -> BoolArray:
         """(n,) True for joints that are not locked."""
         return np.array([name not in self.locked for name in self.arm.joint_names])
 

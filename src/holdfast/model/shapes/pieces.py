@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import ArmError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.tree import LinkTree, LockedJoints
 
@@ -47,7 +46,7 @@ class Piece:
     size: tuple[float, ...]
     pose: FloatArray
     vertices: FloatArray
-    faces: NDArray[np.int64]
+    faces: IndexArray
     rgba: tuple[float, ...] | None = None
     label: str = ""
 

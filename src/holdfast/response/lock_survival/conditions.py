@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.status import Status
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.paths.timed_path import TimedPath
 from holdfast.kinematics.solvers.clear_parts import CurveConstraint
 from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
@@ -140,7 +139,7 @@ class MotionConditions:
         if self.manifold is None:
             return q
 
-        def evaluate_path_rows(trial: FloatArray, pose_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+        def evaluate_path_rows(trial: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, FloatArray]:
             current_poses, jacobian, target_poses = (
                 self.arm.forward_kinematics(trial),
                 self.arm.jacobian(trial),

@@ -6,9 +6,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.collision.exact.certainty import describe_unknown_shape
 from holdfast.response.recovery.completion import verify_and_time_recovery
 from holdfast.response.recovery.continuation import (
@@ -63,7 +62,7 @@ class UndecidedGoal:
     q_start: FloatArray
     target: RecoveryGoal
     configurations: FloatArray
-    pose_indices: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    pose_indices: IndexArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
     box_proofs: tuple[str | None, ...] = ()
     reasons: tuple[str, ...] = ()
     is_proved_unreachable: bool = False

@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.response.recovery.goals import RelaxedRows, find_goal_configurations, project_onto_constraints, solve_pose
 from holdfast.response.recovery.ladder_graph import MAX_JOINT_STEP, follow_path_furthest, search_ladder_graph
@@ -261,7 +260,7 @@ def _is_reachable(
 
 def _track_poses(
     solver: RowSolver, space: FreeSpace, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
-) -> tuple[FloatArray, NDArray[np.int64]]:
+) -> tuple[FloatArray, IndexArray]:
     """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
     each (R,).
     """

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers.descent import minimise_constrained
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
@@ -110,7 +109,7 @@ def project_onto_constraints(
     if space.manifold is None or not indices.size:
         return q
 
-    def goal_rows(trial: FloatArray, trial_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+    def goal_rows(trial: FloatArray, trial_indices: IndexArray) -> tuple[FloatArray, FloatArray]:
         is_active, pose = row_masks[indices[trial_indices]] > 0, poses[indices[trial_indices]]
         return solver.compute_errors(trial, pose) * is_active, -solver.compute_jacobian(trial, pose) * is_active[:, :, None]
 
@@ -137,9 +136,7 @@ def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: FloatArray, q
     return ""
 
 
-def _are_valid(
-    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray
-) -> NDArray[np.bool_]:
+def _are_valid(solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray) -> BoolArray:
     is_valid = solver.meets_rows(q, poses, row_masks, space.free)
     indices = np.flatnonzero(is_valid)
     is_valid[indices] = space.are_valid(q[indices])

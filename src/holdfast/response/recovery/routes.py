@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.response.recovery.space import FreeSpace, JointMetric
-
-Indices = NDArray[np.intp]
 
 _BATCH_SAMPLES = 48  # samples a round
 _MAX_ROUNDS = 200
@@ -148,7 +145,7 @@ class _RouteTree:
         angles = q[:, self._is_unlimited]
         return np.concatenate([linear_part, scales * np.cos(angles), scales * np.sin(angles)], axis=1)
 
-    def add_paths(self, extensions: list[FloatArray], parents: Indices) -> Indices:
+    def add_paths(self, extensions: list[FloatArray], parents: IndexArray) -> IndexArray:
         """Add paths (k, n) from parents, except empty ones, and return the last nodes of the others."""
         nodes, parent_nodes, last_nodes = list[FloatArray](), list[int](), list[int]()
         for extension, parent in zip(extensions, parents.tolist(), strict=True):
@@ -168,7 +165,7 @@ class _RouteTree:
             self._embedded_nodes = np.concatenate([self._embedded_nodes, self._embed_configurations(np.stack(nodes))])
         return np.array(last_nodes, dtype=np.intp)
 
-    def find_nearest(self, q: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    def find_nearest(self, q: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the node nearest to each q (N, n), and ``q`` minus that node (N, n)."""
         points, node_points = self._embed_configurations(q), self._embedded_nodes
         indices = ((node_points**2).sum(axis=1) - 2 * points @ node_points.T).argmin(axis=1)
@@ -229,7 +226,12 @@ def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -
 
 
 def _grow_tree_to_nodes(
-    space: FreeSpace, metric: JointMetric, growing_tree: _RouteTree, other_tree: _RouteTree, new_nodes: Indices, max_step: float
+    space: FreeSpace,
+    metric: JointMetric,
+    growing_tree: _RouteTree,
+    other_tree: _RouteTree,
+    new_nodes: IndexArray,
+    max_step: float,
 ) -> tuple[int, int] | None:
     """Grow the other tree towards new nodes step by step, and return the two nodes where the trees meet."""
     targets, is_constrained = new_nodes, space.manifold is not None

@@ -10,6 +10,7 @@ from holdfast.certificates import documents
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.certificates.verifier_parts.tree import Cell
+from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, bind_percent_sign
 from holdfast.interface.presentation.certificates.pages import write as write
 from holdfast.interface.presentation.page_content import PageContent
@@ -17,9 +18,7 @@ from holdfast.interface.presentation.page_content import PageContent
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    Array = NDArray[np.float64]
 
 _AXIS_LABELS = ("x [m]", "y [m]", "z [m]")
 
@@ -35,7 +34,7 @@ def figures(proof: Proof | TolerantProof) -> dict[str, Figure]:
     return {"slices": _draw_slices(box, cells, [*middle_slices, (0, 1, (2, worst_height))])}
 
 
-def _undecided_cells(proof: Proof | TolerantProof) -> Array:
+def _undecided_cells(proof: Proof | TolerantProof) -> FloatArray:
     """Return the parts of the box, as fractions of it (N, axes, 2), over which something is undecided."""
     parts = proof.parts if isinstance(proof, TolerantProof) else (proof,)
     count = min(3, len(proof.claim.box))
@@ -45,7 +44,7 @@ def _undecided_cells(proof: Proof | TolerantProof) -> Array:
     ).reshape(-1, count, 2)
 
 
-def _find_worst_height(box: Array, cells: Array) -> float:
+def _find_worst_height(box: FloatArray, cells: FloatArray) -> float:
     """Return the height z, m, of the plane in which the undecided cells cover most; cells may overlap."""
     fraction = 0.5
     if len(cells):
@@ -56,7 +55,7 @@ def _find_worst_height(box: Array, cells: Array) -> float:
     return float(box[2, 0] + fraction * (box[2, 1] - box[2, 0]))
 
 
-def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
+def _draw_slices(box: FloatArray, cells: FloatArray, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
@@ -74,7 +73,9 @@ def _draw_slices(box: Array, cells: Array, slices: list[tuple[int, int, tuple[in
         return settle_layout(figure)
 
 
-def _draw_slice(axes: Axes, box: Array, cells: Array, across: tuple[int, int], fixed_axis: tuple[int, float] | None) -> None:
+def _draw_slice(
+    axes: Axes, box: FloatArray, cells: FloatArray, across: tuple[int, int], fixed_axis: tuple[int, float] | None
+) -> None:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 

@@ -8,9 +8,8 @@ too close to an object by more than that, it is so at all of these angles.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.machine import ArmData, Joint
 from holdfast.model.cell.solids import PrimitiveSolid
@@ -62,7 +61,7 @@ class EndLinks:
         offsets = offsets[np.unique(spheres.link[end_spheres])[::-1]]
         self._objects, self._margins = FormulaObjects(_last_link_machine(last_joint), end_cover, objects, offsets), margins
 
-    def are_poses_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+    def are_poses_too_close(self, poses: FloatArray, margin: float) -> BoolArray:
         """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
         m.
 

@@ -18,7 +18,6 @@ from itertools import islice, product
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
@@ -36,7 +35,6 @@ from holdfast.response.recovery.task_rows import TaskRows
 if TYPE_CHECKING:
     from holdfast.model.collision.exact.narrow_phase import ArmBody
 
-Indices = NDArray[np.intp]
 CellTest = Callable[[FloatArray, FloatArray], BoolArray]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
 
@@ -79,7 +77,7 @@ def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: Floa
         return
     blocked, joints = _BlockedCells(space), np.flatnonzero(space.free)
     self_blocked, first_joints = blocked.self_blocked, joints[:_MAX_CONFINED_JOINTS]
-    attempts: list[tuple[Indices, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
+    attempts: list[tuple[IndexArray, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
     if self_blocked is not None:
         attempts = [
             (flood_joints, self_blocked.are_boxes_self_colliding)
@@ -93,7 +91,7 @@ def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: Floa
         )
 
 
-def _joint_sets_between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
+def _joint_sets_between_links(clearance: Clearance, joints: IndexArray) -> list[IndexArray]:
     """Return the sets of one or two joints between two links that may touch each other, the smallest first."""
     link_pairs = {tuple(sorted(clearance.capsules.parts[part].link for part in pair)) for pair in clearance.pairs}
     joint_sets = {
@@ -121,7 +119,7 @@ class ConnectedCells:
     """
 
     names: list[str]
-    joints: Indices
+    joints: IndexArray
     lower: FloatArray
     cell_widths: FloatArray
     is_unlimited: BoolArray
@@ -140,7 +138,7 @@ class ConnectedCells:
         )
 
     @cached_property
-    def _cumulative_counts(self) -> NDArray[np.int64]:
+    def _cumulative_counts(self) -> IndexArray:
         """Number of connected cells whose indices are below each corner of the grid."""
         counts = np.zeros((self.cells_per_joint + 1,) * self.cells.shape[1], dtype=np.int64)
         counts[tuple(self.cells.T + 1)] = 1
@@ -167,7 +165,7 @@ class ConnectedCells:
 
 
 def _generate_connected_regions(
-    space: FreeSpace, start: FloatArray, joints: Indices, blocked: Blocked, max_cells: int | None = None
+    space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int | None = None
 ) -> Iterator[ConnectedCells]:
     """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
     limits.
@@ -259,7 +257,7 @@ def make_pose_test(
     return may_hold_pose
 
 
-def _bound_joints(space: FreeSpace, free: Indices) -> tuple[FloatArray, FloatArray, BoolArray] | None:
+def _bound_joints(space: FreeSpace, free: IndexArray) -> tuple[FloatArray, FloatArray, BoolArray] | None:
     """Return the bounds of the free joints and which of them are unlimited; None if the bounds are not known."""
     lower, upper = space.arm.lower[free], space.arm.upper[free]
     is_unlimited = joint_space.is_unlimited(space.arm)[free]
@@ -302,7 +300,7 @@ class _LinkPoints:
         local_positions: (P, 3) in its frame, m.
     """
 
-    link: NDArray[np.int64]
+    link: IndexArray
     local_positions: FloatArray
 
     def world_positions(self, frames: FloatArray) -> FloatArray:
@@ -364,7 +362,7 @@ class _BlockedCells:
         clearance = space.clearance
         self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
 
-    def restrict_to_joints(self, joints: Indices) -> _BlockedCells:
+    def restrict_to_joints(self, joints: IndexArray) -> _BlockedCells:
         """Return the same test without the balls that the other joints always move too far for a proof."""
         space, half_widths = self._space, (self._space.high - self._space.low) / 2
         half_widths[joints] = 0.0

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import TaskError
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.interval_search import Configurations, SearchOutcome, all_configurations
 from holdfast.kinematics.interval_search.box_bounds import BoundedTask, is_last_joint_idle
 from holdfast.kinematics.interval_search.boxes import Blocked
@@ -49,7 +48,7 @@ def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, 
 
 def enumerate_collision_free(
     recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: FloatArray
-) -> tuple[FloatArray, NDArray[np.int64], list[str | None]]:
+) -> tuple[FloatArray, IndexArray, list[str | None]]:
     """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
 
     Returns:

@@ -11,12 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.response.recovery.timing.rounding import PathPieces
-
-Indices = NDArray[np.intp]
 
 # _MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA and _MAX_PARABOLA_INTERVALS: intervals of a parabola, at least, and
 # of all of them
@@ -37,7 +34,7 @@ class SpeedProfile:
         time: (G + 1,) s, when they begin, and the end.
     """
 
-    pieces: Indices
+    pieces: IndexArray
     offsets: FloatArray
     speed: FloatArray
     acceleration: FloatArray
