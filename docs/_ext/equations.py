@@ -24,6 +24,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 import holdfast
+from holdfast.core._lazy import read_offered_names
 
 PAPERS = {  # as the list of references has them: how people write them, and the title
     "Abdi2012": ("Abdi 2012", "Abdi et al. 2012"),
@@ -64,7 +65,7 @@ def public() -> Iterator[str]:
     root = Path(holdfast.__file__).parent
     for stub in sorted(root.rglob("__init__.pyi")):
         package = ".".join(["holdfast", *stub.parent.relative_to(root).parts])
-        for name in re.findall(r" as (\w+)", stub.read_text(encoding="utf-8")):
+        for name in read_offered_names(package):
             found = thing(f"{package}.{name}")
             if inspect.isfunction(found) or inspect.isclass(found):
                 yield f"{package}.{name}"

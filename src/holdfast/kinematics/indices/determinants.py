@@ -55,6 +55,7 @@ class RelativeManipulability(Index):
     """
 
     source = "Abdi et al. 2012, eq. (3), (4)"
+    _formula_name = "relative manipulability"
 
     def __init__(
         self,
@@ -64,7 +65,10 @@ class RelativeManipulability(Index):
         *,
         length: float | None = None,
     ) -> None:
-        super().__init__("relative manipulability", arm, task, failures=failures, length=length)
+        super().__init__(self._formula_name, arm, task, failures=failures, length=length)
+        self._set_scale_and_bound()
+
+    def _set_scale_and_bound(self) -> None:
         self.ceiling = bound_of_index(self)
         if self.ceiling is not None:
             self.bound, self.bound_note = self.ceiling.bound, self.ceiling.gap_phrase
@@ -287,18 +291,9 @@ class Manipulability(RelativeManipulability):
     """
 
     source = "Abdi et al. 2012, eq. (1), (2)"
+    _formula_name = "manipulability"
 
-    def __init__(
-        self,
-        arm: Arm,
-        task: str | Task | Sequence[str] = "pose",
-        failures: FailureSpec = "single",
-        *,
-        length: float | None = None,
-    ) -> None:
-        super().__init__(arm, task, failures, length=length)
-        self.name = "manipulability"
-        self.ceiling, self.bound, self.bound_note = None, None, ""
+    def _set_scale_and_bound(self) -> None:
         # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
         self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
         linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))
