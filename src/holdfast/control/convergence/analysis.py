@@ -280,9 +280,8 @@ def _find_sinks(law: Law, pose: FloatArray) -> dict[int, Arcs]:
         curves = stationary_points(law, pose, {joint: None})
         if len(curves.loose):
             raise InputError(
-                f"with {law.arm.joint_names[joint]} locked the stationary points form surfaces, which were only "
-                f"sampled, so the "
-                "procedure could miss sinks; use method='sampled' or 'brute'"
+                f"with {law.arm.joint_names[joint]} locked the stationary points form surfaces, which were only sampled, so "
+                "the procedure could miss sinks; use method='sampled' or 'brute'"
             )
         hopf_arcs = [
             (value - HOPF_MARGIN_RAD, value + HOPF_MARGIN_RAD)

@@ -144,8 +144,7 @@ class ConvergenceMap(Result):
         runs = int(self.has_configuration.sum())
         lines = [
             f"{self.law.describe()} on {self.law.arm.title}: {int(self.has_configuration.any(axis=1).sum())} of "
-            f"{len(self.places)} "
-            f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
+            f"{len(self.places)} {self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         if runs:
             converged, trapped = self.shares("converged"), self.shares("trapped")

@@ -165,16 +165,13 @@ class Workspace(Result):
             fraction_text = f" ({100 * self.undecided_fraction:.2f} %)" if self.simulated_count else ""
             lines.append(
                 f"{self.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
-                f"undecided at the time "
-                f"limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, counted "
-                f"as converged"
+                f"undecided at the time limit{fraction_text}, of which {end_counts['arriving']} next to a solution that "
+                "attracts, counted as converged"
             )
         if self.method == "procedure":
             lines.append(
-                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint "
-                f"locked away from "
-                f"every sink, "
-                "which makes convergence very likely but does not prove it"
+                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint locked away "
+                "from every sink, which makes convergence very likely but does not prove it"
             )
         return lines
 

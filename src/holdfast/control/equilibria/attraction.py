@@ -1,6 +1,4 @@
-"""The basins of a failed arm: the fraction of starts at each stationary point, and the basin boundaries of two
-healthy joints.
-"""
+"""The basins of a failed arm: fractions of starts by stationary point, and basin boundaries of two healthy joints."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""The curves that stationary points form as the value of one locked joint changes, and the parts of them where the arm gets
-stuck.
-"""
+"""The curves that stationary points form as one locked joint's value changes, and the parts where the arm gets stuck."""
 
 from __future__ import annotations
 

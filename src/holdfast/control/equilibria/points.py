@@ -162,9 +162,7 @@ def _gather_points(
     max_waves: int,
     report_progress: Progress,
 ) -> tuple[FloatArray, int]:
-    """Return stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new, and the
-    starts used.
-    """
+    """Return stationary points (P, n) from waves of starts, until some bring none new and isolated, and the starts used."""
     arm = system.law.arm
     isolated, continuum = np.empty((0, arm.n)), np.empty((0, arm.n))
     starts = idle_waves = 0

@@ -103,9 +103,7 @@ class Linearisation:
         return outputs[:, :-2], outputs[:, -2], outputs[:, -1]
 
     def field(self, pose: FloatArray, healthy: BoolArray) -> Callable[[FloatArray], FloatArray]:
-        """Return the fastest function of the motion, rates (n,) of q (n,) with other joints at rest; not for
-        several threads.
-        """
+        """Return the fastest function of the motion, rates (n,) of q (n,), other joints at rest; not for several threads."""
         n, rates_function = self.law.arm.n, self._rates_kernel.single_row()
         inputs = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
         healthy_mask = healthy.astype(np.float64)

@@ -74,15 +74,11 @@ class FailedArmSystem:
         return task_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def scaled_error_and_jacobian(self, q: SX) -> tuple[SX, SX]:
-        """Return the error and Jacobian of :meth:`error_and_jacobian` with lengths in units of the arm's length, for
-        thresholds.
-        """
+        """Return :meth:`error_and_jacobian` with lengths in units of the arm's length, for thresholds."""
         return scaled_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def compute_limited_velocity(self, error: SX) -> tuple[SX, SX]:
-        """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction to which the speed limit
-        reduces it.
-        """
+        """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction that the speed limit leaves."""
         velocity = self.law.command(error) / self.law.gain
         if self.law.speed_limit is None:
             return velocity, ca.SX(1)
@@ -101,9 +97,7 @@ class FailedArmSystem:
 
     @cached_property
     def rates_function(self) -> ca.Function:
-        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once because a law takes a second to write
-        down.
-        """
+        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once, as a law takes a second to write."""
         q = self.q
         error, jacobian = self.error_and_jacobian(q)
         velocity, speed_fraction = self.compute_limited_velocity(error)
@@ -153,9 +147,7 @@ def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: Flo
 
 
 def position_and_angle_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_error_norms`, at q (N, n) for a
-    target or N.
-    """
+    """Compute position errors (N,), m, and angle errors (N,), rad, at q (N, n) for a target or N; see :func:`split_error_norms`."""
     return split_error_norms(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 

@@ -207,9 +207,7 @@ def _box_measures(half_widths: SX, new_half_widths: SX, reach: SX, widths: list[
 
 
 def is_orienting_joint(arm: Arm, parts: BoundedTask) -> list[bool]:
-    """Return (n,) True for joints that change the orientation components; a joint along the tool's axis does not turn that
-    axis.
-    """
+    """Return (n,) True for joints that change the orientation components; one along the tool's axis does not turn it."""
     if parts.orientation == "none":
         return [False] * arm.n
     orients = [not joint.prismatic for joint in arm.joints]
@@ -288,9 +286,7 @@ def _position_remainders(rho: list[SX], half_widths: SX, is_revolute: list[bool]
 def _second_order_terms(
     second_derivative: Callable[[int, int], SX], half_widths: SX, inner: list[bool], outer: list[bool]
 ) -> SX:
-    """Bound the second-order terms of each component at the center: ``second_derivative`` of a joint and one as near the base
-    or farther.
-    """
+    """Bound the second-order terms at the center: ``second_derivative`` of a joint and one as near the base or farther."""
     total = ca.SX(0)
     for i in range(len(outer)):
         for k in range(i + 1):

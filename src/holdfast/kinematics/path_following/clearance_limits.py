@@ -93,9 +93,7 @@ class ClearanceRateLimit:
         return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
 
     def allowed_fraction(self, q: FloatArray, step_end: FloatArray) -> float:
-        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
-        way.
-        """
+        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless used up on the way."""
         step_start = self._clearance_and_gradient(q)
         for fraction in _STEP_FRACTIONS:
             if self._clearance_and_gradient(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):

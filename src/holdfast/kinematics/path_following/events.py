@@ -166,9 +166,8 @@ def find_events(
         "value jump",
         jump,
         lambda when: (
-            f"{when}: {objective.name} jumps by more than {_JUMP_FRACTION:.0%} of its range in one step; swing angles do "
-            f"where a joint "
-            "is balanced about its axis or upright, and the worst of several failures may"
+            f"{when}: {objective.name} jumps by more than {_JUMP_FRACTION:.0%} of its range in one step; swing angles do where "
+            "a joint is balanced about its axis or upright, and the worst of several failures may"
         ),
     )
     events += _find_fast_motions(objective, motion, follows_extremum, is_zero)

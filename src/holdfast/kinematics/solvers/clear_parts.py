@@ -36,9 +36,7 @@ class CurveConstraint:
 
     @classmethod
     def from_clearance(cls, clearance: Clearance, margin: float) -> CurveConstraint:
-        """Return the distance of every pair of a clearance above its margin, for configurations within the limits
-        of its arm.
-        """
+        """Return the distance of every pair of a clearance above its margin, for configurations within its arm's limits."""
 
         def evaluate_margins(q: FloatArray) -> FloatArray:
             return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
@@ -113,8 +111,6 @@ class CurveConstraint:
         return parts
 
     def _find_blocking_pair(self, inside: FloatArray, outside: FloatArray) -> str:
-        """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is
-        known beyond.
-        """
+        """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is known."""
         margins = outside if np.isfinite(outside).all() else inside
         return self.pair_names[int(np.argmin(margins))]

@@ -76,9 +76,7 @@ class Component:
 
 
 def _interpolated_maximum(x: FloatArray, closed: bool) -> float:
-    """Return the largest value of a smooth curve with points x (K,), by the parabola through the largest point and its
-    neighbors.
-    """
+    """Return the largest value of a smooth curve with points x (K,), by a parabola at the largest point and its neighbors."""
     index, count = int(x.argmax()), len(x)
     if count < 3 or (not closed and index in (0, count - 1)):
         return float(x[index])
@@ -159,15 +157,11 @@ class ManifoldTracer:
         return owner[converged], q[converged]
 
     def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
-        limits.
-        """
+        """Solve inverse kinematics from starts q (N, n); return the ends, and which are on the pose within the limits."""
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
     def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray, FloatArray]:
-        """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
-        there.
-        """
+        """Move configurations (N, n) back to their poses; return them, where that worked, and null vectors (N, free, n)."""
         n = self.arm.n
         positions, rotations = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for steps_left in reversed(range(_CORRECTOR_STEPS)):
@@ -196,9 +190,7 @@ class ManifoldTracer:
         spacing: float,
         curves_by_pose: list[list[Component]],
     ) -> list[list[Component]]:
-        """Add to the curves ``curves_by_pose`` of each pose every other curve through a seed q (S, n) of pose ``pose_of_seed``
-        (S,).
-        """
+        """Add to ``curves_by_pose`` every other curve through a seed q (S, n) of pose ``pose_of_seed`` (S,)."""
         pending = np.ones(pose_of_seed.size, dtype=bool)
         for pose_index in np.unique(pose_of_seed):
             for component in curves_by_pose[pose_index]:
@@ -339,9 +331,7 @@ class ManifoldTracer:
         return fraction.min(axis=1), fraction.argmin(axis=1)
 
     def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> BoolArray:
-        """Return True where the step from q to new (N, n) passes the first point of the curve, in the direction of
-        its start.
-        """
+        """Return True where the step from q to new (N, n) passes the curve's first point, in the direction of its start."""
         before, after = (joint_space.joint_difference(self.arm, point, first) for point in (q, new))
         crosses = (np.einsum("ij,ij->i", before, direction) < 0) & (np.einsum("ij,ij->i", after, direction) >= 0)
         step_length = np.linalg.norm(new - q, axis=1)

@@ -163,9 +163,7 @@ def best_path_over(
 def _find_moves(
     arm: Arm, before: FloatArray, after: FloatArray, spacing: float, limit: FloatArray | None
 ) -> tuple[NodeMoves, float]:
-    """Return the allowed moves from the points of one manifold to those of the next, in units of the largest distance allowed,
-    and this distance.
-    """
+    """Return the allowed moves between the points of two manifolds, in units of the largest distance, and this distance."""
     if not len(before) or not len(after):
         return NodeMoves(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0), np.empty(0)), np.nan
     if limit is None:

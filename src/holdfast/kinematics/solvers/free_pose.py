@@ -77,9 +77,7 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
 
 
 def _ascend_starts(ascent: Ascent, q: FloatArray, retained: int) -> tuple[FloatArray, FloatArray]:
-    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end is not
-    collision-free.
-    """
+    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end collides."""
     has_clearance = ascent.clearance is not None
 
     def evaluate_worth(q: FloatArray) -> FloatArray:

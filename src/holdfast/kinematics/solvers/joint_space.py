@@ -35,9 +35,7 @@ def build_tree(arm: Arm, q: FloatArray) -> KDTree:
 
 
 def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, IndexArray]:
-    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
-    that point.
-    """
+    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and its index."""
     if _is_brute_force_faster(q, points):
         distances = _pairwise_distances(arm, q, points)
         index = distances.argmin(axis=1)
@@ -47,9 +45,7 @@ def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArra
 
 
 def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> IndexArray:
-    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
-    m, in order.
-    """
+    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, k < m, in order."""
     if _is_brute_force_faster(q, q):
         return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
     close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
@@ -78,9 +74,7 @@ def wrap_joints(arm: Arm, q: FloatArray) -> FloatArray:
 
 
 def wrap_around_limit_center(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
-    limits.
-    """
+    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0."""
     unlimited = is_unlimited(arm)
     middle = (np.where(unlimited, 0.0, arm.lower) + np.where(unlimited, 0.0, arm.upper)) / 2
     revolutions = np.rint((q - middle) / (2 * np.pi))

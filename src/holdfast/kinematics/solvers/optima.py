@@ -62,11 +62,9 @@ class Cap:
 
     def __str__(self) -> str:
         return (
-            f"{self.failure} caps the value: after its failure the index is {format_number(self.before)} before "
-            f"optimisation and "
-            f"{format_number(self.after)} after it, while after a failure of {self.other} it is "
-            f"{format_number(self.other_before)} "
-            f"before and {format_number(self.other_after)} after"
+            f"{self.failure} caps the value: after its failure the index is {format_number(self.before)} before optimisation "
+            f"and {format_number(self.after)} after it, while after a failure of {self.other} it is "
+            f"{format_number(self.other_before)} before and {format_number(self.other_after)} after"
         )
 
 

@@ -260,9 +260,7 @@ class Ascent:
         return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
     def _most_frequent_nearest_pair(self, owner: IndexArray, q: FloatArray, poses: IndexArray) -> IndexArray:
-        """Return for each of some poses (H,) the pair that has the smallest margin at most of its configurations among q (K,
-        n).
-        """
+        """Return for each pose (H,) the pair of the smallest margin at most of its configurations among q (K, n)."""
         assert self.clearance is not None
         is_selected = np.isin(owner, poses)
         votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)

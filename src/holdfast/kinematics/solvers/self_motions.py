@@ -256,9 +256,8 @@ def fibres(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy a pose has no "
-            "self-motion; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy a "
+            "pose has no self-motion; choose a task with fewer rows"
         )
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")

@@ -226,9 +226,7 @@ class ConstraintManifold:
 
 
 def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the angles by which axes (N, 3) must rotate to their direction or back into the cone, and the rotation axes (N, k,
-    3).
-    """
+    """Return the angles by which axes (N, 3) must rotate to their direction or into the cone, and the axes (N, k, 3)."""
     assert constraint.direction is not None
     across = np.cross(axis, constraint.direction)
     sine = np.linalg.norm(across, axis=1)

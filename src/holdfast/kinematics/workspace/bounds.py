@@ -74,9 +74,8 @@ def joint_bounds(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy every lock loses "
-            "almost every target; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy "
+            "every lock loses almost every target; choose a task with fewer rows"
         )
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")

@@ -35,9 +35,7 @@ class ThreeLinks:
 
     @classmethod
     def from_task(cls, arm: Arm, task: Task) -> ThreeLinks | None:
-        """Return the arm in the plane of a planar task; None if it is of another kind or a joint has limits below a
-        full turn.
-        """
+        """Return the arm in the plane of a planar task; None for another kind, or with limits below a full turn."""
         if arm.n != 3 or task.name != "planar" or arm.prismatic.any():
             return None
         if not (arm.upper - arm.lower >= FULL_TURN_RAD - 1e-9).all():
@@ -77,9 +75,7 @@ def _quadrature_nodes(radii: int, panels: int = 4) -> tuple[FloatArray, FloatArr
 
 
 def common_annulus(arm: ThreeLinks, limits: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or joint 3 locks within its limits (P, 3,
-    2).
-    """
+    """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or 3 locks in its limits (P, 3, 2)."""
     second_annulus, third_annulus = _locked_annulus(arm, limits, 1), _locked_annulus(arm, limits, 2)
     return np.maximum(second_annulus[0], third_annulus[0]), np.minimum(second_annulus[1], third_annulus[1])
 
@@ -148,9 +144,7 @@ def _arcs_lost_to_joint1(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> 
 
 
 def _arcs_outside_healthy_reach(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the start and end (P, R, 12) of the arcs of directions that the healthy arm does not reach, with joint 1 anywhere
-    within its limits.
-    """
+    """Return the ends (P, R, 12) of the arcs of directions that the healthy arm does not reach, with joint 1 in its limits."""
     half_range = (limits[:, 0, 1] - limits[:, 0, 0])[:, None, None] / 2
     start, end = _unreached_directions(arm, limits, r)
     return start + half_range, end - half_range

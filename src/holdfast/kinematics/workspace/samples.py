@@ -124,9 +124,7 @@ class LimitChoices:
 
     @classmethod
     def from_table(cls, grid: FloatArray, is_periodic: bool, table: BoolArray, q: FloatArray) -> LimitChoices:
-        """Return the choices of a grid (K,) of joint values, its table of reached values (H, K), and configurations q (H, S);
-        NaN is in none.
-        """
+        """Return the choices of a grid (K,) with its reached values (H, K), and configurations q (H, S); NaN is in none."""
         count, step = grid.size, grid[1] - grid[0]
         if is_periodic:
             table, pairs = (
@@ -206,9 +204,7 @@ def find_solutions_per_pose(arm: Arm, task: Task, poses: FloatArray, generator: 
 def _ascend_coordinates(
     choices: list[LimitChoices], point: int, solution: int, generator: np.random.Generator
 ) -> tuple[list[int], int]:
-    """Ascend from narrow limits around one configuration; return the choice of each joint and the number of
-    contained points.
-    """
+    """Ascend from narrow limits around one configuration; return each joint's choice and the number of contained points."""
     chosen = []
     for choice in choices:
         width = np.where(choice.holds[:, point, solution], np.diff(choice.limits)[:, 0], np.inf)

@@ -188,9 +188,8 @@ def tolerant_workspace(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy no region survives "
-            "a lock; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy "
+            "no region survives a lock; choose a task with fewer rows"
         )
     check_confidence(confidence)
     if points < 1 or angles < 2:

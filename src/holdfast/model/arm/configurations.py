@@ -24,9 +24,7 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
 
 
 def sampling_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
-    """Return (n,) lower and upper limits to sample between; a missing limit is +-pi rad or +-1 m, or lies that far beyond the
-    other limit.
-    """
+    """Return (n,) lower and upper limits to sample between; a missing limit is pi rad or 1 m from 0, or from the other."""
     return replace_infinite_limits(arm.lower, arm.upper, arm.prismatic)
 
 

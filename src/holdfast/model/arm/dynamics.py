@@ -43,9 +43,7 @@ def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
 
 @cached_kernel
 def torque_terms_kernel(arm: ArmData) -> Kernel:
-    """Return the kernel ``(q, qd, qdd) -> inertial, viscous, and gravity torques``, each (n,): the terms of
-    :func:`inverse_dynamics`.
-    """
+    """Return the kernel ``(q, qd, qdd) -> inertial, viscous, gravity torques`` (n,): terms of :func:`inverse_dynamics`."""
     q, qd, qdd = joint_symbols(arm), ca.SX.sym("qd", arm.n), ca.SX.sym("qdd", arm.n)
     return Kernel("inverse dynamics", [q, qd, qdd], _torque_terms(arm, q, qd, qdd))
 

@@ -83,9 +83,7 @@ def body_and_joint_frames(arm: ArmData, steps: list[Frame], frame: int | None = 
 
 
 def body_poses(arm: ArmData, q: SX) -> SX:
-    """Return the world poses, each (3, 4), of the base, of the link that moves with each joint, and of the tool, (3 (n + 2),
-    4).
-    """
+    """Return the world poses (3 (n + 2), 4), each (3, 4): of the base, of the link moved by each joint, and of the tool."""
     body_frames, _ = body_and_joint_frames(arm, joint_transforms(arm, q))
     tool_frame = compose_frames(body_frames[-1], split_transform(arm.tool))
     return ca.densify(ca.vertcat(*[ca.horzcat(*pose) for pose in [*body_frames, tool_frame]]))

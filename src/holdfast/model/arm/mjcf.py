@@ -303,9 +303,7 @@ def _build_arm(
 
 
 def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
-    """Reject equalities and tendons that act on the chain; those between bodies that do not move relative to each other are
-    harmless.
-    """
+    """Reject equalities and tendons on the chain; between bodies that do not move relative to each other, they do nothing."""
     joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
     bodies = _names_or_numbers(model.nbody, model.body, "body", 0)
 
@@ -322,9 +320,8 @@ def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_cha
         tied_names = [joints[joint] for joint in tied_joints if joints[joint] in on_chain]
         if tied_names:
             raise ArmError(
-                f"{kind} '{name}' ties joint {list_names(tied_names)} of the chain, which is then no degree of freedom "
-                f"of its own; "
-                "a serial arm needs independent joints, so remove it or choose another base and tip"
+                f"{kind} '{name}' ties joint {list_names(tied_names)} of the chain, which is then no degree of freedom of its "
+                "own; a serial arm needs independent joints, so remove it or choose another base and tip"
             )
         carriers = {carrying_joint(b) for b in tied_bodies}
         if len(carriers) > 1:

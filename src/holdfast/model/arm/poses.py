@@ -100,9 +100,7 @@ def rotation_vectors(rotations: ArrayLike) -> FloatArray:
 
 
 def zyx_angles(rotations: ArrayLike) -> FloatArray:
-    """Return angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees; at b = +-90 degrees c is
-    0.
-    """
+    """Return angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees, where c is 0."""
     matrices = np.asarray(rotations, dtype=np.float64)
     cosine_of_b = np.hypot(matrices[..., 0, 0], matrices[..., 1, 0])
     upright = cosine_of_b < 1e-12

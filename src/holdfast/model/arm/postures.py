@@ -44,9 +44,7 @@ def generic_configuration(arm: Arm) -> FloatArray:
 
 
 def _score_configurations(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return scores (N,), 0 or more, of configurations (N, n) from their conditioning and the manipulability that remains after
-    any lock.
-    """
+    """Return scores (N,), 0 or more, of configurations (N, n) by conditioning and manipulability after any lock."""
     jacobian = arm.jacobian(q)
     jacobian[:, :3] /= arm.length_unit
     score = np.ones(len(q))

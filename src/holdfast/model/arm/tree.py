@@ -192,9 +192,7 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
 
 
 def likely_tip(tree: LinkTree, base: str, candidates: Sequence[str]) -> str:
-    """Return the candidate that most resembles a tool: by its name, then with the fewest fingers on its path, then the
-    farthest.
-    """
+    """Return the candidate that most resembles a tool: by its name, then the fewest fingers on its path, then the farthest."""
 
     def rank_tip(link: str) -> tuple[bool, int]:
         moving = [joint for joint in tree.joint_path(base, link) if joint.is_moving]
@@ -211,9 +209,7 @@ def _is_finger(joint: TreeJoint) -> bool:
 
 
 def _may_be_finger(tree: LinkTree, joint: TreeJoint) -> bool:
-    """Return whether a joint may be a finger: it has a gripper's name, or siblings and is tied to another joint or is one of
-    two prismatic siblings.
-    """
+    """Return whether a joint may be a finger: by name, or with siblings, if tied to a joint or one of two prismatic ones."""
     siblings = [sibling for sibling in tree.joints_below[joint.parent] if sibling is not joint]
     has_prismatic_sibling = joint.type == "prismatic" and any(sibling.type == "prismatic" for sibling in siblings)
     return bool(
@@ -227,9 +223,7 @@ def _descendant_joints(tree: LinkTree, base: str) -> Iterator[TreeJoint]:
 
 
 def possible_bases(tree: LinkTree, tip: str | None) -> list[str]:
-    """Return the links on which an arm could be mounted: with a moving joint between them and ``tip``, or below them if no tip
-    is given.
-    """
+    """Return the links on which an arm could be mounted: with a moving joint before ``tip``, or below them without a tip."""
     if tip is None:
         bases: set[str] = set()
         for joint in tree.joints.values():
@@ -363,9 +357,8 @@ def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints)
         follower_texts = ", ".join(f"joint '{name}' mimics '{master}'" for name, master in followers.items())
         options = " ".join(f"--hold {name}=0" for name in followers)
         raise ArmError(
-            f"{follower_texts}, which moves on the chain, so it cannot be held still; choose another tip, or freeze it "
-            f"all the same: "
-            f"{options} (hold= in Python)"
+            f"{follower_texts}, which moves on the chain, so it cannot be held still; choose another tip, or freeze it all the "
+            f"same: {options} (hold= in Python)"
         )
 
 

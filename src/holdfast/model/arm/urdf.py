@@ -301,9 +301,7 @@ def read_origin(element: ElementTree.Element, label: str) -> FloatArray:
 
 
 def rpy_rotation(rpy: Sequence[float]) -> FloatArray:
-    """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch)
-    Rx(roll)``.
-    """
+    """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about fixed x, y, z axes: ``Rz(yaw) Ry(pitch) Rx(roll)``."""
     (cos_roll, sin_roll), (cos_pitch, sin_pitch), (cos_yaw, sin_yaw) = (cos_sin(angle) for angle in rpy)
     about_x = np.array([[1, 0, 0], [0, cos_roll, -sin_roll], [0, sin_roll, cos_roll]])
     about_y = np.array([[cos_pitch, 0, sin_pitch], [0, 1, 0], [-sin_pitch, 0, cos_pitch]])

@@ -120,9 +120,7 @@ def format_dh_file(
 
 
 def _format_body(link: Link | None) -> str:
-    """Format a body as one line of YAML, with all digits, because a small inertia has as many significant digits as a large
-    one.
-    """
+    """Format a body as one line of YAML, with all digits, because a small inertia has as many as a large one."""
     if link is None:
         return "null"
     inertia = link.inertia

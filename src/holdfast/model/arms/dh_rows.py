@@ -176,9 +176,7 @@ def _invert_pose(pose: FloatArray) -> FloatArray:
 
 
 def _signed_angle(a: FloatArray, b: FloatArray, axis: FloatArray) -> float:
-    """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees carry no
-    rounding noise.
-    """
+    """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees are exact."""
     degrees = float(np.rad2deg(np.arctan2(np.cross(a, b) @ axis, a @ b)))
     rounded = round(degrees, 9)
     degrees = rounded if abs(degrees - rounded) < 1e-12 else degrees

@@ -63,9 +63,7 @@ class FieldTables:
 
 
 def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points_per_table: Sequence[int]) -> FloatArray:
-    """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` consecutive points belong to field i, in its
-    own frame.
-    """
+    """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` in turn belong to field i, in its frame."""
     parameters = (
         np.repeat([field.parameters for field in tables], points_per_table, axis=0) if len(tables) > 1 else tables[0].parameters
     )
@@ -89,9 +87,7 @@ def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points
 def _read_cell_corners(
     table: NDArray[np.float32], coordinates: IndexArray, block: IndexArray | int, cells: FloatArray, corners: FloatArray
 ) -> None:
-    """Write the cells (N, 3) of a block of a table that contain given coordinates (N, 3), or are nearest, and the values at
-    their corners (N, 8).
-    """
+    """Write the cells (N, 3) of a block that contain coordinates (N, 3), or are nearest, and the values at corners (N, 8)."""
     x, y, z = table.shape[-3:]
     cell = np.minimum(coordinates, [x - 2, y - 2, z - 2])
     cells[:] = cell
@@ -112,9 +108,7 @@ def _coordinate_kernel() -> Kernel:
 
 @cache
 def _bound_kernel() -> Kernel:
-    """Return the kernel of the bound and its gradient, (4,), from a point (3,), a field's parameters, the cells (6,), and their
-    corners (16,).
-    """
+    """Return the kernel of bound and gradient (4,) from a point (3,), a field's parameters, cells (6,), and corners (16,)."""
     point, parameters, cells, corners = (
         ca.SX.sym(*x) for x in (("at", 3), ("facts", PARAMETER_COUNT), ("cells", 6), ("corners", 16))
     )

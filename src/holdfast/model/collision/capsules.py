@@ -160,9 +160,7 @@ class Capsules:
         return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
 
     def radius_along(self, arm: Arm) -> float | None:
-        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links` and nothing is ignored;
-        else None.
-        """
+        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links`, none ignored; else None."""
         radius = self.parts[0].radius if self.parts else None
         is_default = (
             radius is not None
@@ -173,9 +171,7 @@ class Capsules:
 
     @property
     def covers(self) -> bool:
-        """True if the capsules contain the collision shapes of a file; see
-        :func:`holdfast.model.collision.cover.make_cover`.
-        """
+        """True if they contain the collision shapes of a file; see :func:`holdfast.model.collision.cover.make_cover`."""
         return self.source.startswith(COVER_PREFIX)
 
     def is_assumed(self, arm: Arm) -> bool:

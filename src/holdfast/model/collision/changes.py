@@ -72,8 +72,6 @@ def link_lipschitz_bounds(
 
 
 def _joint_extents(arm: Arm, lower: FloatArray, upper: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the largest extension (n,) of each prismatic joint, and the distance of each joint's frame from the previous one,
-    m.
-    """
+    """Return the largest extension (n,) of each prismatic joint, and each joint frame's distance from the previous one, m."""
     extensions = np.where(arm.prismatic, np.maximum(np.abs(lower), np.abs(upper)), 0.0)
     return extensions, np.array([float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints])

@@ -177,9 +177,7 @@ class Clearance:
 
     @property
     def _reference_link(self) -> int:
-        """The link whose frame all expressions use, in the middle of the arm: distances do not change, and the code
-        is shorter.
-        """
+        """The link whose frame all expressions use, in the middle of the arm: equal distances by shorter code."""
         return self.arm.n // 2
 
     def _capsule_axes(self, q: SX) -> list[LineSegment]:
@@ -343,9 +341,7 @@ class Clearance:
         return self._evaluate_rows(q, self.exactness.check_collision_free)
 
     def exact(self, q: ArrayLike) -> FloatArray:
-        """Return the smallest exact distance of the covered bodies, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its
-        accuracy.
-        """
+        """Return the smallest exact distance, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its accuracy."""
         return self._evaluate_rows(q, self.exactness.smallest_distances)
 
     def _evaluate_rows(self, q: ArrayLike, evaluate: Callable[[FloatArray], NDArray[Any]]) -> NDArray[Any]:

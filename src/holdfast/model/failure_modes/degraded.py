@@ -289,9 +289,7 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
 
 
 def locks_at(arm: Arm, locked: Locked, at: FloatArray) -> dict[int, float]:
-    """Return the locks that :func:`read_locks` reads in the arm's order, with the values of ``at`` (n,) for joints without a
-    value.
-    """
+    """Return the locks of :func:`read_locks` in the arm's order, with the values of ``at`` (n,) for joints without one."""
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 

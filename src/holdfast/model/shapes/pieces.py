@@ -94,9 +94,7 @@ class LinkCarriers:
                 raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
 
     def locate_link(self, link: str) -> tuple[int, FloatArray] | None:
-        """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
-        base.
-        """
+        """Return the joint that moves a link (-1: none) and its pose (4, 4) there; None if not attached to the base."""
         pose = np.eye(4)
         while link != self.base:
             if link not in self.tree.joint_above:

@@ -69,9 +69,7 @@ def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, pat
 def _find_moves(
     arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: FloatArray, allowed_excess: float
 ) -> NodeMoves:
-    """Return the moves from ``nodes_before`` to ``nodes_after`` within the limits plus ``allowed_excess``, or short ones
-    without a limit.
-    """
+    """Return the moves between the nodes within the limits plus ``allowed_excess``, or short ones without a limit."""
     is_limited = np.isfinite(max_steps)
     if len(nodes_before.q) * len(nodes_after.q) <= _MAX_DENSE_MOVES:
         node_distances = compute_squared_distances(nodes_after.embedded, nodes_before.embedded)
@@ -107,9 +105,7 @@ def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: Floa
 def _find_close_pairs(
     arm: Arm, first_q: FloatArray, second_q: FloatArray, max_differences: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``max_differences`` (n,) in any joint, in
-    order.
-    """
+    """Return the ordered pairs of rows (Q, n) and (P, n) that differ by at most ``max_differences`` (n,) in every joint."""
     from scipy.spatial import KDTree
 
     padded_reach = max_differences * (1 + 1e-9)

@@ -81,9 +81,7 @@ class LockedFollower:
         )
 
     def step_with_each_lock(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
-        """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), the locked joint second, and success (N,
-        n).
-        """
+        """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), that joint second, and success (N, n)."""
         n = self.arm.n
         next_poses = self.poses[pose_indices + 1]
         evaluation = self.tracer.newton_step_and_error(q, *_positions_and_rotations(next_poses))

@@ -1,6 +1,4 @@
-"""Problem of finding the locks that a motion along a path survives; :mod:`holdfast.response.lock_survival.lock_evaluation`
-judges them.
-"""
+"""The problem of finding the locks that a motion along a path survives, which ``lock_evaluation`` judges."""
 
 from __future__ import annotations
 
@@ -197,16 +195,14 @@ def make_problem(
         immobile_text = f", {len(problem.immobile_joints)} of which cannot move," if problem.immobile_joints else ""
         raise TaskError(
             f"'{arm.name}' has {arm.n} joints{immobile_text} and the task '{task_rows.name}' {task_rows.m} rows: without "
-            f"redundancy almost every "
-            "lock loses the path; choose a task with fewer rows"
+            "redundancy almost every lock loses the path; choose a task with fewer rows"
         )
     if problem.redundancy == 1:
         return problem.with_fixed_joints({}) if problem.immobile_joints else problem
     if mode == "detour" and conditions.is_restrictive:
         raise TaskError(
             f"'{arm.name}' has {problem.redundancy} degrees of redundancy for the task '{task_rows.name}'; detours among "
-            f"obstacles or "
-            "with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
+            "obstacles or with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
         )
     return problem
 

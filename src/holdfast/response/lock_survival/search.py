@@ -277,9 +277,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
 
 
 def _list_starts(problem: SurvivalProblem, q_start: FloatArray | None) -> Iterator[tuple[SurvivalProblem, FloatArray]]:
-    """Yield the problem, and narrower ones with the axis of a cone fixed, with the first configurations (n,) of
-    their motions.
-    """
+    """Yield the problem, and narrower ones with a cone's axis fixed, each with the first q (n,) of its motions."""
     if q_start is not None:
         narrower = problem.with_axis_at(q_start)
         yield from ((variant, q_start) for variant in (problem, narrower) if variant is not None)

@@ -211,9 +211,7 @@ class RecoveryAttempt:
     def _find_route_or_proof(
         self, q_current: FloatArray, goals: FloatArray, poses: FloatArray, q_goal: FloatArray | None = None
     ) -> tuple[Route | None, tuple[str, bool] | None]:
-        """Find a route, or a proof that there is none; the proof is tried after the first failed searches, before
-        the others.
-        """
+        """Find a route, or a proof that there is none; the proof is tried after the first failed searches."""
         route = self._search_route(q_current, goals)
         if route is not None:
             return route, None

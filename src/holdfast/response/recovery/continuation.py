@@ -239,9 +239,7 @@ def _all_reached_on_retry(
     start_count: int,
     rng: np.random.Generator,
 ) -> bool:
-    """Search longer for each pose without a configuration, up to the first pose without success; return True if every pose has
-    one.
-    """
+    """Search longer for each pose without a configuration, up to the first failure; return True if every pose has one."""
     for sample in np.flatnonzero(~is_reached):
         is_reached[sample] = not space.is_time_over and _is_reachable(solver, space, poses[sample], q_start, rng, start_count)
         if not is_reached[sample]:
@@ -261,9 +259,7 @@ def _is_reachable(
 def _track_poses(
     solver: RowSolver, space: FreeSpace, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
 ) -> tuple[FloatArray, IndexArray]:
-    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
-    each (R,).
-    """
+    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and their last samples (R,)."""
     q = np.full((len(poses), *first_configurations.shape), np.nan)
     q[0] = first_configurations
     last_samples = np.zeros(len(first_configurations), dtype=np.int64)

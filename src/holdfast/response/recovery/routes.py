@@ -137,9 +137,7 @@ class _RouteTree:
         self._embedded_nodes = self._embed_configurations(roots)
 
     def _embed_configurations(self, q: FloatArray) -> FloatArray:
-        """Return points (N, e) whose distances approximately order configurations as the metric does: a revolute joint is a
-        circle.
-        """
+        """Return points (N, e) whose distances order configurations about as the metric does: a revolute joint is a circle."""
         linear_part = (q * self._metric.scale)[:, self._space.free & ~self._is_unlimited]
         scales = self._metric.scale[self._is_unlimited]
         angles = q[:, self._is_unlimited]

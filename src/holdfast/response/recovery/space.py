@@ -250,9 +250,7 @@ class FreeSpace:
         return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
 
     def describe_obstruction(self, start: FloatArray, goal: FloatArray) -> str:
-        """Name the pair that a straight line from a start (n,) to a goal (n,) collides with, a clause; empty if
-        there is none.
-        """
+        """Name the pair that collides between a start (n,) and a goal (n,), a clause; empty if there is none."""
         pair = self.name_closest_pair(start + np.linspace(0, 1, 201)[:, None] * self.shortest_difference(goal, start))
         return f"; in the way of the straight line: {pair}" if pair else ""
 

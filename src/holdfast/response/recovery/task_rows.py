@@ -203,9 +203,7 @@ class RowSolver:
         return self._kernels.error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
     def is_inside_cone(self, q: FloatArray, pose: FloatArray) -> BoolArray:
-        """Return (N,) True where the tool's z axis at q (N, n) is within the angle of that of a pose (4, 4), or
-        none is given.
-        """
+        """Return (N,) True where the tool's z axis at q (N, n) is within the angle of a pose's (4, 4), or none is given."""
         if self.rows.within is None:
             return np.ones(len(q), dtype=bool)
         return ~self.find_violated_rows(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
@@ -283,9 +281,7 @@ def list_subsets(m: int, size: int, excluded_subsets: list[tuple[int, ...]]) -> 
 
 
 def relaxed_rows_sort_key(rows: TaskRows, dropped_rows: tuple[int, ...]) -> tuple[int, int, int]:
-    """Return the sort key of a set of relaxed rows: few first, then rotations, of these the rotation about the
-    tool's z axis.
-    """
+    """Return the sort key of a set of relaxed rows: few first, then rotations, of these that about the tool's z axis."""
     translation_count = sum(rows.units[index] == "m" for index in dropped_rows)
     is_tool_spin = any(rows.names[index] in ("about tool z", "about z") for index in dropped_rows)
     return len(dropped_rows), translation_count, 0 if is_tool_spin else 1

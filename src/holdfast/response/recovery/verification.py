@@ -184,9 +184,7 @@ def verify_waypoints(
 
 
 def compute_row_errors(arm: Arm, rows: TaskRows, q: FloatArray, poses: FloatArray) -> FloatArray:
-    """Return the signed errors (N, m) of rows at q (N, n) and poses (N, 4, 4), m and rad, by chains of matrices in
-    NumPy alone.
-    """
+    """Return the signed errors (N, m) of rows at q (N, n) and poses (N, 4, 4), m and rad, by matrices in NumPy alone."""
     actual_poses = compute_tool_poses(arm, q)
     position_errors, orientation_errors = (
         poses[:, :3, 3] - actual_poses[:, :3, 3],

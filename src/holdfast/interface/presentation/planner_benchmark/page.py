@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.core.files.output import make_folder, open_replacement
-from holdfast.core.files.spreadsheet import escape_formula
+from holdfast.core.files.csv_table import write_rows
+from holdfast.core.files.output import make_folder
 from holdfast.interface.presentation.planner_benchmark.console import name_task, score_rows
 from holdfast.interface.report.outcomes import Stack, stack_figure
 from holdfast.studies.planner_benchmark.suite import FailActive
@@ -42,8 +41,5 @@ def figures(suite: FailActive) -> dict[str, Figure]:
 def save(suite: FailActive, folder: Path, command: str = "") -> list[Path]:
     """Write ``scores.csv`` and the report page."""
     file, table = make_folder(folder) / "scores.csv", score_rows(suite)
-    with open_replacement(file) as stream:
-        writer = csv.writer(stream)
-        writer.writerow(map(escape_formula, table[0] if table else []))
-        writer.writerows([escape_formula(value) for value in row.values()] for row in table)
+    write_rows(file, table[0] if table else [], (row.values() for row in table))
     return [file, suite.report(folder / "report.html", command=command)]

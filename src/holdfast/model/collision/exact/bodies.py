@@ -182,9 +182,7 @@ def body_from_solid(solid: solids.Solid) -> CollisionBody:
 
 
 def bounding_primitive(solid: solids.Solid) -> solids.PrimitiveSolid:
-    """Return an object with a formula that contains a given one: the object itself if it has a formula, else a box in its
-    frame.
-    """
+    """Return an object with a formula that contains a given one: itself if it has a formula, else a box in its frame."""
     if isinstance(solid, solids.PrimitiveSolid):
         return solid
     assert isinstance(solid, Mesh | Points)

@@ -221,9 +221,7 @@ class ExactQueries:
     # ---- bounds --------------------------------------------------------------------------------------------------
 
     def _distance_bounds(self, q: FloatArray, *, near: bool) -> FloatArray:
-        """Return bounds (N, P) as :class:`NarrowPhase` takes them; sharper for hulls that may touch, or with ``near`` be
-        nearest.
-        """
+        """Return bounds (N, P) for :class:`NarrowPhase`; sharper for hulls that may touch or, if ``near``, be nearest."""
         capsule_distances = self._self_bounds[1](q)
         own_bounds = [
             capsule_distances[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf)

@@ -184,9 +184,7 @@ class NarrowPhase:
         return distances
 
     def _lower_bounds(self, frames: list[tuple[FloatArray, FloatArray]], bounds: FloatArray, limit: FloatArray) -> FloatArray:
-        """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also from balls around the
-        bodies.
-        """
+        """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also by balls."""
         lower_bounds = bounds[:, self._pair_of]
         for index, candidate in enumerate(self._candidates):
             (rows,) = np.nonzero(lower_bounds[:, index] < limit)

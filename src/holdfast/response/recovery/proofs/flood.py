@@ -167,9 +167,7 @@ class ConnectedCells:
 def _generate_connected_regions(
     space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int | None = None
 ) -> Iterator[ConnectedCells]:
-    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
-    limits.
-    """
+    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere in their limits."""
     box = _bound_joints(space, joints)
     if box is None:
         return
@@ -224,9 +222,7 @@ def make_configuration_test(space: FreeSpace, q: FloatArray) -> CellTest:
 def make_pose_test(
     space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)
 ) -> CellTest:
-    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows that mix translation and rotation
-    are ignored.
-    """
+    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows of translation and rotation are ignored."""
     arm = space.arm
     is_rotation = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
     is_translation = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0

@@ -145,9 +145,8 @@ def prove_no_configuration(
         return None
     if not len(solutions.q) and solutions.blocked:
         return (
-            f"every configuration within the limits that meets it touches something ({blocker_names}), by "
-            f"{solutions.boxes:,} boxes of "
-            "joints, up to floating point"
+            f"every configuration within the limits that meets it touches something ({blocker_names}), by {solutions.boxes:,} "
+            "boxes of joints, up to floating point"
         )
     if not len(solutions.q):
         return f"no configuration within the limits meets it, by {solutions.boxes:,} boxes of joints, up to floating point"
@@ -222,23 +221,19 @@ def prove_by_reach_bound(
         min_distance = longest[0] - (max_distance - longest[1])
         if distance > max_distance + slack:
             return (
-                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
-                f"with these "
-                f"joints locked it is at most {max_distance:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with "
+                f"these joints locked it is at most {max_distance:.4g} m away"
             )
         if (planar is None or is_planar) and distance < min_distance - slack:
             return (
-                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
-                f"with these "
-                f"joints locked it is at least {min_distance:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with "
+                f"these joints locked it is at least {min_distance:.4g} m away"
             )
     return None
 
 
 def _bound_distance_from_joint(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
-    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
-    across its axis.
-    """
+    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar: across it."""
     joint = arm.joints[k]
     axial_component = float(joint.axis @ offset)
     axis_distance = float(np.linalg.norm(offset - axial_component * joint.axis))

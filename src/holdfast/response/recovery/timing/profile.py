@@ -145,9 +145,7 @@ class _PathGrid:
         return squared_speeds
 
     def make_profile(self, squared_speeds: FloatArray) -> SpeedProfile:
-        """Return the profile with these squared speeds at the ends of the intervals, scaled down where rounding exceeded a
-        limit.
-        """
+        """Return the profile with these squared speeds at interval ends, scaled down where rounding exceeded a limit."""
         excesses = [
             float((self._constraint_rows(interval) @ squared_speeds[interval : interval + 2]).max(initial=0.0))
             for interval in np.flatnonzero(~self.is_straight).tolist()
@@ -195,9 +193,7 @@ def _split_trapezoid(
 
 
 def _maximize_squared_speed(constraint_rows: FloatArray, max_squared_speed: float, next_limit: float) -> float:
-    """Maximize x up to ``max_squared_speed`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is
-    allowed.
-    """
+    """Maximize x up to ``max_squared_speed`` so that ``rows @ (x, y) <= 1``, with y from 0 to ``next_limit``."""
     # In units of the bounds, so that one rounding fits all.
     units = np.array([max_squared_speed, next_limit if next_limit > 0 else 1.0])
     if not np.isfinite(max_squared_speed):

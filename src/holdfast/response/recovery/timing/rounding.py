@@ -107,9 +107,7 @@ def _arrival_and_departure_directions(q: FloatArray) -> tuple[FloatArray, FloatA
 
 
 def round_corners(q: FloatArray, cut_lengths: FloatArray, further_columns: FloatArray) -> PathPieces:
-    """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); further columns (K, c)
-    follow along.
-    """
+    """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); columns (K, c) follow along."""
     all_columns, steps = np.column_stack([q, further_columns]), np.diff(q, axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     slopes = np.diff(all_columns, axis=0) / lengths[:, None]
