@@ -66,9 +66,8 @@ class RestEquations:
             rest_rates, direction = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
             a, damping = ca.SX(ca.DM(quadratic_form[0])), quadratic_form[1]
-            scale = ca.sparsify(
-                ca.SX(ca.DM(law.task.scale(length_unit / law.task.length)))
-            )  # from the law's own unit of length
+            # From the law's own unit of length.
+            scale = ca.sparsify(ca.SX(ca.DM(law.task.scale(length_unit / law.task.length))))
             jacobian = scale @ law.jacobian(q)
             rest_rates = a @ jacobian.T @ u
             # The column itself does not vanish where J loses rank, as J A J' u does.

@@ -148,11 +148,9 @@ class _ShootingMethod:
                 full_turns = np.where(arm.prismatic, 0, np.round((end_state - q) / (2 * np.pi)))
                 return q, period, matrix, full_turns.astype(np.int64)
             bordered = np.zeros((h + 1, h + 1))
-            bordered[:h, :h], bordered[:h, h], bordered[h, :h] = (
-                matrix - np.eye(h),
-                self._field(end_state)[moving_joints],
-                section_normal,
-            )
+            bordered[:h, :h] = matrix - np.eye(h)
+            bordered[:h, h] = self._field(end_state)[moving_joints]
+            bordered[h, :h] = section_normal
             try:
                 step = np.linalg.solve(bordered, np.r_[-return_error, 0.0])
             except np.linalg.LinAlgError:

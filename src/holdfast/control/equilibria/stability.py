@@ -120,9 +120,8 @@ class Linearisation:
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
         # of the rotation vector is 0/0 there.
         n, at_target = self.law.arm.n, np.flatnonzero(scaled_error < REACHED_ERROR)
-        error_changes = (
-            -task_jacobian[at_target].transpose(0, 2, 1).reshape(-1, self.law.task.m)
-        )  # of the error with each joint in turn
+        # Of the error with each joint in turn.
+        error_changes = -task_jacobian[at_target].transpose(0, 2, 1).reshape(-1, self.law.task.m)
         rates = self.law.velocity(np.repeat(q[at_target], n, axis=0), error_changes)
         jacobians[at_target] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(jacobians[:, healthy][:, :, healthy])

@@ -196,9 +196,8 @@ class ClosedLoopSimulator:
         """
         done, active, states = np.zeros(len(states), dtype=bool), np.arange(len(states)), states.copy()
         parts = self._stepper.layout.view_parts(states)
-        half_turn_counts = np.zeros(
-            len(states), dtype=np.int64
-        )  # looks one after the other that found the row half a turn away
+        # Looks one after the other that found the row half a turn away.
+        half_turn_counts = np.zeros(len(states), dtype=np.int64)
         check_steps = HALF_TURN_CHECK_STEPS * self._stepper.calls_per_step
         for checks_left in reversed(range(MAX_STEPS // check_steps)):
             earlier_times = parts["time"][active, 0]

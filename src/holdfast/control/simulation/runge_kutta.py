@@ -156,10 +156,8 @@ class RungeKuttaStepper:
         ]
         stage_position = parts["q"] + h * _weighted_sum(weights, rates)
         stage_rates = self.system.evaluate_state_rates(stage_position)
-        tool_speeds, speed_fractions = (
-            [parts["hand"], *ca.vertsplit(parts["hands"])],
-            [parts["share"], *ca.vertsplit(parts["shares"])],
-        )
+        tool_speeds = [parts["hand"], *ca.vertsplit(parts["hands"])]
+        speed_fractions = [parts["share"], *ca.vertsplit(parts["shares"])]
         finished_parts = self._finish_step(parts, h, rates, tool_speeds, speed_fractions, stage_position, stage_rates)
         is_finite = ca.sumsqr(stage_rates.rates) < LARGE_NUMBER
         stored_parts = dict(parts)
@@ -269,10 +267,8 @@ class RungeKuttaStepper:
             turning_error = value_at_turning_point(error0, error1, interval * slope0, interval * slope1)
             turning_joint = value_at_turning_point(q0, q1, interval * rates0, interval * rates1)
             closest = elementwise_min(closest, elementwise_min(turning_error, error1))
-            lowest, highest = (
-                elementwise_min(lowest, elementwise_min(turning_joint, q1)),
-                elementwise_max(highest, elementwise_max(turning_joint, q1)),
-            )
+            lowest = elementwise_min(lowest, elementwise_min(turning_joint, q1))
+            highest = elementwise_max(highest, elementwise_max(turning_joint, q1))
         return closest, lowest, highest
 
     def _estimate_error(self, h: SX, rates: list[SX]) -> SX:

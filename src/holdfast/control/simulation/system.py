@@ -147,7 +147,7 @@ def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: Flo
 
 
 def position_and_angle_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute position errors (N,), m, and angle errors (N,), rad, at q (N, n) for a target or N; see :func:`split_error_norms`."""
+    """Compute position (m) and angle errors (rad), (N,), at q (N, n) for a target or N; see :func:`split_error_norms`."""
     return split_error_norms(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 

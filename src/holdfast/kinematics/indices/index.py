@@ -144,9 +144,8 @@ class Index(Labelled, Objective):
         """
         rows, single = self._read_configurations(q)
         by_failure, singular = self._evaluate_by_failure(rows)
-        worst_failures = (
-            by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
-        )  # a NaN, if there is any
+        # A NaN, if there is any.
+        worst_failures = by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
         worst = worst_failures.astype(np.int64, copy=False)
         value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
         status = np.full(len(rows), Status.OK, dtype=np.uint8)

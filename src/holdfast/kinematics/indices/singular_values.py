@@ -270,9 +270,8 @@ class SpectralIndex(Index):
         with np.errstate(divide="ignore", invalid="ignore"):
             v = turned / sigma[:, :, None]
             u = np.einsum("rmc,ric->rmi", reduced, v) / sigma[:, None, :]
-            seed = (
-                np.einsum("rmi,ri,ric->rmc", u, self._derivative_by_singular_value(sigma), v) * free_columns
-            )  # d sigma_i = u_i' dJ v_i
+            # d sigma_i = u_i' dJ v_i.
+            seed = np.einsum("rmi,ri,ric->rmc", u, self._derivative_by_singular_value(sigma), v) * free_columns
         has_no_gradient = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
         seed[has_no_gradient & np.isfinite(q).all(axis=1)] = 0.0
         return self._jacobian_pullback_kernel.rows(q, seed)

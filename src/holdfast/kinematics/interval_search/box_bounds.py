@@ -153,12 +153,10 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     rho += [ca.sqrt(ca.sumsqr(leg_vector))] * is_along_leg
     rotates_tool += [False] * is_along_leg
     allowed_angle = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.orientation != "none" else ca.SX(0)
-    allowed_angle = ca.if_else(
-        allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi
-    )  # the angle whose sine it is at most
-    position_tolerance = (
-        tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
-    )  # a point beside the tool is missed by both
+    # The angle whose sine it is at most.
+    allowed_angle = ca.if_else(allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi)
+    # A point beside the tool is missed by both.
+    position_tolerance = tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
     error_bounds = ca.vertcat(*remainder) + ca.vertcat(position_tolerance, tolerance[len(parts.linear) :])
     weighted = task_jacobian @ ca.diag(half_widths * half_widths)
     gram = weighted @ task_jacobian.T + ca.diag(error_bounds * error_bounds + _GRAM_REGULARIZATION)

@@ -72,10 +72,8 @@ class Path(Presentable):
     def corners(self) -> FloatArray:
         """Values (C,) of s, inside the path, at which the twist jumps."""
         junctions = self.bounds[1:-1]
-        twist_before, twist_after = (
-            self._leg_twist(junctions, np.arange(junctions.size)),
-            self._leg_twist(junctions, np.arange(1, junctions.size + 1)),
-        )
+        twist_before = self._leg_twist(junctions, np.arange(junctions.size))
+        twist_after = self._leg_twist(junctions, np.arange(1, junctions.size + 1))
         return np.asarray(
             junctions[
                 np.linalg.norm(twist_after - twist_before, axis=1) > _CORNER_TOLERANCE * np.linalg.norm(twist_before, axis=1)

@@ -114,10 +114,8 @@ def _shape_and_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, d
     if sum(entry is not None for entry in (model.line, model.arc, model.poses)) != 1:
         raise InputError("it must hold one of 'line:', 'arc:' and 'poses:'")
     if model.line is not None:
-        start_pose, end_pose = (
-            _pose_array(model.line.start, radians_per_unit, "line.from"),
-            _pose_array(model.line.to, radians_per_unit, "line.to"),
-        )
+        start_pose = _pose_array(model.line.start, radians_per_unit, "line.from")
+        end_pose = _pose_array(model.line.to, radians_per_unit, "line.to")
         return "line", {"start": start_pose, "end": end_pose, "name": name}
     if model.arc is not None:
         arc = model.arc

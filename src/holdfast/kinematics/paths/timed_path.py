@@ -105,11 +105,9 @@ class TimedPath(Presentable):
     def twist_rate(self, t: ArrayLike) -> FloatArray:
         """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
         times = _check_times(t)
-        parameters, rate, acceleration = (
-            self._path_parameters(times),
-            self._evaluate_column(self._timing_with_stops.rate, times),
-            self._evaluate_column(self._timing_with_stops.acceleration, times),
-        )
+        parameters = self._path_parameters(times)
+        rate = self._evaluate_column(self._timing_with_stops.rate, times)
+        acceleration = self._evaluate_column(self._timing_with_stops.acceleration, times)
         return self.path.twist_slope(parameters) * rate**2 + self.path.twist(parameters) * acceleration
 
     def stretch(self, factor: float) -> TimedPath:

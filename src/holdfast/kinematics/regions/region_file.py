@@ -62,10 +62,8 @@ def read_region_file(file: Path) -> tuple[Literal["box", "cone", "joints", "pose
             coordinate: [(value * units_by_angle.get(coordinate, 1.0), weight_value) for value, weight_value in points]
             for coordinate, points in (box.density or {}).items()
         }
-        size, angle_size = (
-            np.broadcast_to(box.size, 3),
-            np.broadcast_to(0.0 if box.rpy_size is None else box.rpy_size, 3) * radians_per_unit,
-        )
+        size = np.broadcast_to(box.size, 3)
+        angle_size = np.broadcast_to(0.0 if box.rpy_size is None else box.rpy_size, 3) * radians_per_unit
         if box.cone is not None:
             if box.rpy_center is not None or box.rpy_size is not None:
                 raise InputError(f"region file '{file}': box.cone takes the place of rpy_center and rpy_size; leave them out")

@@ -138,9 +138,8 @@ class ManifoldTracer:
         errors, jacobian = ca.vertcat(errors, ca.SX.zeros(fixed_count, 1)), ca.vertcat(jacobian, *fixed_rows)
         is_moving = 1 - ca.sum1(fixed_rows[0]) if fixed_rows else ca.SX.ones(1, arm.n)
         basis = factor_householder(jacobian).null_space_basis()
-        null_vectors = [
-            basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)
-        ]  # not even by rounding
+        # Not even by rounding.
+        null_vectors = [basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)]
         correction = damped_least_norm(jacobian, errors, 1e-14) * is_moving.T
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
         return Kernel(

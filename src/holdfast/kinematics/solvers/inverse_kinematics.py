@@ -85,10 +85,8 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
     """
     error_rotation = target_rotation @ rotation.T
     skew_vector = _axis_times_sine(error_rotation)
-    sine, cosine = (
-        ca.sqrt(ca.sumsqr(skew_vector)),
-        0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1),
-    )
+    sine = ca.sqrt(ca.sumsqr(skew_vector))
+    cosine = 0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > _ZERO_SINE, angle / ca.if_else(sine > _ZERO_SINE, sine, 1.0), 1.0)
     # Near half a turn the skew part is too short to give the axis a, but says which way it points. The other part of R,

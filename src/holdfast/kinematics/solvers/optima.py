@@ -180,10 +180,8 @@ class Optima(Optimum, Result):
 
     def describe(self) -> list[str]:
         """Describe the objective before and after optimisation; of several poses the median of those reached."""
-        is_reached, unit = (
-            np.atleast_1d(self.success),
-            "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}",
-        )
+        is_reached = np.atleast_1d(self.success)
+        unit = "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
         values = [np.atleast_1d(numbers)[is_reached] for numbers in (self.value_before, self.value)]
         before, after = (f"{format_number(float(np.median(numbers)))}{unit}" if numbers.size else "none" for numbers in values)
         subject = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"

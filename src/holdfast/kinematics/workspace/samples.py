@@ -127,10 +127,8 @@ class LimitChoices:
         """Return the choices of a grid (K,) with its reached values (H, K), and configurations q (H, S); NaN is in none."""
         count, step = grid.size, grid[1] - grid[0]
         if is_periodic:
-            table, pairs = (
-                np.tile(table, 2),
-                [(first_index, first_index + span) for first_index in range(count) for span in range(count)],
-            )
+            table = np.tile(table, 2)
+            pairs = [(first_index, first_index + span) for first_index in range(count) for span in range(count)]
             pairs.append((0, count))
         else:
             pairs = [(first_index, last_index) for first_index in range(count) for last_index in range(first_index, count)]

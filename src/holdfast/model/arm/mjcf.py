@@ -173,9 +173,8 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
     joints: dict[str, TreeJoint] = {}
     for body_index in range(1, model.nbody):
         body, link = bodies[body_index], bodies[int(model.body_parentid[body_index])]
-        pending = pose_from_wxyz(
-            model.body_pos[body_index], model.body_quat[body_index]
-        )  # of the body, in the link reached so far
+        # Of the body, in the link reached so far.
+        pending = pose_from_wxyz(model.body_pos[body_index], model.body_quat[body_index])
         first, count = int(model.body_jntadr[body_index]), int(model.body_jntnum[body_index])
         for joint_index in range(first, first + count):
             anchor = np.eye(4)

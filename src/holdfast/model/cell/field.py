@@ -31,9 +31,8 @@ from holdfast.model.cell.outside import (
     tabulate_outside_distances,
 )
 
-FieldData = tuple[
-    NodeGrid, FloatArray, NDArray[np.float32], float
-]  # grid, signed distances of its nodes, and what is seen from outside
+# Grid, signed distances of its nodes, and what is seen from outside.
+FieldData = tuple[NodeGrid, FloatArray, NDArray[np.float32], float]
 
 _CACHE_FORMAT = 3  # of what is on the disk; another number where the making changes
 _MAX_NODES = 1_000_000

@@ -137,10 +137,8 @@ def _field_coordinates(point: SX, parameters: SX) -> FieldCoordinates:
     half_edges = [width * parameters[4 + axis] / 2 for axis in range(3)]
     centered = [point[axis] - parameters[axis] - half_edges[axis] for axis in range(3)]
     overhang = [ca.fabs(centered[axis]) - half_edges[axis] for axis in range(3)]
-    on_first_axis, on_second_axis = (
-        ca.logic_and(overhang[0] >= overhang[1], overhang[0] >= overhang[2]),
-        overhang[1] >= overhang[2],
-    )
+    on_first_axis = ca.logic_and(overhang[0] >= overhang[1], overhang[0] >= overhang[2])
+    on_second_axis = overhang[1] >= overhang[2]
 
     def pick_axis(v: Vector, k: int) -> SX:
         """Return the coordinate normal to the face for k = 0, then the coordinates that follow."""

@@ -156,11 +156,9 @@ def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
         finished.append(corners[~is_long])
         corners, longest_edge = corners[is_long], edges[is_long].argmax(axis=1)
         indices = np.arange(len(corners))
-        edge_start, edge_end, apex = (
-            corners[indices, longest_edge],
-            corners[indices, (longest_edge + 1) % 3],
-            corners[indices, (longest_edge + 2) % 3],
-        )
+        edge_start = corners[indices, longest_edge]
+        edge_end = corners[indices, (longest_edge + 1) % 3]
+        apex = corners[indices, (longest_edge + 2) % 3]
         midpoint = (edge_start + edge_end) / 2
         corners = np.concatenate([np.stack([edge_start, midpoint, apex], axis=1), np.stack([midpoint, edge_end, apex], axis=1)])
     return np.concatenate(finished)

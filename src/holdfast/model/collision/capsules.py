@@ -120,10 +120,8 @@ class Capsules:
             first_parts, second_parts = ([index for index, part in enumerate(self.parts) if part.link == link] for link in pair)
             all_pairs = _order_pairs(product(first_parts, second_parts))
             if set(all_pairs) <= set(apart):
-                ignore, apart = (
-                    _order_pairs([*ignore, pair]),
-                    tuple(part_pair for part_pair in apart if part_pair not in all_pairs),
-                )
+                ignore = _order_pairs([*ignore, pair])
+                apart = tuple(part_pair for part_pair in apart if part_pair not in all_pairs)
         object.__setattr__(self, "ignore", ignore)
         object.__setattr__(self, "apart", apart)
 

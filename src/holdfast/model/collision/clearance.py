@@ -275,10 +275,8 @@ class Clearance:
         for value, other_wrench, (first, second) in rows:
             closer = value < best_distance
             best_distance, best_wrench = ca.if_else(closer, value, best_distance), ca.if_else(closer, other_wrench, best_wrench)
-            lower_link, upper_link = (
-                ca.if_else(closer, self._capsule_links[first], lower_link),
-                ca.if_else(closer, self._capsule_links[second], upper_link),
-            )
+            lower_link = ca.if_else(closer, self._capsule_links[first], lower_link)
+            upper_link = ca.if_else(closer, self._capsule_links[second], upper_link)
         gradient = [
             ca.if_else(ca.logic_and(lower_link < joint, joint <= upper_link), ca.dot(screw, best_wrench), 0.0)
             for joint, screw in enumerate(self._joint_screws(q))
@@ -321,11 +319,9 @@ class Clearance:
     @cached_property
     def exactness(self) -> ExactQueries:
         """Exact collision queries, answered by a library."""
-        ignored, self_clearance, held_objects = (
-            [ignored_pair.pair for ignored_pair in self.ignored],
-            self.self_only,
-            () if self.cell is None else self.cell.held,
-        )
+        ignored = [ignored_pair.pair for ignored_pair in self.ignored]
+        self_clearance = self.self_only
+        held_objects = () if self.cell is None else self.cell.held
         from holdfast.model.collision.exact.exactness import ExactQueries  # takes long to import
 
         return ExactQueries(

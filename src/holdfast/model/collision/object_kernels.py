@@ -240,9 +240,8 @@ class FormulaObjects:
 
     def _pack_blocks(self, inflation: FloatArray) -> FloatArray:
         """Pack the kernel inputs block by block, (B, BLOCK, 18 + L), with every object inflated by its entry of (F,), m."""
-        far_object = np.concatenate(
-            [np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)]
-        )  # what is lacking to whole blocks
+        # What is lacking to whole blocks.
+        far_object = np.concatenate([np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)])
         numbers = [
             solid.numbers(solid_inflation) for solid, solid_inflation in zip(self.objects, inflation.tolist(), strict=True)
         ]

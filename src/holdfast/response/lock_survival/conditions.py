@@ -140,11 +140,9 @@ class MotionConditions:
             return q
 
         def evaluate_path_rows(trial: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, FloatArray]:
-            current_poses, jacobian, target_poses = (
-                self.arm.forward_kinematics(trial),
-                self.arm.jacobian(trial),
-                poses[pose_indices],
-            )
+            current_poses = self.arm.forward_kinematics(trial)
+            jacobian = self.arm.jacobian(trial)
+            target_poses = poses[pose_indices]
             orientation_errors = rotation_vectors(target_poses[:, :3, :3] @ current_poses[:, :3, :3].transpose(0, 2, 1))
             error = np.concatenate([target_poses[:, :3, 3] - current_poses[:, :3, 3], orientation_errors], axis=1)
             rows = _world_task_rows(self.task, current_poses)

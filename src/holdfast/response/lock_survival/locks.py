@@ -160,9 +160,8 @@ class LockedFollower:
         cosines = np.einsum("ij,ij->i", null_vectors, final_null_vectors)
         first_entries, last_entries = null_vectors[rows, locked_joints], final_null_vectors[rows, locked_joints]
         same_branch = (first_entries * last_entries * cosines > 0) & (np.abs(cosines) >= _MIN_NULL_COSINE)
-        is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (
-            np.abs(last_entries) <= _ZERO_NULL_ENTRY
-        )  # the self-motion does not move this joint anywhere
+        # The self-motion does not move this joint anywhere.
+        is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (np.abs(last_entries) <= _ZERO_NULL_ENTRY)
         return next_q, np.asarray(
             is_on_pose & (same_branch | is_unaffected) & (np.abs(next_q - q).max(axis=1) <= _MAX_JOINT_STEP)
         )

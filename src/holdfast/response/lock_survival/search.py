@@ -271,9 +271,8 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     best = max(results, key=_rank_result)
     if not problem.conditions.left_to_arm:
         return best
-    return LockSurvival.for_motion(
-        problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found
-    )  # maybe a narrower one's
+    # Maybe a narrower one's.
+    return LockSurvival.for_motion(problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found)
 
 
 def _list_starts(problem: SurvivalProblem, q_start: FloatArray | None) -> Iterator[tuple[SurvivalProblem, FloatArray]]:

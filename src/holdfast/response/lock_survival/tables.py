@@ -114,10 +114,8 @@ def _locate_survival_changes(
     lower = np.zeros(node_indices.size)
     for part_length in (1 / _PARTS_PER_SEGMENT, 1 / _PARTS_PER_SEGMENT**2):
         fractions = lower[:, None] + part_length * np.arange(1, _PARTS_PER_SEGMENT)
-        repeated_nodes, repeated_joints = (
-            np.repeat(node_indices, _PARTS_PER_SEGMENT - 1),
-            np.repeat(joints, _PARTS_PER_SEGMENT - 1),
-        )
+        repeated_nodes = np.repeat(node_indices, _PARTS_PER_SEGMENT - 1)
+        repeated_joints = np.repeat(joints, _PARTS_PER_SEGMENT - 1)
         q = pose_nodes.q[repeated_nodes] + fractions.reshape(-1, 1) * pose_nodes.pieces[repeated_nodes]
         q, is_on_pose, _ = follower.tracer.project_onto_poses(q, np.broadcast_to(follower.poses[pose], (len(q), 4, 4)))
         q, has_arrived = follower.step(q, repeated_joints, pose)

@@ -359,18 +359,15 @@ def refine_waypoints(
             solver, space, solver.solve(midpoints, poses, row_masks, space.free), poses, row_masks
         )
         is_valid = solver.meets_rows(new_waypoints, poses, row_masks, space.free)
-        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(
-            axis=1
-        )  # else on another branch
+        # Else on another branch.
+        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(axis=1)
         if not (
             is_valid.all()
             and space.are_segments_valid(q[segments], new_waypoints).all()
             and space.are_segments_valid(new_waypoints, q[segments + 1]).all()
         ):
             return None
-        q, fractions, is_reached = (
-            np.insert(q, segments + 1, new_waypoints, axis=0),
-            np.insert(fractions, segments + 1, middle_fractions),
-            np.insert(is_reached, segments + 1, True),
-        )
+        q = np.insert(q, segments + 1, new_waypoints, axis=0)
+        fractions = np.insert(fractions, segments + 1, middle_fractions)
+        is_reached = np.insert(is_reached, segments + 1, True)
     return None

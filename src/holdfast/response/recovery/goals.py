@@ -91,10 +91,8 @@ def find_goal_configurations(
 
 def solve_pose(solver: RowSolver, space: FreeSpace, pose: FloatArray, initial_configurations: FloatArray) -> FloatArray:
     """Return valid configurations (K, n) that meet every row of a pose (4, 4), from initial configurations (N, n)."""
-    poses, row_masks = (
-        np.repeat(pose[None], len(initial_configurations), axis=0),
-        np.ones((len(initial_configurations), solver.rows.m)),
-    )
+    poses = np.repeat(pose[None], len(initial_configurations), axis=0)
+    row_masks = np.ones((len(initial_configurations), solver.rows.m))
     q = project_onto_constraints(
         solver, space, solver.solve(initial_configurations, poses, row_masks, space.free), poses, row_masks
     )
@@ -125,10 +123,8 @@ def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: FloatArray, q
         initial_configurations = np.concatenate(
             [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
         )
-        repeated_poses, row_masks = (
-            np.repeat(pose[None], len(initial_configurations), axis=0),
-            np.ones((len(initial_configurations), solver.rows.m)),
-        )
+        repeated_poses = np.repeat(pose[None], len(initial_configurations), axis=0)
+        row_masks = np.ones((len(initial_configurations), solver.rows.m))
         q = solver.solve(initial_configurations, repeated_poses, row_masks, space.free)
         pair = space.name_closest_pair(q[solver.meets_rows(q, repeated_poses, row_masks, space.free)])
         if pair:
@@ -267,10 +263,8 @@ def _minimize_row_errors(
         error, jacobian = errors(x), solver.compute_jacobian(x, pose)
         values, gradients = error[met_rows], jacobian[met_rows]
         if clearance is not None:
-            values, gradients = (
-                np.append(values, clearance.margin_left(x) - space.margin),
-                np.vstack([gradients, clearance.gradient(x)]),
-            )
+            values = np.append(values, clearance.margin_left(x) - space.margin)
+            gradients = np.vstack([gradients, clearance.gradient(x)])
         return float(error[lost_rows] @ error[lost_rows]), 2 * error[lost_rows] @ jacobian[lost_rows], values, gradients
 
     lower, upper = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)

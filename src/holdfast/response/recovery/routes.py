@@ -253,10 +253,8 @@ def _grow_tree_to_nodes(
 def _join_branches(
     space: FreeSpace, start_tree: _RouteTree, goal_tree: _RouteTree, meeting_nodes: tuple[int, int]
 ) -> tuple[FloatArray, int]:
-    (start_branch, _), (goal_branch, root) = (
-        start_tree.trace_to_root(meeting_nodes[0]),
-        goal_tree.trace_to_root(meeting_nodes[1]),
-    )
+    (start_branch, _) = start_tree.trace_to_root(meeting_nodes[0])
+    (goal_branch, root) = goal_tree.trace_to_root(meeting_nodes[1])
     # The trees may meet a turn apart: the rest of the way is moved by whole turns.
     shift = start_branch[0] + space.shortest_difference(goal_branch[0], start_branch[0]) - goal_branch[0]
     return np.concatenate([start_branch[::-1], goal_branch + shift]), root

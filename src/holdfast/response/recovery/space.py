@@ -169,10 +169,8 @@ class FreeSpace:
         deviation_changes = 0 * max_changes if deviations is None else deviations @ self._lipschitz_bounds.T
         segments = np.arange(len(a))
         start_fractions, end_fractions = np.zeros(len(a)), np.ones(len(a))
-        first_margins, last_margins = (
-            self._clearance_margins(a) - deviation_changes,
-            self._clearance_margins(b) - deviation_changes,
-        )
+        first_margins = self._clearance_margins(a) - deviation_changes
+        last_margins = self._clearance_margins(b) - deviation_changes
         is_valid &= (first_margins.min(axis=1) >= 0) & (last_margins.min(axis=1) >= 0)
         while True:
             changes = max_changes[segments] * (end_fractions - start_fractions)[:, None]
@@ -192,10 +190,8 @@ class FreeSpace:
             is_valid[segments[middle_margins.min(axis=1) < 0]] = False
             segments = np.concatenate([segments, segments])
             start_fractions, end_fractions = np.concatenate([start_fractions, middle]), np.concatenate([middle, end_fractions])
-            first_margins, last_margins = (
-                np.concatenate([first_margins, middle_margins]),
-                np.concatenate([middle_margins, last_margins]),
-            )
+            first_margins = np.concatenate([first_margins, middle_margins])
+            last_margins = np.concatenate([middle_margins, last_margins])
 
     def extend_paths(
         self, metric: JointMetric, start: FloatArray, directions: FloatArray

@@ -138,10 +138,8 @@ class CollisionBody:
             return False
         first, second, third = (self.vertices[self.faces[:, corner]] - point for corner in range(3))
         first_length, second_length, third_length = (np.linalg.norm(left_edge, axis=1) for left_edge in (first, second, third))
-        numerator, denominator = (
-            np.einsum("ij,ij->i", first, np.cross(second, third)),
-            first_length * second_length * third_length,
-        )
+        numerator = np.einsum("ij,ij->i", first, np.cross(second, third))
+        denominator = first_length * second_length * third_length
         for left_edge, right_edge, opposite_length in (
             (first, second, third_length),
             (second, third, first_length),

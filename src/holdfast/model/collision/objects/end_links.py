@@ -49,9 +49,8 @@ class EndLinks:
         self._from_tool, from_last_joint = np.linalg.inv(arm.tool), np.linalg.inv(last_joint.origin)
         end_spheres = np.flatnonzero((spheres.link >= arm.n - 2) & (spheres.link > BASE_LINK))[::-1]  # the last link's first
         center, on_previous = spheres.center[end_spheres], spheres.link[end_spheres] == arm.n - 2
-        center[on_previous] = (
-            center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
-        )  # seen from the last link, and moved the other way
+        # Seen from the last link, and moved the other way.
+        center[on_previous] = center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
         axis_distance = (
             np.ones(len(end_spheres)) if last_joint.prismatic else np.linalg.norm(np.cross(center, last_joint.axis), axis=1)
         )

@@ -152,9 +152,8 @@ class ConnectedCells:
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
         first_cells = np.floor((positions - widths - self.lower - _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
         last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64) + 1
-        wraps_around = self.is_unlimited & (
-            (first_cells < 0) | (last_cells > self.cells_per_joint)
-        )  # past where a turn ends: anywhere
+        # Past where a turn ends: anywhere.
+        wraps_around = self.is_unlimited & ((first_cells < 0) | (last_cells > self.cells_per_joint))
         first_cells = np.clip(np.where(wraps_around, 0, first_cells), 0, self.cells_per_joint)
         last_cells = np.clip(np.where(wraps_around, self.cells_per_joint, last_cells), 0, self.cells_per_joint)
         cell_counts = np.zeros(len(q), dtype=np.int64)
@@ -314,10 +313,8 @@ class _LinkPoints:
 
         From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
         """
-        positions, motion_bounds = (
-            self.world_positions(frames) if positions is None else positions,
-            np.zeros((len(frames), len(self.link))),
-        )
+        positions = self.world_positions(frames) if positions is None else positions
+        motion_bounds = np.zeros((len(frames), len(self.link)))
         for joint_index in range(arm.n - 1, -1, -1):
             moved_points = np.flatnonzero(self.link >= joint_index)
             if half_widths[joint_index] == 0 or not moved_points.size:
@@ -365,10 +362,8 @@ class _BlockedCells:
         frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))
         is_useful = self._points.bound_motion(space.arm, frames, half_widths).min(axis=0) < self._radii + _MAX_PENETRATION_M
         restricted = copy(self)
-        restricted._points, restricted._radii = (
-            _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful]),
-            self._radii[is_useful],
-        )
+        restricted._points = _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful])
+        restricted._radii = self._radii[is_useful]
         restricted._objects = [(solid, margin, is_ignored[is_useful]) for solid, margin, is_ignored in self._objects]
         return restricted
 

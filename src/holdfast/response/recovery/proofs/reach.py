@@ -66,10 +66,8 @@ def enumerate_collision_free(
             if len(configurations)
             else configurations
         )
-        goals, pose_indices = (
-            np.concatenate([goals, configurations]),
-            np.append(pose_indices, np.full(len(configurations), pose_index)),
-        )
+        goals = np.concatenate([goals, configurations])
+        pose_indices = np.append(pose_indices, np.full(len(configurations), pose_index))
     return goals, pose_indices, proofs
 
 
@@ -109,9 +107,8 @@ def enumerate_configurations(
         tolerance: m and rad by which the pose may be missed.
     """
     limits = degraded.lo, degraded.hi
-    is_enumerable = np.isfinite(limits).all(axis=0) | (
-        np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic
-    )  # or it turns once
+    # Or it turns once.
+    is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)
     if not is_enumerable.all() or not time_limit > 0:
         return None
     time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}

@@ -185,11 +185,9 @@ def _merge_close_waypoints(
                 waypoints = np.insert(
                     np.delete(waypoints, [index, index + 1], axis=0), index, candidates[is_valid.argmax()], axis=0
                 )
-                is_fixed, must_stop, path_fractions = (
-                    np.delete(is_fixed, index),
-                    np.delete(must_stop, index),
-                    np.delete(path_fractions, index),
-                )
+                is_fixed = np.delete(is_fixed, index)
+                must_stop = np.delete(must_stop, index)
+                path_fractions = np.delete(path_fractions, index)
                 continue
         index += 1
     return waypoints, must_stop, path_fractions

@@ -100,10 +100,8 @@ class _PathGrid:
     def _constraint_rows(self, interval: int) -> FloatArray:
         """Return the constraints (R, 2) on squared speeds x and y at the ends of a curved interval: ``rows @ (x, y) <= 1``."""
         curvature, step = self._curvatures[interval] / self._accelerations, 1 / (2 * self.lengths[interval])
-        first, last = (
-            step * self._first_directions[interval] / self._accelerations,
-            step * self._last_directions[interval] / self._accelerations,
-        )
+        first = step * self._first_directions[interval] / self._accelerations
+        last = step * self._last_directions[interval] / self._accelerations
         start_rows, end_rows = np.column_stack([curvature - first, first]), np.column_stack([-last, curvature + last])
         rows = np.concatenate([start_rows, -start_rows, end_rows, -end_rows])
         return np.asarray(rows[np.abs(rows).max(axis=1) > 0])
@@ -180,10 +178,8 @@ def _split_trapezoid(
 ) -> list[tuple[float, float, float]]:
     """Return the parts of a straight line, each with its length, its final squared speed, and its acceleration."""
     peak_squared_speed = min((first + last) / 2 + max_acceleration * length, max_squared_speed)
-    rise_length, fall_length = (
-        (peak_squared_speed - first) / (2 * max_acceleration),
-        (peak_squared_speed - last) / (2 * max_acceleration),
-    )
+    rise_length = (peak_squared_speed - first) / (2 * max_acceleration)
+    fall_length = (peak_squared_speed - last) / (2 * max_acceleration)
     parts = [
         (rise_length, peak_squared_speed, max_acceleration),
         (length - rise_length - fall_length, peak_squared_speed, 0.0),
