@@ -53,16 +53,17 @@ class CsvTable:
         """
         column_indices, rows = [self.header.index(name) for name in names], []
         for number, cells in self.numbered_lines:
+            title = f"{self.title}, line {number}"
             try:
-                rows.append([float(cells[index]) for index in column_indices])
+                row = [float(cells[index]) for index in column_indices]
             except (ValueError, IndexError) as error:
-                raise InputError(
-                    f"{self.title}, line {number}: it must hold {len(self.header)} numbers, got {','.join(cells)}"
-                ) from error
-        columns = np.array(rows).reshape(len(rows), len(column_indices))
-        if not len(columns) or not np.isfinite(columns).all():
-            raise InputError(f"{self.title}: there must be one line or more below the header, all of finite numbers")
-        return columns
+                raise InputError(f"{title}: it must hold {len(self.header)} numbers, got {','.join(cells)}") from error
+            if not np.isfinite(row).all():
+                raise InputError(f"{title}: it holds NaN or infinity; all numbers must be finite")
+            rows.append(row)
+        if not rows:
+            raise InputError(f"{self.title}: there must be one line or more below the header")
+        return np.array(rows)
 
 
 def read_csv_table(file: Path, title: str) -> CsvTable:

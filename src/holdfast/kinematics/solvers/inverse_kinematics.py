@@ -269,6 +269,22 @@ class InverseKinematics:
         is_locked = (q[np.arange(len(q))[:, None], locked] == angles).all(axis=1)
         return self._check_results(q, poses, tolerance, accept, finite, start_counts, is_locked)
 
+    def is_reachable_with_lock(
+        self,
+        poses: FloatArray,
+        locked: IndexArray,
+        angles: FloatArray,
+        seed: np.random.SeedSequence,
+        restarts: int,
+        tolerance: float,
+        accept: Accept | None = None,
+    ) -> BoolArray:
+        """Return (N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
+
+        False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
+        """
+        return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
+
     def solve_near(
         self, q: FloatArray, pose: FloatArray, is_movable: FloatArray, tolerance: float, steps: int = MAX_STEPS
     ) -> tuple[FloatArray, bool]:
