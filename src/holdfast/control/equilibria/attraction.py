@@ -39,9 +39,8 @@ END_MOVING = -2
 END_UNDECIDED = -3
 END_STUCK = -4
 _END_WORDS = {END_AT_TARGET: "target", END_STUCK: "stuck on a continuum", END_MOVING: "moving", END_UNDECIDED: "undecided"}
-# _BOUNDARY_OFFSET_RAD and _BOUNDARY_LENGTH_RAD: rad: where a basin boundary begins, how far it is followed
-_BOUNDARY_OFFSET_RAD = 1e-5
-_BOUNDARY_LENGTH_RAD = 30.0
+_BOUNDARY_OFFSET_RAD = 1e-5  # where a basin boundary begins
+_BOUNDARY_LENGTH_RAD = 30.0  # length to which a basin boundary is followed
 _SOURCE_SPEED_RAD_S = 1e-6  # rad/s: here it ends, at a source
 _LINE_SPACING = 0.02
 _STALL_STEPS = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps

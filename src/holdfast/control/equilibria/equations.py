@@ -28,9 +28,8 @@ from holdfast.kernels.program import SX
 from holdfast.model.arm.configurations import sampling_limits
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
-# _MAX_NEWTON_ROUNDS and _NEAR_RESIDUAL: after as many, only what is as near as that goes on for as many again
-_MAX_NEWTON_ROUNDS = 40
-_NEAR_RESIDUAL = 0.02
+_MAX_NEWTON_ROUNDS = 40  # rounds, and as many again for starts that are near
+_NEAR_RESIDUAL = 0.02  # residual of a start that is near
 _INITIAL_DAMPING = 1e-2
 _DAMPING_DECREASE = 0.2
 _DAMPING_INCREASE = 5.0

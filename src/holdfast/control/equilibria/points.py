@@ -21,9 +21,8 @@ from holdfast.model.arm.model import Arm
 WAVE_STARTS = 256
 MAX_IDLE_WAVES = 3
 MAX_WAVES = 40
-# POINT_TOLERANCE and CONTINUUM_SPACING: rad (and m): points nearer than this are one
-POINT_TOLERANCE = 1e-5
-CONTINUUM_SPACING = 0.05
+POINT_TOLERANCE = 1e-5  # rad (and m): points nearer than this are one
+CONTINUUM_SPACING = 0.05  # rad (and m) between points of a continuum
 MAX_CONTINUUM_POINTS = 256  # points of a continuum that are kept
 
 

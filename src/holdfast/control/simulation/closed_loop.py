@@ -36,9 +36,8 @@ class LockSchedule(Protocol):
         ...
 
 
-# TIME_LIMIT and CYCLE_LIMIT: 1/Ke, cycles
-TIME_LIMIT = 3000.0
-CYCLE_LIMIT = 1000.0
+TIME_LIMIT = 3000.0  # 1/Ke
+CYCLE_LIMIT = 1000.0  # cycles
 TARGET_RADIUS_M = 0.1  # m
 DEFAULT_TOLERANCE = 1e-9
 MAX_TOLERANCE = 1e-6

@@ -253,10 +253,8 @@ STATE_COLLAPSED = 2
 STATE_TIME_LIMIT = 3
 STATE_PHASE_END = 4
 STATE_ARRIVED = 5
-# END_WINDOW_FRACTION and LATE_WINDOW_FRACTION: shares of the time limit: the end of a motion is watched from the first on, in
-# two halves
-END_WINDOW_FRACTION = 0.8
-LATE_WINDOW_FRACTION = 0.9
+END_WINDOW_FRACTION = 0.8  # of the time limit, from which the end of a motion is watched
+LATE_WINDOW_FRACTION = 0.9  # of the time limit, from which the second half is watched
 
 
 def track_final_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:

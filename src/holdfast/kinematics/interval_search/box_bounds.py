@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 
 import casadi as ca
 import numpy as np
@@ -181,7 +182,7 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     middle = -(gain @ errors)
     radius = ca.fabs(ca.SX.eye(size) - gain @ task_jacobian) @ half_widths + ca.fabs(gain) @ error_bounds + ROUNDING_M_RAD
     lower, upper = ca.fmax(middle - radius, -half_widths), ca.fmin(middle + radius, half_widths)
-    margin = _maximum([*tests, *ca.vertsplit(lower - upper)]) - ROUNDING_M_RAD
+    margin = reduce(ca.fmax, [*tests, *ca.vertsplit(lower - upper)]) - ROUNDING_M_RAD
     new_half_widths = ca.fmax((upper - lower) / 2, 0)
     measures = _box_measures(
         half_widths,
@@ -329,13 +330,6 @@ def _orientation_terms(
         )
 
     return component_rows @ value, component_rows @ gradient, second_derivative, (ca.trace(error_rotation) - 1) / 2
-
-
-def _maximum(values: list[SX]) -> SX:
-    largest = values[0]
-    for value in values[1:]:
-        largest = ca.fmax(largest, value)
-    return largest
 
 
 def _error_beyond_bound(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:

@@ -87,7 +87,7 @@ class ClearanceRateLimit:
         latest = self._clearance_and_gradient(q)
         around = sorted(
             ((clearance + float(gradient @ (q - sample_q)), gradient) for sample_q, clearance, gradient in self._samples[1:]),
-            key=_extrapolated_clearance,
+            key=lambda entry: entry[0],
         )
         entries = [(latest[1], latest[2]), *around, (np.inf, np.zeros(len(q)))]
         return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
@@ -110,10 +110,6 @@ class ClearanceRateLimit:
             clearance.pair_names,
             clearance.margins + self.margin,
         )
-
-
-def _extrapolated_clearance(entry: tuple[float, FloatArray]) -> float:
-    return entry[0]
 
 
 def _are_similar(gradient: FloatArray, reference: FloatArray) -> bool:

@@ -32,9 +32,8 @@ from holdfast.model.arm import kinematics
 from holdfast.model.arm.task import Task
 
 NEGATIVE_CURVATURE_FRACTION = 1e-2  # of the median curvature along a path: this much below 0 is not a local best
-_LOW_CURVATURE_FRACTION = (
-    0.2  # of the median curvature along a path: where it is less and rates are high, an extremum nearly ends
-)
+# Of the median curvature along a path: where it is less and rates are high, an extremum nearly ends.
+_LOW_CURVATURE_FRACTION = 0.2
 _FAST_RATE_FACTOR = 4.0  # times the median rate: this is high
 ZERO_COST_FRACTION = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
 _VALUE_TOLERANCE = 0.01  # of the value, or of its range
@@ -198,7 +197,7 @@ def find_events(
         lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the end effector may lag",
     )
     for name, flags in motion.at_limit.items():
-        add_events("joint limit", flags, partial(_describe_limit, name))
+        add_events("joint limit", flags, partial("{1}: '{0}' is at its limit".format, name))
     return tuple(sorted(events, key=lambda event: (event.start, event.kind)))
 
 
@@ -233,10 +232,6 @@ def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHi
                 )
             events.append(Event(kind=kind, start=float(motion.time[first]), end=float(motion.time[last]), text=text))
     return events
-
-
-def _describe_limit(name: str, time_phrase: str) -> str:
-    return f"{time_phrase}: '{name}' is at its limit"
 
 
 def _find_fast_motions(objective: Objective, motion: MotionHistory, tracks: bool, is_zero: BoolArray) -> list[Event]:

@@ -123,7 +123,7 @@ class _RegionFile(_StrictModel):
 
 def _first_error_message(error: ValidationError) -> str:
     entry = error.errors()[0]
-    location = _join_location([key for key in entry["loc"] if key not in ("float", "tuple[float, float, float]")])
+    location = ".".join(str(key) for key in entry["loc"] if key not in ("float", "tuple[float, float, float]"))
     if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
         return f"{location}: must be one number or 3, got {reprlib.repr(entry['input'])}"
     if entry["type"] == "extra_forbidden":
@@ -132,10 +132,6 @@ def _first_error_message(error: ValidationError) -> str:
     if entry["type"] == "missing":
         return f"key '{location}' is missing"
     return f"{location}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
-
-
-def _join_location(loc: Sequence[int | str]) -> str:
-    return ".".join(str(key) for key in loc)
 
 
 def _known_keys(loc: Sequence[int | str]) -> list[str]:

@@ -14,9 +14,8 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 
 MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
-_MAX_STRAY_FRACTION = (
-    0.25  # of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it
-)
+# Of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it.
+_MAX_STRAY_FRACTION = 0.25
 _LENGTH_FACTOR = 1.1  # a curve is longer than the straight piece between two of its points by less than this
 
 

@@ -32,14 +32,12 @@ from holdfast.model.arm.task import Task, as_task
 Accept = Callable[[FloatArray], BoolArray]
 
 MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
-# _HALF_TURN_SINE, _ZERO_SINE and _ROUNDING_SINE: sines of half a turn, of no turn, and of which nothing is left but rounding
-_HALF_TURN_SINE = 1e-6
-_ZERO_SINE = 1e-9
-_ROUNDING_SINE = 1e-15
+_HALF_TURN_SINE = 1e-6  # sine of a rotation by half a turn
+_ZERO_SINE = 1e-9  # sine of no rotation
+_ROUNDING_SINE = 1e-15  # sine that is only rounding
 _WAVE_ROWS = 8192  # rows of starts that run side by side when poses are left over
-# _ROW_MULTIPLIER and _START_MULTIPLIER: odd numbers: each row walks through the whole pool of starts
-_ROW_MULTIPLIER = 2654435761
-_START_MULTIPLIER = 40503
+_ROW_MULTIPLIER = 2654435761  # odd, so each row walks through the whole pool of starts
+_START_MULTIPLIER = 40503  # odd, too
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -202,9 +202,9 @@ def self_motion(
     Source: Goel et al. 2005.
     """
     resolved_task = as_task(arm, task)
-    options = {"clearance": clearance, "cell": cell, "margin": margin}
+    options: dict[str, Any] = {"clearance": clearance, "cell": cell, "margin": margin}
     pose = target_pose(resolved_task, target)
-    return fibres(arm, pose, resolved_task, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
+    return fibres(arm, pose, resolved_task, spacing=spacing, seed=seed, starts=starts, **options)[0]
 
 
 def fibres(
@@ -263,15 +263,8 @@ def fibres(
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
     engine = make_tracer(arm, resolved_task)
-    options = {
-        "spacing": spacing,
-        "seed": seed,
-        "starts": starts,
-        "follow": follow,
-        "clearance": resolved_clearance,
-        "margin": margin,
-    }
-    return trace_self_motions(engine, resolved_task, targets, **options)  # type: ignore[arg-type]
+    options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": follow, "clearance": resolved_clearance}
+    return trace_self_motions(engine, resolved_task, targets, **options, margin=margin)  # type: ignore[arg-type]
 
 
 @reports_progress("tracing self-motions")
@@ -318,15 +311,13 @@ def trace_self_motions(
         ]
         was_found = [bool(len(pose_points)) for pose_points in points]
         points = points if constraint is None else [pose_points[constraint.is_satisfied(pose_points)] for pose_points in points]
-    statuses = [
-        Status.OK if len(pose_points) else Status.INFEASIBLE if had_points else Status.NOT_FOUND
-        for pose_points, had_points in zip(points, was_found, strict=True)
-    ]
-    status = [pose_status if is_finite else Status.BAD_INPUT for pose_status, is_finite in zip(statuses, finite, strict=True)]
+    status = np.where([len(pose_points) > 0 for pose_points in points], Status.OK, Status.INFEASIBLE)
+    status[~np.array(was_found, dtype=bool)] = Status.NOT_FOUND
+    status[~finite] = Status.BAD_INPUT
     common = {"arm": arm, "task": task, "redundancy": engine.dimension, "spacing": spacing}
     common |= {"clearance": clearance, "margin": margin}
     return [
-        SelfMotion(pose=target, components=tuple(curve), q=pose_points, status=pose_status, **common)  # type: ignore[arg-type]
+        SelfMotion(pose=target, components=tuple(curve), q=pose_points, status=Status(pose_status), **common)  # type: ignore[arg-type]
         for target, curve, pose_points, pose_status in zip(targets, components, points, status, strict=True)
     ]
 

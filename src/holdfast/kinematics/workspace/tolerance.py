@@ -302,7 +302,8 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
         float(tolerant_planar.workspace_area(planar_arm, links[None], radii)[0]) for radii in (_AREA_RADII, _AREA_RADII // 2)
     )
     error = abs(area - coarse)
-    outer_radius, inner_radius = _outer_and_inner_radius(planar_arm)
+    outer_radius = float(planar_arm.lengths.sum())
+    inner_radius = max(0.0, 2 * float(planar_arm.lengths.max()) - outer_radius)
     coordinates = np.linspace(-outer_radius, outer_radius, _GRID_POINTS)
     plane_points = np.stack(np.meshgrid(coordinates, coordinates), axis=-1).reshape(-1, 2)
     radius = np.hypot(*plane_points.T)
@@ -327,11 +328,6 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
         optimised=optimised,
         confidence=1.0,
     )
-
-
-def _outer_and_inner_radius(planar_arm: ThreeLinks) -> tuple[float, float]:
-    total = float(planar_arm.lengths.sum())
-    return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
 
 
 def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray:

@@ -29,9 +29,8 @@ from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
 from holdfast.response.lock_survival.rates import FailureRates
 from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
 
-# _SMALL_MOTION and _STANDSTILL_TOLERANCE: rad and m along a whole curve
-_SMALL_MOTION = 0.3
-_STANDSTILL_TOLERANCE = 1e-6
+_SMALL_MOTION = 0.3  # rad and m along a whole curve
+_STANDSTILL_TOLERANCE = 1e-6  # rad and m along a whole curve
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 

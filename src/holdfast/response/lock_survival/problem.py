@@ -30,9 +30,8 @@ Kind = Literal["exact", "upper bound", "lower bound"]
 
 _IMMOBILE_RANGE = 1e-9  # rad and m between the limits of a joint that does not move
 _MAX_FIXED_SETS = 24  # of joints that a failed arm may hold
-# _COARSE_SPACING_RAD and _MIN_COARSE_POSES: rad between nodes, and poses, of what is only tried
-_COARSE_SPACING_RAD = 0.15
-_MIN_COARSE_POSES = 11
+_COARSE_SPACING_RAD = 0.15  # between nodes of a problem that is only tried
+_MIN_COARSE_POSES = 11  # poses of a problem that is only tried
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -34,9 +34,8 @@ from holdfast.response.lock_survival.rates import FailureRates, RatesLike
 
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
-# _FIRST_CONFIGURATIONS and _FIRST_POSE_STARTS: configurations of the first pose that are tried, and the starts of their search
-_FIRST_CONFIGURATIONS = 3
-_FIRST_POSE_STARTS = 64
+_FIRST_CONFIGURATIONS = 3  # configurations of the first pose that are tried
+_FIRST_POSE_STARTS = 64  # random starts of the search for them
 _RANK_TOLERANCE = 1e-6  # of the largest singular value
 _MAX_CONE_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
 
@@ -220,7 +219,9 @@ class _CurveSearch:
             if path_table.last_pose is not None:
                 continue
             chosen = path_table.trace_best_motion()
-            q = _unwind_motion(arm, np.array([entry.q[index] for entry, index in zip(nodes, chosen, strict=True)]))
+            q = np.array([entry.q[index] for entry, index in zip(nodes, chosen, strict=True)])
+            # Unlimited revolute joints take the shorter direction from pose to pose.
+            q = np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])
             smooth = smooth_motion(
                 follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
             )
@@ -337,8 +338,3 @@ def _project_start_to_path(problem: SurvivalProblem, start: ArrayLike) -> FloatA
         raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
     on_pose: FloatArray = problem.lock.tracer.project_onto_poses(q[None], first_pose)[0][0]
     return on_pose
-
-
-def _unwind_motion(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return the motion in which unlimited revolute joints take the shorter direction from pose to pose."""
-    return np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])

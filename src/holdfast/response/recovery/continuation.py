@@ -21,9 +21,8 @@ if TYPE_CHECKING:
 
 
 _SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
-# _MIN_SAMPLES and _MAX_SAMPLES: samples
-_MIN_SAMPLES = 20
-_MAX_SAMPLES = 400
+_MIN_SAMPLES = 20  # samples of a path
+_MAX_SAMPLES = 400  # samples of a path
 _STARTS_PER_SET = 12
 _REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
 _INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at

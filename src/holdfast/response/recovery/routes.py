@@ -211,11 +211,8 @@ def _search_bidirectional_trees(
 def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[FloatArray], max_step: float) -> int:
     """Count the extensions that end far from every node of the tree."""
     ends = [extension[-1] for extension in extensions if len(extension)]
-    return (
-        int((metric.measure_length(tree.find_nearest(np.stack(ends))[1]) > _NEW_REGION_FRACTION * max_step).sum())
-        if ends
-        else 0
-    )
+    lengths = metric.measure_length(tree.find_nearest(np.stack(ends))[1]) if ends else np.zeros(0)
+    return int((lengths > _NEW_REGION_FRACTION * max_step).sum())
 
 
 def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -> FloatArray:
@@ -270,7 +267,7 @@ def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.r
         ends = np.sort(rng.uniform(0, lengths[-1], (_SHORTCUTS_PER_ROUND, 2)), axis=1)
         # Some whole pieces too: from waypoint to waypoint.
         ends[: _SHORTCUTS_PER_ROUND // 4] = np.sort(rng.choice(lengths, (_SHORTCUTS_PER_ROUND // 4, 2)), axis=1)
-        cut_starts, cut_ends = (_interpolate(q, lengths, cut_lengths) for cut_lengths in ends.T)
+        cut_starts, cut_ends = (np.stack([np.interp(cuts, lengths, column) for column in q.T], axis=1) for cuts in ends.T)
         gains = ends[:, 1] - ends[:, 0] - metric.measure_length(cut_ends - cut_starts)
         useful = np.flatnonzero(gains > 1e-6 * lengths[-1])
         useful = useful[space.are_segments_valid(cut_starts[useful], cut_ends[useful])]
@@ -304,11 +301,6 @@ def _shorten_on_constraints(space: FreeSpace, metric: JointMetric, q: FloatArray
         if gains[index] > 1e-6 * lengths[-1]:
             q = np.concatenate([q[: first_points[index] + 1], extensions[index], q[last_points[index] + 1 :]])
     return q
-
-
-def _interpolate(q: FloatArray, lengths: FloatArray, sample_lengths: FloatArray) -> FloatArray:
-    """Return points (N, n) of the path q (K, n) with cumulative lengths (K,) at lengths s (N,)."""
-    return np.stack([np.interp(sample_lengths, lengths, column) for column in q.T], axis=1)
 
 
 def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:

@@ -20,9 +20,8 @@ from holdfast.model.collision.clearance import Clearance
 
 MetricName = Literal["travel", "time"]
 
-MIN_RESOLVED_MOTION_M = (
-    5e-4  # m of possible motion between what could collide: what cannot be told clear at this is taken as blocked
-)
+# Possible motion in m between what could collide: what cannot be told clear at this is taken as blocked.
+MIN_RESOLVED_MOTION_M = 5e-4
 _MAX_EXTENSION_STEPS = 400  # pieces of one walk at most
 _MIN_PROGRESS_FRACTION = 0.1  # of a piece, by which it must come nearer to where it goes
 

@@ -28,9 +28,8 @@ ROW_TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is 
 _MAX_STEPS = 60
 TILT_ROW = "tilt of tool z"
 _UNLIMITED = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
-_RELAXED_ROW_WEIGHT = (
-    1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
-)
+# Weight of a row that is given up while its error is made small: the kept rows yield to it by its square only.
+_RELAXED_ROW_WEIGHT = 1e-3
 
 
 @dataclass(frozen=True)

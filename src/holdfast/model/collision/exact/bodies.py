@@ -93,7 +93,8 @@ class CollisionBody:
         if self.kind == "mesh":
             return _empty_points(), np.zeros(0)
         if self.kind in ("box", "convex"):
-            spheres = np.array(_fit_inner_spheres(*self.face_planes, self._corner_points())).reshape(-1, 4)
+            corners = np.array(list(product((-0.5, 0.5), repeat=3))) * self.size if self.kind == "box" else self.vertices
+            spheres = np.array(_fit_inner_spheres(*self.face_planes, corners)).reshape(-1, 4)
             return (spheres[:, :3], spheres[:, 3]) if self.filled is None else self.filled.shrink_spheres(spheres)
         if self.kind == "ellipsoid":
             return np.zeros((1, 3)), np.array([min(self.size)])
@@ -110,11 +111,6 @@ class CollisionBody:
         first, second, third = (self.vertices[self.faces[:, corner]] for corner in range(3))
         distances = np.array([_distance_to_triangles(sphere[:3], first, second, third) for sphere in enclosed])
         return enclosed[:, :3], np.minimum(enclosed[:, 3], distances)
-
-    def _corner_points(self) -> FloatArray:
-        if self.kind == "box":
-            return np.array(list(product((-0.5, 0.5), repeat=3))) * self.size
-        return self.vertices
 
     @cached_property
     def bounding_sphere(self) -> tuple[FloatArray, float]:

@@ -19,12 +19,10 @@ from holdfast.model.collision.sphere_cover import SphereCover
 
 _STAGE_ANGLES = (1, 3, 20)  # angles of the last joint; what they leave open is looked at in the next
 _GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are all round the circle, however few they are
-# _LAST_JOINT and _PREVIOUS_JOINT: the joints that move the two links here
-_LAST_JOINT = 5
-_PREVIOUS_JOINT = 6
-_POSE_TOLERANCE_M = (
-    1e-5  # m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it
-)
+_LAST_JOINT = 5  # the joint that moves the last link here
+_PREVIOUS_JOINT = 6  # the joint that moves the link before it
+# In m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it.
+_POSE_TOLERANCE_M = 1e-5
 
 
 class EndLinks:

@@ -48,9 +48,8 @@ _CHUNK_ROWS = 4096
 _SAMPLED_CONFIGURATIONS = 64  # configurations
 _MAX_CONFINED_CELLS = 25_000  # the same of some of more joints
 _MAX_PENETRATION_M = 0.15  # m: deeper in an object hardly a ball is
-# _MAX_CONFINED_JOINTS and _MAX_CONFINED_FLOODS: of more joints: over how many of them a flood goes, and how often it is tried
-_MAX_CONFINED_JOINTS = 2
-_MAX_CONFINED_FLOODS = 2
+_MAX_CONFINED_JOINTS = 2  # joints of a flood that leaves other joints anywhere
+_MAX_CONFINED_FLOODS = 2  # such floods over the same joints
 
 
 def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:

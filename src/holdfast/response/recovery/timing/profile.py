@@ -15,11 +15,9 @@ import numpy as np
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.response.recovery.timing.rounding import PathPieces
 
-# _MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA and _MAX_PARABOLA_INTERVALS: intervals of a parabola, at least, and
-# of all of them
-_MAX_INTERVALS_PER_PARABOLA = 32
-_MIN_INTERVALS_PER_PARABOLA = 4
-_MAX_PARABOLA_INTERVALS = 1600
+_MAX_INTERVALS_PER_PARABOLA = 32  # intervals of each parabola
+_MIN_INTERVALS_PER_PARABOLA = 4  # intervals of each parabola
+_MAX_PARABOLA_INTERVALS = 1600  # intervals of all parabolas
 _POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the polygon of what is allowed
 
 
