@@ -243,11 +243,7 @@ class ManifoldTracer:
             q, converged = self._solve_from_starts(np.array([start for _, start in starts]), poses[owner])
             known_counts = [len(curves) for curves in curves_by_pose]
             self.trace_curves(poses, owner[converged], q[converged], spacing, curves_by_pose)
-            new_curves = [
-                (pose_index, curve)
-                for pose_index, curves in enumerate(curves_by_pose)
-                for curve in curves[known_counts[pose_index] :]
-            ]
+            new_curves = [(k, curve) for k, curves in enumerate(curves_by_pose) for curve in curves[known_counts[k] :]]
         return curves_by_pose
 
     def _trace_both_ways(self, q: FloatArray, poses: FloatArray, spacing: float) -> list[Component | None]:

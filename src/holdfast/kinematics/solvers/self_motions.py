@@ -75,9 +75,7 @@ class SelfMotion(Result):
     def describe(self) -> list[str]:
         """Describe the configurations in sentences."""
         lines = [f"{self.arm.title}, task {self.task.name}: {self._summarise()}"]
-        lines += [
-            f"curve {index + 1}: {curve.length:.3g} rad, {self.ends(index)}" for index, curve in enumerate(self.components)
-        ]
+        lines += [f"curve {k + 1}: {curve.length:.3g} rad, {self.ends(k)}" for k, curve in enumerate(self.components)]
         if self.components and not self.arm.prismatic.all():
             revolute_count = np.count_nonzero(~self.arm.prismatic)
             lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {revolute_count} whole turns")
@@ -300,10 +298,7 @@ def trace_self_motions(
                 [part for curve in pose_curves for part in constraint.find_feasible_parts(engine, target, curve)]
                 for target, pose_curves in zip(targets, components, strict=True)
             ]
-        points = [
-            np.concatenate([curve.q for curve in pose_curves]) if pose_curves else np.empty((0, arm.n))
-            for pose_curves in components
-        ]
+        points = [np.concatenate([curve.q for curve in curves]) if curves else np.empty((0, arm.n)) for curves in components]
     else:
         points = [
             engine.sample_manifold(target, q[owner == index], spacing)

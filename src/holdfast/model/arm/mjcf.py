@@ -198,12 +198,7 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
                 joints[f"{tip} (fixed)"] = _fixed_joint(
                     tip, carrier, pose_from_wxyz(model.site_pos[site_index], model.site_quat[site_index])
                 )
-    tied = frozenset(
-        joint_names[joint_index]
-        for _, _, tied_joints, _ in _iterate_couplings(mujoco, model)
-        if len(tied_joints) > 1
-        for joint_index in tied_joints
-    )
+    tied = frozenset(joint_names[k] for _, _, joints, _ in _iterate_couplings(mujoco, model) if len(joints) > 1 for k in joints)
     return LinkTree(label, links, joints, limits_required=False, tied=tied)
 
 

@@ -178,12 +178,9 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
             for child_joint in tree.joints_below[link]
             if not (child_joint.is_moving and _is_finger(child_joint) and only_fingers_below[child_joint.child][0])
         ]
-        moving_joint_counts.update(
-            {child_joint.child: moving_joint_counts[link] + child_joint.is_moving for child_joint in followed_joints}
-        )
+        moving_joint_counts.update({joint.child: moving_joint_counts[link] + joint.is_moving for joint in followed_joints})
         may_end_here = any(
-            child_joint.is_moving and only_fingers_below[child_joint.child][1] and _may_be_finger(tree, child_joint)
-            for child_joint in followed_joints
+            joint.is_moving and only_fingers_below[joint.child][1] and _may_be_finger(tree, joint) for joint in followed_joints
         )
         if moving_joint_counts[link] and (not followed_joints or may_end_here):
             tips[link] = moving_joint_counts[link]
@@ -196,9 +193,7 @@ def likely_tip(tree: LinkTree, base: str, candidates: Sequence[str]) -> str:
 
     def rank_tip(link: str) -> tuple[bool, int]:
         moving = [joint for joint in tree.joint_path(base, link) if joint.is_moving]
-        return not TOOL_PATTERN.search(link), sum(
-            _is_finger(moving_joint) or _may_be_finger(tree, moving_joint) for moving_joint in moving
-        )
+        return not TOOL_PATTERN.search(link), sum(_is_finger(joint) or _may_be_finger(tree, joint) for joint in moving)
 
     return min(candidates, key=rank_tip)
 

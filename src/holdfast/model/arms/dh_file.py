@@ -106,10 +106,7 @@ def format_dh_file(
         if not np.array_equal(pose, np.eye(4)):
             lines += [
                 f"{key}:",
-                *[
-                    f"  - [{', '.join(_format_scalar(number) for number in matrix_row)}]"
-                    for matrix_row in (pose + 0.0).tolist()
-                ],
+                *[f"  - [{', '.join(_format_scalar(number) for number in row)}]" for row in (pose + 0.0).tolist()],
             ]
     if not np.array_equal(gravity, GRAVITY):
         lines.append(f"gravity: [{', '.join(_format_scalar(float(number)) for number in np.asarray(gravity))}]")

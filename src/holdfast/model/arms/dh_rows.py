@@ -67,9 +67,7 @@ def dh_table(arm: Arm) -> DHTable:
     joints, axes = arm_at_origin.frames_at_zero[:-1], arm_at_origin.axes_at_zero
     points = [joint_frame[:3, 3] for joint_frame in joints]
     # The x axes that from_dh gave; a URDF joint may have any.
-    own_x_axes = [
-        joint_frame[:3, 0] if joint.axis[2] == 1.0 else None for joint_frame, joint in zip(joints, arm.joints, strict=True)
-    ]
+    own_x_axes = [frame[:3, 0] if joint.axis[2] == 1.0 else None for frame, joint in zip(joints, arm.joints, strict=True)]
 
     first_frame = _first_frame(axes[0], points[0])
     frames = [first_frame]

@@ -218,8 +218,7 @@ class Capsules:
             if link in named:
                 name, entries = named[link]
                 parts += [
-                    _make_capsule(link, entry, data_model.radius, f"links.{name}[{index}]")
-                    for index, entry in enumerate(entries)
+                    _make_capsule(link, entry, data_model.radius, f"links.{name}[{k}]") for k, entry in enumerate(entries)
                 ]
             elif data_model.radius is not None:
                 parts += capsule_along_link(arm, link, data_model.radius)

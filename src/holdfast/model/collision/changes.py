@@ -32,9 +32,7 @@ def pair_lipschitz_bounds(
     bounds = np.zeros((len(pairs), arm.n))
     for pair_bounds, (first_index, second_index) in zip(bounds, pairs, strict=True):
         first, second = capsules.parts[first_index], capsules.parts[second_index]
-        end_distances = [
-            max(float(np.linalg.norm(end_point)) for end_point in (part.start, part.end)) for part in (first, second)
-        ]
+        end_distances = [max(float(np.linalg.norm(point)) for point in (part.start, part.end)) for part in (first, second)]
         for joint in range(first.link + 1, second.link + 1):
             # Outwards from axis k to the second capsule; inwards from it to the first.
             outward = (

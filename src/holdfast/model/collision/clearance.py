@@ -84,11 +84,7 @@ class Clearance:
             capsules = capsules_in_cell(arm, cell, capsules)
         self.capsules = capsules.without_held if cell is None or not cell.held else capsules
         highest = max(
-            (
-                link
-                for link in self._capsule_links
-                + [ignored_link for ignored_pair in self.capsules.ignore for ignored_link in ignored_pair]
-            ),
+            (link for link in self._capsule_links + [ignored_link for pair in self.capsules.ignore for ignored_link in pair]),
             default=-1,
         )
         if highest >= arm.n:

@@ -170,8 +170,7 @@ class _CurveSearch:
         )
         weights = problem.rates.weights(problem.time)
         self._gains = [
-            weight * lock_table.survives @ problem.rates.each
-            for weight, lock_table in zip(weights, self._lock_tables, strict=True)
+            weight * table.survives @ problem.rates.each for weight, table in zip(weights, self._lock_tables, strict=True)
         ]
         max_steps = np.array([joint.velocity for joint in arm.joints]) * float(np.diff(problem.time).max())
         self._total_weight = float(weights.sum()) * problem.rates.total
@@ -301,9 +300,7 @@ def _find_first_configurations(problem: SurvivalProblem) -> FloatArray:
     q = q[~is_off_path(problem, q, problem.lock.poses[:1]) & problem.conditions.are_met(q)]
     chosen = [0] * bool(len(q))
     while 0 < len(chosen) < min(_FIRST_CONFIGURATIONS, len(q)):
-        distances = np.min(
-            [np.linalg.norm(joint_space.joint_difference(problem.arm, q, q[index]), axis=1) for index in chosen], axis=0
-        )
+        distances = np.min([np.linalg.norm(joint_space.joint_difference(problem.arm, q, q[k]), axis=1) for k in chosen], axis=0)
         chosen.append(int(distances.argmax()))
     return np.asarray(q[chosen])
 

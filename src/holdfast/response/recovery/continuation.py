@@ -279,9 +279,7 @@ def _find_best_relaxation(
     complete = np.flatnonzero(last_samples == len(poses) - 1)
     if not complete.size:
         return None
-    motion_errors = [
-        float(np.linalg.norm(search.solver.compute_errors(q[:, index], poses), axis=1).max()) for index in complete
-    ]
+    motion_errors = [float(np.linalg.norm(search.solver.compute_errors(q[:, k], poses), axis=1).max()) for k in complete]
     sort_keys = [
         (*relaxed_rows_sort_key(search.solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
         for index, motion_error in zip(complete, motion_errors, strict=True)

@@ -192,10 +192,7 @@ def find_relaxed_goals(
             for row_set, q in configurations.items()
             if not any(set(other_set) < set(row_set) for other_set in configurations)
         }
-    relaxed_goals = [
-        (dropped_rows, _select_least_error(search, pose, q_start, dropped_rows, q))
-        for dropped_rows, q in configurations.items()
-    ]
+    relaxed_goals = [(dropped, _select_least_error(search, pose, q_start, dropped, q)) for dropped, q in configurations.items()]
     relaxed_goals.sort(
         key=lambda entry: (*relaxed_rows_sort_key(rows, entry[0]), float(np.linalg.norm(entry[1].relaxed_rows.misses)))
     )

@@ -151,10 +151,7 @@ class _TaskRowKernels:
         inverse_rotation = chain.rotation.T
         errors, jacobians = [position_error], [linear_jacobian]
         if rows.linear == "tool":
-            columns = [
-                linear_jacobian[:, joint_index] + ca.cross(angular_jacobian[:, joint_index], position_error)
-                for joint_index in range(self.arm.n)
-            ]
+            columns = [linear_jacobian[:, k] + ca.cross(angular_jacobian[:, k], position_error) for k in range(self.arm.n)]
             errors, jacobians = [inverse_rotation @ position_error], [inverse_rotation @ ca.horzcat(*columns)]
         if np.abs(rows.matrix[:, 3:]).max() > 0:
             orientation_error = pose_error(chain.position, chain.rotation, position, rotation)[3:]

@@ -258,9 +258,7 @@ def _joints_exceeding_limits(
         arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves
     )
     is_exceeded = peak_accelerations > np.where(max_accelerations > 0, max_accelerations * (1 + 1e-9), np.inf)
-    return too_fast, {
-        arm.joint_names[joint_index]: float(peak_accelerations[joint_index]) for joint_index in np.flatnonzero(is_exceeded)
-    }
+    return too_fast, {arm.joint_names[index]: float(peak_accelerations[index]) for index in np.flatnonzero(is_exceeded)}
 
 
 def _find_least_clearance(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:

@@ -113,9 +113,7 @@ class NarrowPhase:
         ]
         if obstacles is not None:
             objects = [(geometry_of_object(engine, solid), bounding_primitive(solid)) for solid in obstacles.cell]
-            by_link = {
-                link: [part_index for part_index, part in enumerate(parts) if part.link == link] for link in range(arm.n)
-            }
+            by_link = {link: [index for index, part in enumerate(parts) if part.link == link] for link in range(arm.n)}
             for pair, (link, object_index) in enumerate(obstacles.pairs.tolist(), start=len(body_pairs)):
                 self._candidates += [
                     CandidatePair(pair, part_index, objects[object_index][0], part_index, objects[object_index][1])

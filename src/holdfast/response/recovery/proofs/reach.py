@@ -194,8 +194,7 @@ def prove_by_reach_bound(
     tool_offset = frame @ arm.tool  # from the last moving joint to the tool
     center = offsets[0]
     lengths = [
-        _bound_distance_from_joint(arm, index, offset, is_planar)
-        for index, offset in zip(moving[:-1], offsets[1:], strict=True)
+        _bound_distance_from_joint(arm, k, offset, is_planar) for k, offset in zip(moving[:-1], offsets[1:], strict=True)
     ]
     proofs = [
         (
