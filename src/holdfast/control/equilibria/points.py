@@ -139,14 +139,8 @@ def find_stationary_points(
     """Find all stationary points that random starts reach with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     has_spare_joints = int(system.healthy.sum()) > system.law.task.m
-    solutions, solution_starts = _gather_points(
-        system,
-        locked_values,
-        system.find_target_configurations,
-        generator,
-        1 if has_spare_joints else MAX_WAVES,
-        ignore_progress,
-    )
+    target_waves, search = 1 if has_spare_joints else MAX_WAVES, system.find_target_configurations
+    solutions, solution_starts = _gather_points(system, locked_values, search, generator, target_waves, ignore_progress)
     stuck_points, stuck_starts = _gather_points(
         system, locked_values, system.find_stuck_configurations, generator, MAX_WAVES, report_progress
     )
@@ -173,9 +167,8 @@ def _gather_points(
         is_isolated = system.is_isolated(candidates)
         new_points = select_distinct(arm, candidates[is_isolated], isolated, POINT_TOLERANCE)
         isolated = np.concatenate([isolated, new_points])
-        continuum = np.concatenate([continuum, select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)])[
-            :MAX_CONTINUUM_POINTS
-        ]
+        new_continuum = select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)
+        continuum = np.concatenate([continuum, new_continuum])[:MAX_CONTINUUM_POINTS]
         idle_waves = 0 if len(new_points) else idle_waves + 1
         report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
         if idle_waves == MAX_IDLE_WAVES:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -85,3 +86,19 @@ def wrap_joints_to_positive(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
     remainder = q % (2 * np.pi)
     return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)
+
+
+def join_intervals(
+    intervals: Iterable[tuple[float, float]], gap: float = 0.0, period: float | None = None
+) -> list[tuple[float, float]]:
+    """Join intervals that overlap or lie within ``gap``, by lower end; with a period the last one also with the first."""
+    joined: list[tuple[float, float]] = []
+    for lower, upper in sorted(intervals):
+        if joined and lower <= joined[-1][1] + gap:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], upper))
+        else:
+            joined.append((lower, upper))
+    while period is not None and len(joined) > 1 and joined[0][0] + period <= joined[-1][1] + gap:
+        _, upper = joined.pop(0)
+        joined[-1] = (joined[-1][0], max(joined[-1][1], upper + period))
+    return joined

@@ -334,15 +334,7 @@ def _join_intervals(spans: list[tuple[float, float]], is_periodic: bool) -> list
             for lower, upper in spans
         ]
         spans += [(-np.pi, upper - period) for _, upper in spans if upper > np.pi]
-    joined: list[tuple[float, float]] = []
-    for lower, upper in sorted(spans):
-        if joined and lower <= joined[-1][1]:
-            joined[-1] = (joined[-1][0], max(upper, joined[-1][1]))
-        else:
-            joined.append((lower, upper))
-    if is_periodic and len(joined) > 1 and joined[-1][1] >= joined[0][0] + period:
-        joined[-1] = (joined[-1][0], max(joined[-1][1], joined[0][1] + period))
-        joined.pop(0)
+    joined = joint_space.join_intervals(spans, period=period if is_periodic else None)
     if is_periodic and len(joined) == 1 and joined[0][1] - joined[0][0] >= period:
         return [(-np.pi, np.pi)]
     return joined

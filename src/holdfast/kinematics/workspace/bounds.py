@@ -176,19 +176,11 @@ class _JointSegments:
             return [(-np.pi, np.pi)] if self.is_periodic else [(float(self.cuts[0]), float(self.cuts[-1]))]
         boundaries, count = self.boundaries, self.is_reached.size
         pieces = [(boundaries[index], boundaries[index + 1]) for index in range(count) if self.is_reached[index]]
-        pieces = sorted(pieces + [(critical_value, critical_value) for critical_value in self.cuts[self.is_critical]])
-        joined: list[list[float]] = []
-        for low, high in pieces:
-            if joined and low <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
-                joined[-1][1] = max(joined[-1][1], high)
-            else:
-                joined.append([low, high])
+        pieces += [(critical_value, critical_value) for critical_value in self.cuts[self.is_critical]]
+        period = 2 * np.pi
+        joined = joint_space.join_intervals(pieces, 10 * _CRITICAL_VALUE_TOLERANCE, period if self.is_periodic else None)
         if self.is_periodic:
-            if len(joined) > 1 and joined[0][0] + 2 * np.pi <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
-                joined[-1][1] = max(joined[-1][1], joined[0][1] + 2 * np.pi)
-                joined.pop(0)
-            periods = [2 * np.pi if low >= np.pi else 0.0 for low, _ in joined]
-            joined = [[low - period, high - period] for (low, high), period in zip(joined, periods, strict=True)]
+            joined = [(low - period, high - period) if low >= np.pi else (low, high) for low, high in joined]
         return sorted((float(low), float(high)) for low, high in joined)
 
 

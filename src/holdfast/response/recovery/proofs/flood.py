@@ -105,7 +105,7 @@ def _joint_sets_between_links(clearance: Clearance, joints: IndexArray) -> list[
 
 @dataclass(frozen=True, eq=False)
 class ConnectedCells:
-    """IndexArray that may be connected to the start.
+    """Cells of a flood that may be connected to the start.
 
     Attributes:
         names: Of the joints of which they are cells.
