@@ -77,10 +77,9 @@ class Basins(Result):
         """Ends of the starts, always with solutions and sinks, and the fraction of starts of each with its exact interval."""
         is_isolated_end = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(is_isolated_end).tolist()}, key=lambda code: (code < 0, abs(code)))
-        return [
-            (self.name(code), Interval.from_counts(int((self.end == code).sum()), len(self.end), self.confidence))
-            for code in codes
-        ]
+        counts = [int((self.end == code).sum()) for code in codes]
+        intervals = [Interval.from_counts(count, len(self.end), self.confidence) for count in counts]
+        return list(zip(map(self.name, codes), intervals, strict=True))
 
     def name(self, code: int) -> str:
         """Return a value of ``end`` as text: the kind and number from 1 of a point, or a word."""

@@ -70,11 +70,8 @@ class RestEquations:
             jacobian = scale @ law.jacobian(q)
             rest_rates = a @ jacobian.T @ u
             # The column itself does not vanish where J loses rank, as J A J' u does.
-            direction = (
-                jacobian @ (1 - mask)
-                if self._locks_one and not damping
-                else jacobian @ rest_rates + damping * (scale @ scale @ u)
-            )
+            damped = jacobian @ rest_rates + damping * (scale @ scale @ u)
+            direction = jacobian @ (1 - mask) if self._locks_one and not damping else damped
         # As many equations as unknowns, but for the locked joints.
         equations = ca.vertcat(mask * rest_rates, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * direction)
         expressions = [equations, ca.sum1((1 - mask) * rest_rates), ca.jacobian(equations, self._unknowns)]

@@ -78,11 +78,8 @@ class Linearisation:
         system = self._system
         error, _ = system.error_and_jacobian(system.q)
         error_norms = ca.norm_2(error), ca.norm_2(system.scaled_error_and_jacobian(system.q)[0])
-        return Kernel(
-            "rest rates",
-            [system.q, system.target, system.rotation],
-            [ca.vertcat(self.law.rates(system.q, error), *error_norms)],
-        )
+        rates = ca.vertcat(self.law.rates(system.q, error), *error_norms)
+        return Kernel("rest rates", [system.q, system.target, system.rotation], [rates])
 
     @cached_property
     @cached_kernel
@@ -90,11 +87,11 @@ class Linearisation:
         system = self._system
         error, jacobian = system.error_and_jacobian(system.q)
         inputs = [system.q, system.target, system.rotation]
-        outputs = [
+        rate_jacobian, scaled_error = (
             self.law.with_slopes(system.q, error, system.q)[1],
-            jacobian,
-            ca.norm_2(system.scaled_error_and_jacobian(system.q)[0]),
-        ]
+            system.scaled_error_and_jacobian(system.q)[0],
+        )
+        outputs = [rate_jacobian, jacobian, ca.norm_2(scaled_error)]
         return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -103,13 +103,8 @@ class FailedArmSystem:
         velocity, speed_fraction = self.compute_limited_velocity(error)
         rates = self.compute_rates(q, velocity)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
-        outputs = [
-            rates,
-            self.compute_tool_speed(q, rates),
-            speed_fraction,
-            ca.sumsqr(error),
-            -2 * ca.dot(error, jacobian @ rates),
-        ]
+        tool_speed, squared_error_rate = self.compute_tool_speed(q, rates), -2 * ca.dot(error, jacobian @ rates)
+        outputs = [rates, tool_speed, speed_fraction, ca.sumsqr(error), squared_error_rate]
         return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
 
     def evaluate_state_rates(self, q: SX) -> StateRates:

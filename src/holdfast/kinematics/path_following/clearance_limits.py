@@ -61,11 +61,8 @@ class ClearanceRateLimit:
             return self._samples[0]
         clearance, gradient = self._nearest(q)
         sample = (q.copy(), clearance - self.margin, gradient)
-        others = [
-            other
-            for other in self._samples
-            if np.abs(other[0] - q).max() < _GRADIENT_RANGE and not _are_similar(other[2], sample[2])
-        ]
+        nearby = [other for other in self._samples if np.abs(other[0] - q).max() < _GRADIENT_RANGE]
+        others = [other for other in nearby if not _are_similar(other[2], sample[2])]
         self._samples = [sample, *others[: _MEMORY_SIZE - 1]]
         return sample
 

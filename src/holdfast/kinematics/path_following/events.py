@@ -154,11 +154,8 @@ def find_events(
     is_zero = (
         positive & (motion.value <= ZERO_COST_FRACTION * max(float(motion.value.max()), 1e-300)) & (motion.value.max() > 0)
     )
-    add_events(
-        "zero cost",
-        is_zero,
-        lambda when: f"{when}: {objective.name} is zero (below {ZERO_COST_FRACTION:.1%} of its largest value)",
-    )
+    text = f"{objective.name} is zero (below {ZERO_COST_FRACTION:.1%} of its largest value)"
+    add_events("zero cost", is_zero, lambda when: f"{when}: {text}")
     value_range = float(np.ptp(motion.value))
     jump = np.r_[False, np.abs(np.diff(motion.value)) > _JUMP_FRACTION * value_range] & (value_range > 0)
     add_events(

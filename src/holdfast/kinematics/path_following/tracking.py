@@ -166,14 +166,8 @@ def follow(
         if best
         else (None, None)
     )
-    plain_options: dict[str, Any] = {
-        "minimise": minimise,
-        "maximise": maximise,
-        "rate_cap": rate_cap,
-        "task": resolved_task,
-        "q": start,
-    }
-    plain_options |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
+    plain_options: dict[str, Any] = {"minimise": minimise, "maximise": maximise, "rate_cap": rate_cap, "task": resolved_task}
+    plain_options |= {"q": start, "samples": samples, "limits": limits, "damping": damping, "seed": seed}
     plain_options |= {"clearance": resolved_clearance, "margin": margin}
     trajectory = Trajectory(
         arm=arm,

@@ -275,12 +275,8 @@ class Region(Presentable):
                 f"region of joints: lower {lower_values[index]:g} of joint {index + 1} is above upper "
                 f"{upper_values[index]:g}; swap them"
             )
-        return cls(
-            "joints",
-            tuple(((lower_values + upper_values) / 2).tolist()),
-            tuple((upper_values - lower_values).tolist()),
-            name=name,
-        )
+        center, size = (lower_values + upper_values) / 2, upper_values - lower_values
+        return cls("joints", tuple(center.tolist()), tuple(size.tolist()), name=name)
 
     @classmethod
     @check_arguments

@@ -304,11 +304,8 @@ class ManifoldTracer:
             travelled[rows] += distance[is_taken]
             step[rows] = np.minimum(2 * step[rows], spacing)
             step[active[~is_accepted]] *= 0.5
-            has_ended = (
-                at_limit
-                | (~is_accepted & (step[active] < _MIN_STEP_FRACTION * spacing))
-                | (travelled[active] > _MAX_CURVE_LENGTH)
-            )
+            is_too_short = ~is_accepted & (step[active] < _MIN_STEP_FRACTION * spacing)
+            has_ended = at_limit | is_too_short | (travelled[active] > _MAX_CURVE_LENGTH)
             has_ended |= np.isin(active, rows[is_closed])
             active = active[~has_ended]
         all_rows = np.concatenate(taken_rows)

@@ -51,10 +51,8 @@ class SamplingBox:
         else:
             raise TaskError(f"task '{task.name}' does not hold a point of space or of a plane; use position, planar or pose")
         lower, upper = sampling_limits(arm)
-        tool_points = (
-            arm.forward_kinematics(np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n)))[:, :3, 3]
-            @ directions.T
-        )
+        q = np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n))
+        tool_points = arm.forward_kinematics(q)[:, :3, 3] @ directions.T
         minimum, maximum = tool_points.min(axis=0), tool_points.max(axis=0)
         return cls(directions, minimum - 0.02 * (maximum - minimum), maximum + 0.02 * (maximum - minimum), rotation)
 
@@ -136,11 +134,8 @@ class LimitChoices:
         lost_counts = np.concatenate([np.zeros((len(table), 1), dtype=np.int64), np.cumsum(~table, axis=1)], axis=1)
         survives = (lost_counts[:, np.minimum(last + 1, lost_counts.shape[1] - 1)] == lost_counts[:, first]).T
         grid_position = (q - grid[0]) / step
-        offsets = (
-            np.mod(grid_position[None] - first[:, None, None], count)
-            if is_periodic
-            else grid_position[None] - first[:, None, None]
-        )
+        offsets = grid_position[None] - first[:, None, None]
+        offsets = np.mod(offsets, count) if is_periodic else offsets
         holds = (offsets >= 0) & (offsets <= (last - first)[:, None, None])
         return cls(np.stack([grid[0] + step * first, grid[0] + step * last], axis=1), survives, holds)
 

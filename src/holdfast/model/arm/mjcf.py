@@ -337,12 +337,8 @@ def _iterate_couplings(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, st
             yield "equality", name, [object_id for object_id in ends if object_id >= 0], []
         elif kind in (int(equality_types.mjEQ_CONNECT), int(equality_types.mjEQ_WELD)):
             at_sites = int(model.eq_objtype[index]) == int(object_types.mjOBJ_SITE)
-            yield (
-                "equality",
-                name,
-                [],
-                [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends],
-            )
+            bodies = [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends]
+            yield "equality", name, [], bodies
     for index in range(model.ntendon):
         first_wrap, tied_joints, tied_bodies = int(model.tendon_adr[index]), [], []
         for wrap_index in range(first_wrap, first_wrap + int(model.tendon_num[index])):

@@ -104,10 +104,8 @@ def zyx_angles(rotations: ArrayLike) -> FloatArray:
     matrices = np.asarray(rotations, dtype=np.float64)
     cosine_of_b = np.hypot(matrices[..., 0, 0], matrices[..., 1, 0])
     upright = cosine_of_b < 1e-12
-    a = np.arctan2(
-        np.where(upright, -matrices[..., 0, 1], matrices[..., 1, 0]),
-        np.where(upright, matrices[..., 1, 1], matrices[..., 0, 0]),
-    )
+    sines = np.where(upright, -matrices[..., 0, 1], matrices[..., 1, 0])
+    a = np.arctan2(sines, np.where(upright, matrices[..., 1, 1], matrices[..., 0, 0]))
     c = np.where(upright, 0.0, np.arctan2(matrices[..., 2, 1], matrices[..., 2, 2]))
     return np.stack([a, np.arctan2(-matrices[..., 2, 0], cosine_of_b), c], axis=-1)
 

@@ -333,11 +333,8 @@ def build_chain(
 def _advise_base(moving: Sequence[TreeJoint]) -> str:
     """Return advice for a chain with unsupported joints: the link after the last of them, if joints follow."""
     last_unsupported = max(index for index, joint in enumerate(moving) if joint.type not in MOVING_TYPES)
-    return (
-        f"; mount the arm on the link behind it: --base {moving[last_unsupported].child}"
-        if last_unsupported < len(moving) - 1
-        else ""
-    )
+    is_followed = last_unsupported < len(moving) - 1
+    return f"; mount the arm on the link behind it: --base {moving[last_unsupported].child}" if is_followed else ""
 
 
 def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints) -> None:

@@ -274,12 +274,8 @@ def _read_limits(element: ElementTree.Element, joint_type: str, label: str) -> t
         lower, upper = (_parse_numbers(limit.get(key, "0"), 1, f"{label}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
             raise ArmError(f"{label}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
-    return (
-        lower,
-        upper,
-        _read_nonnegative(limit, "velocity", label) or np.inf,
-        _read_nonnegative(limit, "effort", label) or np.inf,
-    )
+    velocity, effort = (_read_nonnegative(limit, key, label) or np.inf for key in ("velocity", "effort"))
+    return lower, upper, velocity, effort
 
 
 def _read_nonnegative(element: ElementTree.Element, key: str, label: str) -> float:

@@ -86,9 +86,7 @@ def bodies_in_row_frames(arm: Arm, table: DHTable) -> tuple[list[Link | None], L
     row_frames = [row_motions[index + 1] @ Arm.from_dh([row]).flange for index, row in enumerate(table.rows)]
     link_poses = [_invert_pose(row) @ link_frames[index + 1] for index, row in enumerate(row_frames)]
     links = arm.links or (None,) * arm.n
-    row_links = [
-        None if link is None else link.in_frame(_snap_pose(pose)) for link, pose in zip(links, link_poses, strict=True)
-    ]
+    row_links = [link and link.in_frame(_snap_pose(pose)) for link, pose in zip(links, link_poses, strict=True)]
     return row_links, None if arm.payload is None else arm.payload.in_frame(_snap_pose(link_poses[-1]))
 
 

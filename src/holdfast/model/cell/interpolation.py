@@ -67,9 +67,8 @@ def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points
     parameters = (
         np.repeat([field.parameters for field in tables], points_per_table, axis=0) if len(tables) > 1 else tables[0].parameters
     )
-    node_coordinates = np.clip(np.nan_to_num(_coordinate_kernel().rows(points, parameters)), 0, _MAX_NODE_INDEX).astype(
-        np.int64
-    )
+    coordinates = np.nan_to_num(_coordinate_kernel().rows(points, parameters))
+    node_coordinates = np.clip(coordinates, 0, _MAX_NODE_INDEX).astype(np.int64)
     cells, corners = np.empty((len(points), 6)), np.empty((len(points), 16))
     ends = np.cumsum(points_per_table)
     for field, start, stop in zip(tables, ends - points_per_table, ends, strict=True):

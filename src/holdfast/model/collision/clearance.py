@@ -195,10 +195,8 @@ class Clearance:
         ]
 
     def _pair_wrenches(self, axes: list[LineSegment]) -> list[SX]:
-        return [
-            separating_wrench(axes[first], axes[second], *closest_parameters(axes[first], axes[second]))
-            for first, second in self.pairs
-        ]
+        feet = [(first, second, closest_parameters(axes[first], axes[second])) for first, second in self.pairs]
+        return [separating_wrench(axes[first], axes[second], *parameters) for first, second, parameters in feet]
 
     def _joint_screws(self, q: SX) -> list[SX]:
         """Return the screw (6,) of each joint: its product with a wrench is the power per unit of joint speed."""

@@ -65,10 +65,8 @@ class Degraded:
         """
         stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
         left = {name: _check_range(arm, name, ends) for name, ends in _values_by_name(arm, ranges or {}, "ranges").items()}
-        slow = {
-            name: _check_speed_fraction(arm, name, value)
-            for name, value in _values_by_name(arm, speeds or {}, "speeds").items()
-        }
+        speeds_by_name = _values_by_name(arm, speeds or {}, "speeds")
+        slow = {name: _check_speed_fraction(arm, name, value) for name, value in speeds_by_name.items()}
         if not (stands or left or slow):
             raise InputError(f"nothing of '{arm.name}' is degraded; give locked, ranges or speeds")
         for name in [*left, *slow]:

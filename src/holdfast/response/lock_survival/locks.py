@@ -76,9 +76,8 @@ class LockedFollower:
 
     def solve_poses(self, q: FloatArray, locked_joints: IndexArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Solve poses (N, 4, 4) near configurations (N, n) without moving joint (N,); return the result and its success."""
-        return self._solve_newton(
-            q, locked_joints, poses, self.tracer.newton_step_and_error(q, *_positions_and_rotations(poses))
-        )
+        residuals = self.tracer.newton_step_and_error(q, *_positions_and_rotations(poses))
+        return self._solve_newton(q, locked_joints, poses, residuals)
 
     def step_with_each_lock(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
         """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), that joint second, and success (N, n)."""

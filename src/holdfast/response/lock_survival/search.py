@@ -131,11 +131,10 @@ def plan_motion(
         starts=starts,
     )
     q_start = None if start is None else _project_start_to_path(problem, start)
-    best = (
-        _CurveSearch(problem, q_start).find_best_motion(problem)
-        if problem.redundancy == 1
-        else _search_fixed_joints(problem, q_start)
-    )
+    if problem.redundancy == 1:
+        best = _CurveSearch(problem, q_start).find_best_motion(problem)
+    else:
+        best = _search_fixed_joints(problem, q_start)
     return best if not compare else with_baselines(problem, best, compare, seed)
 
 
@@ -187,10 +186,8 @@ class _CurveSearch:
                 "slow the path down, take more samples, or prescribe fewer rows"
             )
         self._bound = bound_table.best_total / self._total_weight
-        self.survival_interval = (
-            self._path_tables[0].best_total / self._total_weight,
-            self._path_tables[1].best_total / self._total_weight,
-        )
+        within_limits, relaxed = (path_table.best_total / self._total_weight for path_table in self._path_tables)
+        self.survival_interval = within_limits, relaxed
 
     def find_best_motion(self, requested: SurvivalProblem) -> LockSurvival:
         """Return the best motion, smoothed and evaluated for the requested problem."""

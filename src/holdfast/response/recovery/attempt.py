@@ -308,11 +308,8 @@ class RecoveryAttempt:
     def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:
         """Find a motion to the goal with the fewest relaxed rows; without one, report that the goal is not reached."""
         recovery, locks = goal.recovery, goal.target.mismatched_locks
-        offers = [
-            (choice, pose)
-            for pose in goal.target.poses
-            for choice in find_relaxed_goals(self.search, pose, goal.q_start, self.rng)
-        ]
+        relaxed_goals = [(find_relaxed_goals(self.search, pose, goal.q_start, self.rng), pose) for pose in goal.target.poses]
+        offers = [(choice, pose) for choices, pose in relaxed_goals for choice in choices]
         offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = tuple(choice.relaxed_rows for choice, _ in offers)
         self._record_timeout_step("looking for rows to give up")

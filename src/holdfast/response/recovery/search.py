@@ -178,9 +178,8 @@ def recover(
         goal_pose=None if target is None else target.poses[0],
     )
     if samples:
-        recovery = replace(
-            recovery, left=estimate_remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed)
-        )
+        left = estimate_remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed)
+        recovery = replace(recovery, left=left)
 
     def run_attempt(attempt_clearance: Clearance | None) -> Recovery:
         request = replace(recovery, clearance=attempt_clearance)

@@ -269,11 +269,9 @@ def make_row_solver(arm: Arm, task: Task, within: float | None = None) -> RowSol
 
 def list_subsets(m: int, size: int, excluded_subsets: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
     """Return the sets of ``size`` of m rows that contain none of the sets ``excluded_subsets``."""
-    return [
-        subset
-        for subset in combinations(range(m), size)
-        if not any(set(excluded) <= set(subset) for excluded in excluded_subsets)
-    ]
+    excluded_sets = [set(excluded) for excluded in excluded_subsets]
+    subsets = combinations(range(m), size)
+    return [subset for subset in subsets if not any(excluded <= set(subset) for excluded in excluded_sets)]
 
 
 def relaxed_rows_sort_key(rows: TaskRows, dropped_rows: tuple[int, ...]) -> tuple[int, int, int]:

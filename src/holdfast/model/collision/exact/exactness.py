@@ -228,11 +228,8 @@ class ExactQueries:
             for columns in self._columns_by_link_pair.values()
         ]
         object_distances = self._outer_objects.link_distances(q)
-        limit = (
-            object_distances.min(axis=(1, 2), initial=np.inf) + SEARCH_DISTANCE_M
-            if near
-            else np.full(len(q), CONTACT_DISTANCE_M)
-        )
+        object_limit = object_distances.min(axis=(1, 2), initial=np.inf) + SEARCH_DISTANCE_M
+        limit = object_limit if near else np.full(len(q), CONTACT_DISTANCE_M)
         obstacles, frames = self.obstacles, self.arm.frames(q)
         for object_index, (normals, offsets) in self._hull_planes.items():
             assert obstacles is not None

@@ -54,8 +54,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
     )
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
     box_proofs = (
-        (sample, enumerate_collision_free(recovery, solver, space, poses[sample : sample + 1])[2][0])
-        for sample in hardest_samples
+        (sample, enumerate_collision_free(recovery, solver, space, poses[[sample]])[2][0]) for sample in hardest_samples
     )
     sample_proof = next(
         ((sample, proof) for sample, proof in chain(constraint_proofs, reach_proofs, box_proofs) if proof is not None), None

@@ -196,13 +196,8 @@ def prove_by_reach_bound(
     lengths = [
         _bound_distance_from_joint(arm, k, offset, is_planar) for k, offset in zip(moving[:-1], offsets[1:], strict=True)
     ]
-    proofs = [
-        (
-            "the end effector",
-            pose[:3, 3],
-            [*lengths, _bound_distance_from_joint(arm, moving[-1], tool_offset[:3, 3], is_planar)],
-        )
-    ]
+    tool_distance = _bound_distance_from_joint(arm, moving[-1], tool_offset[:3, 3], is_planar)
+    proofs = [("the end effector", pose[:3, 3], [*lengths, tool_distance])]
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tool_offset)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))

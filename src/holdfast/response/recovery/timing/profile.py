@@ -77,10 +77,8 @@ class _PathGrid:
         self.offsets = interval_index * self.lengths
         self.is_straight = ~is_curved[self.pieces]
         _, first_directions, self._curvatures = (columns[:, :n] for columns in pieces.evaluate(self.pieces, self.offsets))
-        self._first_directions, self._last_directions = (
-            first_directions,
-            first_directions + self.lengths[:, None] * self._curvatures,
-        )
+        self._first_directions = first_directions
+        self._last_directions = first_directions + self.lengths[:, None] * self._curvatures
         with np.errstate(divide="ignore"):
             max_directions = np.maximum(np.abs(self._first_directions), np.abs(self._last_directions))
             self.squared_speed_limits = (
