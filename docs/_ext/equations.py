@@ -14,6 +14,7 @@ import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,6 @@ from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 import holdfast
-from holdfast.core._lazy import read_offered_names
 
 PAPERS = {  # as the list of references has them: how people write them, and the title
     "Abdi2012": ("Abdi 2012", "Abdi et al. 2012"),
@@ -65,7 +65,7 @@ def public() -> Iterator[str]:
     root = Path(holdfast.__file__).parent
     for stub in sorted(root.rglob("__init__.pyi")):
         package = ".".join(["holdfast", *stub.parent.relative_to(root).parts])
-        for name in read_offered_names(package):
+        for name in import_module(package).__all__:
             found = thing(f"{package}.{name}")
             if inspect.isfunction(found) or inspect.isclass(found):
                 yield f"{package}.{name}"

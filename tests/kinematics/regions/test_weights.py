@@ -231,7 +231,7 @@ def test_columns_may_come_in_any_order(tmp_path):
 HEAD = "x,y,z,qx,qy,qz,qw\n"
 BAD_TABLES = {
     "nothing": ("", "'x' is missing"),
-    "no poses": (HEAD, "one line or more below the header"),
+    "no poses": (HEAD, "one line or more of finite numbers below the header"),
     "no header": ("0,0,0,0,0,0,1\n", "column '0'"),
     "unknown column": ("x,y,z,qx,qy,qz,qw,speed\n0,0,0,0,0,0,1,1\n", "'speed' is not known"),
     "twice": ("x,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "'x' is given twice"),

@@ -59,10 +59,10 @@ class CsvTable:
             except (ValueError, IndexError) as error:
                 raise InputError(f"{title}: it must hold {len(self.header)} numbers, got {','.join(cells)}") from error
             if not np.isfinite(row).all():
-                raise InputError(f"{title}: it holds NaN or infinity; all numbers must be finite")
+                raise InputError(f"{title}: it holds NaN or infinity; give finite numbers")
             rows.append(row)
         if not rows:
-            raise InputError(f"{self.title}: there must be one line or more below the header")
+            raise InputError(f"{self.title}: there must be one line or more of finite numbers below the header")
         return np.array(rows)
 
 

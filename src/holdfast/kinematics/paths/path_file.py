@@ -179,7 +179,7 @@ def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[FloatArra
         raise InputError(
             f"{option}: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(table.header)}"
         )
-    rows = table.select_columns(names)
+    rows = table.select_columns(names) if table.numbered_lines else np.zeros((0, len(names)))
     if len(names) == 3:
         return list(rows)
     return [

@@ -254,7 +254,7 @@ class InverseKinematics:
         lock_count = locked.shape[1] if locked.ndim > 1 else 1
         locked, angles = locked.reshape(-1, lock_count), angles.reshape(-1, lock_count)  # no rows are rows, too
         parameters = _append_free_joints(poses, self.arm.n, locked)
-        finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
+        finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1))
 
         def lock_joints(start: FloatArray, chosen: IndexArray) -> FloatArray:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
@@ -408,7 +408,7 @@ class InverseKinematics:
             steps: At most so many from each start.
         """
         parameters = _flatten_poses(poses)
-        finite = np.isfinite(parameters).all(axis=1)
+        finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1))
         q, start_counts = self._solve_with_restarts(
             self._damped_step_loop,
             parameters,
