@@ -22,7 +22,7 @@ from holdfast.kinematics.paths import line
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision import Clearance
 from holdfast.response.recovery import recover
-from holdfast.response.recovery.goals import find_goal_configurations
+from holdfast.response.recovery.goals import PoseSearch, find_goal_configurations
 from holdfast.response.recovery.recovery import Answer
 from holdfast.response.recovery.routes import find_route
 from holdfast.response.recovery.space import FreeSpace, JointMetric
@@ -175,9 +175,8 @@ def _find_goal(case: BenchmarkCase, clearance: Clearance | None, rng: Rng) -> tu
     space = FreeSpace(arm, is_movable, clearance, 0.0, case.at[None])
     metric = JointMetric.for_arm(arm, "travel", None, is_movable)
     assert case.goal is not None
-    goals = find_goal_configurations(
-        make_row_solver(arm, case.rows), space, metric, case.goal, case.at, GOAL_SEARCH_STARTS, rng
-    )
+    search = PoseSearch(make_row_solver(arm, case.rows), space, metric)
+    goals = find_goal_configurations(search, case.goal, case.at, GOAL_SEARCH_STARTS, rng)
     return (space, metric, goals[0]) if len(goals) else None
 
 

@@ -14,6 +14,7 @@ import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +65,7 @@ def public() -> Iterator[str]:
     root = Path(holdfast.__file__).parent
     for stub in sorted(root.rglob("__init__.pyi")):
         package = ".".join(["holdfast", *stub.parent.relative_to(root).parts])
-        for name in re.findall(r" as (\w+)", stub.read_text(encoding="utf-8")):
+        for name in import_module(package).__all__:
             found = thing(f"{package}.{name}")
             if inspect.isfunction(found) or inspect.isclass(found):
                 yield f"{package}.{name}"

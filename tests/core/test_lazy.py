@@ -55,8 +55,12 @@ def test_what_is_imported_is_what_type_checkers_see(package, stub):
     module = import_module(package)
     body = ast.parse(stub.read_text()).body
     lines = [line for line in body if isinstance(line, ast.ImportFrom)]
-    assert all(a.asname == a.name for line in lines for a in line.names)
-    expected = {a.name: line.module for line in lines for a in line.names}
+    named = [(line.module, a) for line in lines for a in line.names if a.name != "*"]
+    assert all(a.asname == a.name for _, a in named)
+    expected = {a.name: home for home, a in named}
+    expected |= {
+        name: line.module for line in lines if line.names[0].name == "*" for name in import_module(line.module).__all__
+    }
     assert set(expected) == set(module.__all__)
     assert [ast.unparse(line) for line in body if line not in lines] == (["__version__: str"] if package == "holdfast" else [])
     for name, home in expected.items():

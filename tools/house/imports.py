@@ -43,7 +43,14 @@ def read(folder: Path, package: str) -> dict[str, File]:
         made = files[name] = _file(path, name)
         if path.with_suffix(".pyi").exists():
             stub = _file(path.with_suffix(".pyi"), name)
-            made.offers, made.public = made.offers | stub.offers, sorted(stub.offers)
+            made.offers |= stub.offers
+            made.public = sorted(stub.offers)
+    for file in files.values():
+        if "*" in file.offers:  # all that another package offers
+            package_offered, _ = file.offers.pop("*")
+            names = files[package_offered].public
+            file.offers |= {name: (package_offered, name) for name in names}
+            file.public = sorted({*file.public, *names} - {"*"})
     return files
 
 

@@ -3,19 +3,4 @@ from holdfast.control import equilibria as equilibria
 from holdfast.control import laws as laws
 from holdfast.control import physics as physics
 from holdfast.control import simulation as simulation
-from holdfast.control.laws import Damped as Damped
-from holdfast.control.laws import Deviations as Deviations
-from holdfast.control.laws import ExportedLaw as ExportedLaw
-from holdfast.control.laws import FailureTolerant as FailureTolerant
-from holdfast.control.laws import JacobianTranspose as JacobianTranspose
-from holdfast.control.laws import Law as Law
-from holdfast.control.laws import Pseudoinverse as Pseudoinverse
-from holdfast.control.laws import TradeOff as TradeOff
-from holdfast.control.laws import Weighted as Weighted
-from holdfast.control.laws import by_name as by_name
-from holdfast.control.laws import damped as damped
-from holdfast.control.laws import failure_tolerant as failure_tolerant
-from holdfast.control.laws import jacobian_transpose as jacobian_transpose
-from holdfast.control.laws import pseudoinverse as pseudoinverse
-from holdfast.control.laws import trade_off as trade_off
-from holdfast.control.laws import weighted as weighted
+from holdfast.control.laws import *

@@ -11,22 +11,21 @@ from typing import Any
 
 from holdfast.core.renamed import find_successor
 
-_OFFERED_NAME = re.compile(r"^from ([\w.]+) import (?:\(\s*)?(\w+) as \2\b", re.MULTILINE)
+_OFFERED_NAME = re.compile(r"^from ([\w.]+) import (?:\*|(?:\(\s*)?(\w+) as \2\b)", re.MULTILINE)
 
 
 def offer(package: str) -> None:
     """Let a package offer its modules and the names that its stub ``__init__.pyi`` re-exports.
 
-    The stub, a line ``from MODULE import NAME as NAME`` for each, is the only list of what a package offers: type checkers
-    and editors read it too. No module has the name of something that its package offers, because Python would put the module
-    in its place (``make house`` counts them).
+    The stub, a line ``from MODULE import NAME as NAME`` for each, or ``from PACKAGE import *`` for all that another package
+    offers, is the only list of what a package offers: type checkers and editors read it too. No module has the name of
+    something that its package offers, because Python would put the module in its place (``make house`` counts them).
 
     Args:
         package: Its ``__name__``.
     """
     module = sys.modules[package]
-    stub = Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
-    homes = {name: home for home, name in _OFFERED_NAME.findall(stub)}
+    homes = read_offered_names(package)
 
     def get(name: str) -> Any:
         home = homes.get(name, package)
@@ -42,3 +41,12 @@ def offer(package: str) -> None:
         return value
 
     vars(module).update(__all__=sorted(homes), __getattr__=get, __dir__=lambda: sorted({*vars(module), *homes}))
+
+
+def read_offered_names(package: str) -> dict[str, str]:
+    """Return the names that the stub of a package re-exports, each with the module that it comes from."""
+    stub = Path(__file__).parents[2].joinpath(*package.split("."), "__init__.pyi").read_text(encoding="utf-8")
+    homes: dict[str, str] = {}
+    for home, name in _OFFERED_NAME.findall(stub):
+        homes |= {name: home} if name else dict.fromkeys(read_offered_names(home), home)
+    return homes

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from holdfast.core._lazy import read_offered_names
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.typing import FloatArray, P, T
 
@@ -306,8 +307,10 @@ def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
 @functools.cache
 def _read_imports(module: str) -> dict[str, tuple[str, str]]:
     """Return what a module of this package imports, also for type checkers alone: local name to module and name there."""
-    imports = {}
+    imports: dict[str, tuple[str, str]] = {}
     for home, in_brackets, on_line in _FROM_IMPORT.findall(_read_text(module).partition("\n\n\n")[0]):
+        if on_line == "*":
+            imports |= {name: (home, name) for name in read_offered_names(home)}
         for each in re.sub("#.*", "", in_brackets or on_line).split(","):
             original, _, local = each.strip().partition(" as ")
             imports[local or original] = home, original

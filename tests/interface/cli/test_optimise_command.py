@@ -270,7 +270,7 @@ def test_a_file_without_poses(refused, tmp_path):
     file.write_text("x,y,z\n")
     assert "holds no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
     file.write_text("x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,2\n")
-    assert "row 1: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
+    assert "line 2: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
 
 
 def test_the_list_of_commands_names_what_is_needed(cli):

@@ -231,14 +231,14 @@ def test_columns_may_come_in_any_order(tmp_path):
 HEAD = "x,y,z,qx,qy,qz,qw\n"
 BAD_TABLES = {
     "nothing": ("", "'x' is missing"),
-    "no poses": (HEAD, "no poses below the header"),
+    "no poses": (HEAD, "one line or more of finite numbers below the header"),
     "no header": ("0,0,0,0,0,0,1\n", "column '0'"),
     "unknown column": ("x,y,z,qx,qy,qz,qw,speed\n0,0,0,0,0,0,1,1\n", "'speed' is not known"),
     "twice": ("x,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "'x' is given twice"),
     "missing": ("x,y,z,qx,qy,qz\n0,0,0,0,0,0\n", "'qw' is missing"),
-    "short": (HEAD + "0,0,0,0,0,0,1\n0,0,0\n", "line 3 has 3 cells"),
-    "word": (HEAD + "0,0,here,0,0,0,1\n", "line 2.*'here'"),
-    "nan": (HEAD + "0,0,nan,0,0,0,1\n", "pose 1 holds NaN"),
+    "short": (HEAD + "0,0,0,0,0,0,1\n0,0,0\n", "line 3: it must hold 7 numbers, got 0,0,0"),
+    "word": (HEAD + "0,0,here,0,0,0,1\n", "line 2: it must hold 7 numbers, got 0,0,here"),
+    "nan": (HEAD + "0,0,nan,0,0,0,1\n", "line 2: it holds NaN"),
     "quaternion": (HEAD + "0,0,0,0,0,0,1\n0,0,0,0,0,0,2\n", "quaternion of pose 2 has length 2"),
     "large quaternion": (HEAD + "0,0,0,0,0,1e308,1\n", "quaternion of pose 1 has length inf"),
     "negative": ("x,y,z,qx,qy,qz,qw,weight\n0,0,0,0,0,0,1,-1\n", "weight 1 is -1"),
@@ -261,7 +261,7 @@ def test_a_table_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match=r"poses '.*b.csv' cannot be read \(No such file"):
         Region.load(tmp_path / "a.yaml")
     (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00x")
-    with pytest.raises(InputError, match="not text"):
+    with pytest.raises(InputError, match="is not a CSV file"):
         Region.load(tmp_path / "a.yaml")
 
 

@@ -14,7 +14,6 @@ from holdfast.control.convergence.late_convergence import is_near_attracting_sol
 from holdfast.control.convergence.measures import (
     MEASURE_NAMES,
     Arcs,
-    Index,
     Measures,
     is_in_arcs,
     mean_by_row,
@@ -27,7 +26,7 @@ from holdfast.control.simulation.closed_loop import simulate
 from holdfast.control.simulation.runs import Reason
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.sweeps.store import Column
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.workspace.bounds import joint_bounds
 
 Method = Literal["brute", "procedure", "sampled"]
@@ -56,9 +55,9 @@ class StartConfigurations:
             method == "sampled",
             seed,
         )
-        self._cached_blocks: dict[tuple[int, int], tuple[Index, FloatArray]] = {}
+        self._cached_blocks: dict[tuple[int, int], tuple[IndexArray, FloatArray]] = {}
 
-    def find_configurations(self, first: int, stop: int) -> tuple[Index, FloatArray]:
+    def find_configurations(self, first: int, stop: int) -> tuple[IndexArray, FloatArray]:
         """Return the owners (R,), from 0, and the configurations (R, n) of the places from ``first`` up to ``stop``."""
         if (first, stop) not in self._cached_blocks:
             arm, task, poses = self._law.arm, self._law.task, self.places.poses[first:stop]
@@ -131,7 +130,7 @@ class TargetAnalysis:
             Column("ends", "int64", (("end", len(FAILURE_ENDS)),), units="1", about=", ".join(FAILURE_ENDS)),
         ]
 
-    def analyse(self, start_index: Index, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
+    def analyse(self, start_index: IndexArray, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
         """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``start_index`` (R,), and return
         all results.
         """
@@ -159,8 +158,8 @@ class TargetAnalysis:
         return dict(zip(self.names, values, strict=True))
 
     def _compute_converging_fractions(
-        self, q: FloatArray, inside: BoolArray, owner: Index, starts: int
-    ) -> tuple[FloatArray, NDArray[np.int64]]:
+        self, q: FloatArray, inside: BoolArray, owner: IndexArray, starts: int
+    ) -> tuple[FloatArray, IndexArray]:
         """Return the fraction (R, n + 1) of the part inside from which the failed arm converges, and failure ends
         (starts, 6).
         """
@@ -202,7 +201,7 @@ class TargetAnalysis:
         fractions[:, n] = mean_by_row(np.where(has_failed, 0.0, reached_jointly.sum(axis=0) / n), shared_cells[0], row_count)
         return fractions, ends
 
-    def _classify_failure_ends(self, q: FloatArray, joint: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _classify_failure_ends(self, q: FloatArray, joint: IndexArray) -> IndexArray:
         """Return (N,) the ends of failures of joints (N,) at configurations (N, n), as indices of ``FAILURE_ENDS``."""
         failure_ends = np.full(len(q), END_NO_SINK)
         needs_run = np.ones(len(q), dtype=bool)
@@ -281,9 +280,8 @@ def _find_sinks(law: Law, pose: FloatArray) -> dict[int, Arcs]:
         curves = stationary_points(law, pose, {joint: None})
         if len(curves.loose):
             raise InputError(
-                f"with {law.arm.joint_names[joint]} locked the stationary points form surfaces, which were only "
-                f"sampled, so the "
-                "procedure could miss sinks; use method='sampled' or 'brute'"
+                f"with {law.arm.joint_names[joint]} locked the stationary points form surfaces, which were only sampled, so "
+                "the procedure could miss sinks; use method='sampled' or 'brute'"
             )
         hopf_arcs = [
             (value - HOPF_MARGIN_RAD, value + HOPF_MARGIN_RAD)

@@ -8,21 +8,18 @@ Source: Goel, Maciejewski, Balakrishnan 2005, eq. (22), for the linearisation; t
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.control.equilibria.solutions import SolutionSearch
 from holdfast.control.equilibria.stability import linearisation
 from holdfast.control.laws.law import Law
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.control.simulation.residual import solution_search
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 SOLUTION_DISTANCE = 0.1  # rad (and m): how far the solution may be
 MIN_DECAY_RATE = 1e-9  # 1/Ke: slower than this is not told from rest
 
 
-def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: NDArray[np.int64]) -> BoolArray:
+def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: IndexArray) -> BoolArray:
     """Return (N,) True where a run at q (N, n) is next to a solution that attracts, with ``joint`` (N,) locked.
 
     The solution is found by damped least squares over the healthy joints from q, and must be within 0.1 rad; all eigenvalues
@@ -32,7 +29,7 @@ def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint
     for locked_joint in np.unique(joint):
         rows = np.flatnonzero(joint == locked_joint)
         healthy = np.arange(law.arm.n) != locked_joint
-        solutions, is_reached = _compiled_search(law).search(q[rows], pose, healthy.astype(np.float64))
+        solutions, is_reached = solution_search(law).search(q[rows], pose, healthy.astype(np.float64))
         is_reached &= np.linalg.norm(solutions - q[rows], axis=1) <= SOLUTION_DISTANCE
         rows, solutions = rows[is_reached], solutions[is_reached]
         if rows.size:
@@ -40,8 +37,3 @@ def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint
             # Degrees of redundancy leave as many zeros: the self-motion of the failed arm, along which nothing moves.
             is_near[rows] = (real_parts[:, max(law.arm.n - 1 - law.task.m, 0) :] < -MIN_DECAY_RATE).all(axis=1)
     return is_near
-
-
-@lru_cache(maxsize=16)
-def _compiled_search(law: Law) -> SolutionSearch:
-    return SolutionSearch(law)

@@ -94,8 +94,7 @@ class LawChoice(Result):
         lines = [
             f"{len(self.names)} laws on {first_map.law.arm.title}, task {first_map.law.task.describe()}: the same "
             f"{int(first_map.has_configuration.sum()) * first_map.law.arm.n} failures, "
-            f"{int(first_map.has_configuration.any(axis=1).sum())} "
-            f"{first_map.over}"
+            f"{int(first_map.has_configuration.any(axis=1).sum())} {first_map.over}"
         ]
         for name in self.ranking:
             converged = self.share(name)

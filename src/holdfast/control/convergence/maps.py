@@ -17,7 +17,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.model.arm.configurations import as_configurations
@@ -144,8 +144,7 @@ class ConvergenceMap(Result):
         runs = int(self.has_configuration.sum())
         lines = [
             f"{self.law.describe()} on {self.law.arm.title}: {int(self.has_configuration.any(axis=1).sum())} of "
-            f"{len(self.places)} "
-            f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
+            f"{len(self.places)} {self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         if runs:
             converged, trapped = self.shares("converged"), self.shares("trapped")
@@ -331,7 +330,7 @@ def _simulate_motions(
 
 
 def _is_in_reach(
-    law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: NDArray[np.int64], seed: int
+    law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: IndexArray, seed: int
 ) -> BoolArray:
     """Return (N,) True where the target was reached, or a configuration on it is found with the joint locked."""
     is_found = np.asarray(code == RunOutcome.CONVERGED)

@@ -9,11 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import BoolArray, FloatArray
-
-Index = NDArray[np.intp]
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 ARC_TOLERANCE_RAD = 1e-9  # rad: this far outside an arc still counts as inside
 Arcs = Sequence[tuple[float, float]]
@@ -43,7 +40,7 @@ class Measures:
         return self.full, self.average, self.spread
 
     @classmethod
-    def from_fractions(cls, shares: FloatArray, owner: Index, starts: int) -> Measures:
+    def from_fractions(cls, shares: FloatArray, owner: IndexArray, starts: int) -> Measures:
         """Compute the measures from fractions (R, k) of the motions of starts ``owner`` (R,); NaN fractions are left out."""
         full, average, spread = (np.full((starts, shares.shape[1]), np.nan) for _ in range(3))
         for column_index, column in enumerate(shares.T):
@@ -74,7 +71,7 @@ def is_in_arcs(values: FloatArray, arcs: Arcs, is_revolute: bool) -> BoolArray:
     return inside
 
 
-def select_spaced(flags: BoolArray, count: NDArray[np.int64]) -> tuple[Index, Index]:
+def select_spaced(flags: BoolArray, count: IndexArray) -> tuple[IndexArray, IndexArray]:
     """Select ``count`` (R,) equally spaced cells of those flagged in each row (K, R): rows and cells, each pair once."""
     passed = np.cumsum(flags, axis=0)
     total = passed[-1]
@@ -90,7 +87,7 @@ def select_spaced(flags: BoolArray, count: NDArray[np.int64]) -> tuple[Index, In
     return np.asarray(pairs // len(flags)), np.asarray(pairs % len(flags))
 
 
-def mean_by_row(values: FloatArray, row: Index, rows: int) -> FloatArray:
+def mean_by_row(values: FloatArray, row: IndexArray, rows: int) -> FloatArray:
     """Return (R,) the mean of the values of each row that are not NaN; NaN where there is none."""
     is_known = ~np.isnan(values)
     count = np.bincount(row[is_known], minlength=rows)

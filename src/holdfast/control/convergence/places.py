@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.labels import is_count
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.curve_tracing import CURVE_TOLERANCE, Component
 from holdfast.kinematics.solvers.inverse_kinematics import solver
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from holdfast.kinematics.solvers.self_motions import SelfMotion
 
-Index = NDArray[np.intp]
 
 LATTICE_POINTS = 52  # points along an edge: 2032 inside the circle
 # _CURVE_SPACING_RAD and _SEED_STARTS: of traced self-motions, rad, and starts of inverse kinematics for each place
@@ -45,7 +44,7 @@ class Places:
     """
 
     poses: FloatArray
-    cells: Index | None = None
+    cells: IndexArray | None = None
     axes: tuple[FloatArray, FloatArray] | None = None
 
     def __len__(self) -> int:
@@ -147,7 +146,7 @@ def _make_poses(points: FloatArray) -> FloatArray:
 # ---- configurations there ----------------------------------------------------------------------------------------
 
 
-def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, seed: int) -> tuple[Index, FloatArray]:
+def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, seed: int) -> tuple[IndexArray, FloatArray]:
     """Return configurations of places (P, 4, 4): the place of each (R,), and the configurations (R, n), in order of places.
 
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
@@ -193,7 +192,7 @@ def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, s
     return owner[order], joint_space.wrap_joints(arm, solutions[order])
 
 
-def sample_self_motions(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, FloatArray]:
+def sample_self_motions(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[IndexArray, FloatArray]:
     """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
     owner = [number for number, motion in enumerate(motions) for _ in motion.components]
     points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]
@@ -211,7 +210,7 @@ def _space_evenly(arm: Arm, curve: Component, count: int) -> FloatArray:
 
 def pick_configurations(
     arm: Arm, task: Task, places: FloatArray, count: int, seed: int, generator: np.random.Generator
-) -> tuple[Index, Index, FloatArray]:
+) -> tuple[IndexArray, IndexArray, FloatArray]:
     """Pick at random at most ``count`` configurations of each of the places (P, 4, 4) from :func:`configurations_at`.
 
     Returns:

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.model.arm.configurations import sampling_limits
@@ -108,9 +107,8 @@ def point_to_point(
     while found_count < count:
         if len(blocks) == _MAX_BLOCKS:
             raise InputError(
-                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too "
-                f"few for {count}; ask for "
-                "fewer motions, or for less of each"
+                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too few "
+                f"for {count}; ask for fewer motions, or for less of each"
             )
         block_seed, solving = seeds.spawn(2)
         q0, q1 = np.random.default_rng(block_seed).uniform(lower, upper, (2, _BLOCK_MOTIONS, arm.n))
@@ -132,7 +130,7 @@ def point_to_point(
 
 def _is_still_reachable(
     motions: PointToPoint, task: Task, joint: int, seed: np.random.SeedSequence, restarts: int
-) -> NDArray[np.bool_]:
+) -> BoolArray:
     if not len(motions):
         return np.zeros(0, dtype=bool)
     locked = np.full(len(motions), joint)
@@ -140,5 +138,5 @@ def _is_still_reachable(
     return ik_solver.is_reachable_with_lock(motions.target, locked, motions.q0[:, joint], seed, restarts, REACH_TOLERANCE)
 
 
-def _select_motions(motions: PointToPoint, selection: NDArray[np.bool_]) -> PointToPoint:
+def _select_motions(motions: PointToPoint, selection: BoolArray) -> PointToPoint:
     return replace(motions, q0=motions.q0[selection], target=motions.target[selection], q_target=motions.q_target[selection])

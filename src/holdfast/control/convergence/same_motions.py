@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.control.convergence.healthy_cost import measure_healthy_cost
 from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison, target_error_threshold
@@ -17,7 +17,7 @@ from holdfast.control.simulation.runs import RunOutcome, Runs
 from holdfast.control.simulation.system import prescribed_offset
 from holdfast.core.errors import InputError
 from holdfast.core.progress import report_work
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.poses import check_poses
@@ -161,6 +161,6 @@ def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, see
     return np.where(np.isfinite(least_errors), least_errors, np.nan)
 
 
-def _select_runs(runs: Runs, rows: NDArray[np.int64]) -> Runs:
+def _select_runs(runs: Runs, rows: IndexArray) -> Runs:
     arrays: dict[str, Any] = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
     return replace(runs, **arrays)

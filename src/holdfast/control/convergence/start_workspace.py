@@ -33,7 +33,7 @@ from holdfast.core.progress import reports_progress
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.result import Result
 from holdfast.core.sweeps.store import Store
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 
 if TYPE_CHECKING:
@@ -72,11 +72,11 @@ class Workspace(Result):
     bounds: tuple[tuple[tuple[float, float], ...], ...]
     method: Method
     relative_to: RelativeTo
-    configurations: NDArray[np.int64]
-    lost: NDArray[np.int64]
+    configurations: IndexArray
+    lost: IndexArray
     reach: Measures
     finish: Measures
-    ends: NDArray[np.int64]
+    ends: IndexArray
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -165,16 +165,13 @@ class Workspace(Result):
             fraction_text = f" ({100 * self.undecided_fraction:.2f} %)" if self.simulated_count else ""
             lines.append(
                 f"{self.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
-                f"undecided at the time "
-                f"limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, counted "
-                f"as converged"
+                f"undecided at the time limit{fraction_text}, of which {end_counts['arriving']} next to a solution that "
+                "attracts, counted as converged"
             )
         if self.method == "procedure":
             lines.append(
-                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint "
-                f"locked away from "
-                f"every sink, "
-                "which makes convergence very likely but does not prove it"
+                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint locked away "
+                "from every sink, which makes convergence very likely but does not prove it"
             )
         return lines
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.convergence.places import Places
-from holdfast.core.files.output import make_folder, open_replacement, replace_file
+from holdfast.core.files.csv_table import write_rows
+from holdfast.core.files.output import make_folder, replace_file
 
 
 def save_places(
@@ -30,10 +30,8 @@ def save_places(
     """
     output_folder = make_folder(folder)
     files = [output_folder / f"{name}.csv", output_folder / f"{name}.json"]
-    with open_replacement(files[0]) as stream:
-        writer = csv.writer(stream)
-        writer.writerow(["x_m", "y_m", "z_m", *columns])
-        for row in np.column_stack([places.points, *values]):
-            writer.writerow(["" if np.isnan(value) else f"{value:.9g}" for value in row])
+    rows = np.column_stack([places.points, *values])
+    texts = (["" if np.isnan(value) else f"{value:.9g}" for value in row] for row in rows)
+    write_rows(files[0], ["x_m", "y_m", "z_m", *columns], texts)
     replace_file(files[1], json.dumps(summary, indent=2) + "\n")
     return files

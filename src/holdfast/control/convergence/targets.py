@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.control.convergence.analysis import (
     FAILURE_END_TEXTS,
@@ -24,7 +24,7 @@ from holdfast.control.laws.law import Law
 from holdfast.core.probability.intervals import check_confidence
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 
 if TYPE_CHECKING:
@@ -55,8 +55,8 @@ class TargetMeasures(Result):
     targets: Places
     starts: Places
     values: dict[str, FloatArray]
-    configurations: NDArray[np.int64]
-    ends: NDArray[np.int64]
+    configurations: IndexArray
+    ends: IndexArray
 
     @property
     def measures(self) -> dict[str, FloatArray]:

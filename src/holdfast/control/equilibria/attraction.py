@@ -1,6 +1,4 @@
-"""The basins of a failed arm: the fraction of starts at each stationary point, and the basin boundaries of two
-healthy joints.
-"""
+"""The basins of a failed arm: fractions of starts by stationary point, and basin boundaries of two healthy joints."""
 
 from __future__ import annotations
 
@@ -41,9 +39,8 @@ END_MOVING = -2
 END_UNDECIDED = -3
 END_STUCK = -4
 _END_WORDS = {END_AT_TARGET: "target", END_STUCK: "stuck on a continuum", END_MOVING: "moving", END_UNDECIDED: "undecided"}
-# _BOUNDARY_OFFSET_RAD and _BOUNDARY_LENGTH_RAD: rad: where a basin boundary begins, how far it is followed
-_BOUNDARY_OFFSET_RAD = 1e-5
-_BOUNDARY_LENGTH_RAD = 30.0
+_BOUNDARY_OFFSET_RAD = 1e-5  # where a basin boundary begins
+_BOUNDARY_LENGTH_RAD = 30.0  # length to which a basin boundary is followed
 _SOURCE_SPEED_RAD_S = 1e-6  # rad/s: here it ends, at a source
 _LINE_SPACING = 0.02
 _STALL_STEPS = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
@@ -80,10 +77,9 @@ class Basins(Result):
         """Ends of the starts, always with solutions and sinks, and the fraction of starts of each with its exact interval."""
         is_isolated_end = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(is_isolated_end).tolist()}, key=lambda code: (code < 0, abs(code)))
-        return [
-            (self.name(code), Interval.from_counts(int((self.end == code).sum()), len(self.end), self.confidence))
-            for code in codes
-        ]
+        counts = [int((self.end == code).sum()) for code in codes]
+        intervals = [Interval.from_counts(count, len(self.end), self.confidence) for count in counts]
+        return list(zip(map(self.name, codes), intervals, strict=True))
 
     def name(self, code: int) -> str:
         """Return a value of ``end`` as text: the kind and number from 1 of a point, or a word."""

@@ -1,6 +1,4 @@
-"""The curves that stationary points form as the value of one locked joint changes, and the parts of them where the arm gets
-stuck.
-"""
+"""The curves that stationary points form as one locked joint's value changes, and the parts where the arm gets stuck."""
 
 from __future__ import annotations
 
@@ -15,12 +13,12 @@ from holdfast.control.equilibria.stability import Kind, Kinds
 from holdfast.control.equilibria.system import RestSystem, wrap_angles
 from holdfast.control.laws.law import Law
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.kinematics.solvers.joint_space import join_intervals
 
 if TYPE_CHECKING:
     from holdfast.control.equilibria.points import StationaryPoints
 
-Indices = NDArray[np.intp]
 Arc = tuple[float, float]
 
 FULL_TURN_RAD = 2 * np.pi
@@ -71,11 +69,11 @@ class EquilibriumCurve:
     error: FloatArray
     closed: bool
     degenerate: bool
-    folds: Indices
-    branch_points: Indices
-    rank_losses: Indices
-    solutions: Indices
-    hopf_points: Indices
+    folds: IndexArray
+    branch_points: IndexArray
+    rank_losses: IndexArray
+    solutions: IndexArray
+    hopf_points: IndexArray
     segments: tuple[Segment, ...]
 
     @property
@@ -90,12 +88,9 @@ class EquilibriumCurve:
 
     def arcs(self, kind: Kind) -> list[Arc]:
         """Return the locked values of each segment of a kind, ``(lower, upper)``."""
-        arc_ends = [
-            sorted((float(self.locked_values[segment.first]), float(self.locked_values[segment.last])))
-            for segment in self.segments
-            if segment.kind == kind
-        ]
-        return [(lower, upper) for lower, upper in arc_ends]
+        segments = [segment for segment in self.segments if segment.kind == kind]
+        ends = [np.sort(self.locked_values[[segment.first, segment.last]]).tolist() for segment in segments]
+        return [(lower, upper) for lower, upper in ends]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -166,27 +161,18 @@ class Curves(Result):
         arm = self.law.arm
         factor, unit = arm.joints[self.joint].display_unit
         joint_name = arm.joint_names[self.joint]
-        lines = [
-            f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value: {len(self)} curves, "
-            f"{self.starts} starts"
-        ]
+        subject = f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value"
+        lines = [f"{subject}: {len(self)} curves, {self.starts} starts"]
         arcs = ", ".join(f"{factor * lower:.3f} to {factor * upper:.3f}" for lower, upper in self.sink_arcs)
         lines.append(f"sinks with {joint_name} at {arcs} {unit}" if arcs else "no sinks were found")
         values = ", ".join(f"{factor * angle:.4f}" for angle in self.degenerate_angles)
         lines += [f"whole curves of stationary points with {joint_name} at {values} {unit}"] if values else []
         if len(self.loose):
             is_attracting = self.loose.attracting
-            stuck_arcs = merge_arcs(
-                [
-                    (float(angle) - SAMPLE_RADIUS, float(angle) + SAMPLE_RADIUS)
-                    for angle in self.loose.q[is_attracting, self.joint]
-                ],
-                unit == "deg",
-            )
-            arcs = ", ".join(
-                f"{factor * (lower + SAMPLE_RADIUS):.0f} to {factor * (upper - SAMPLE_RADIUS):.0f}"
-                for lower, upper in stuck_arcs
-            )
+            angles = self.loose.q[is_attracting, self.joint].tolist()
+            stuck_arcs = merge_arcs([(angle - SAMPLE_RADIUS, angle + SAMPLE_RADIUS) for angle in angles], unit == "deg")
+            sampled = [(lower + SAMPLE_RADIUS, upper - SAMPLE_RADIUS) for lower, upper in stuck_arcs]
+            arcs = ", ".join(f"{factor * lower:.0f} to {factor * upper:.0f}" for lower, upper in sampled)
             arc_text = f", about {arcs} {unit}" if stuck_arcs else ""
             lines.append(
                 f"{len(self.loose)} samples of surfaces of stationary points, {int(is_attracting.sum())} attracting{arc_text}"
@@ -197,22 +183,7 @@ class Curves(Result):
 def merge_arcs(arcs: Sequence[Arc], is_revolute: bool) -> list[Arc]:
     """Merge arcs ``(lower, upper)``; of a revolute joint modulo full turns, each with lower in [-pi, pi)."""
     if not is_revolute:
-        return _join_overlapping(sorted(arcs))
+        return join_intervals(arcs, ARC_TOLERANCE)
     starts = [((lower + np.pi) % FULL_TURN_RAD - np.pi, upper - lower) for lower, upper in arcs]
-    joined = _join_overlapping(sorted((lower, lower + length) for lower, length in starts))
-    # What reaches beyond pi comes round to the first arcs.
-    while len(joined) > 1 and joined[0][0] + FULL_TURN_RAD <= joined[-1][1] + ARC_TOLERANCE:
-        _, upper = joined.pop(0)
-        joined[-1] = (joined[-1][0], max(joined[-1][1], upper + FULL_TURN_RAD))
+    joined = join_intervals(((lower, lower + length) for lower, length in starts), ARC_TOLERANCE, FULL_TURN_RAD)
     return [(-np.pi, np.pi)] if any(upper - lower >= FULL_TURN_RAD - ARC_TOLERANCE for lower, upper in joined) else joined
-
-
-def _join_overlapping(arcs: Sequence[Arc]) -> list[Arc]:
-    """Join sorted arcs on a line where they touch."""
-    joined: list[Arc] = []
-    for lower, upper in arcs:
-        if joined and lower <= joined[-1][1] + ARC_TOLERANCE:
-            joined[-1] = (joined[-1][0], max(joined[-1][1], upper))
-        else:
-            joined.append((lower, upper))
-    return joined

@@ -28,9 +28,8 @@ from holdfast.kernels.program import SX
 from holdfast.model.arm.configurations import sampling_limits
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
-# _MAX_NEWTON_ROUNDS and _NEAR_RESIDUAL: after as many, only what is as near as that goes on for as many again
-_MAX_NEWTON_ROUNDS = 40
-_NEAR_RESIDUAL = 0.02
+_MAX_NEWTON_ROUNDS = 40  # rounds, and as many again for starts that are near
+_NEAR_RESIDUAL = 0.02  # residual of a start that is near
 _INITIAL_DAMPING = 1e-2
 _DAMPING_DECREASE = 0.2
 _DAMPING_INCREASE = 5.0
@@ -66,17 +65,13 @@ class RestEquations:
             rest_rates, direction = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
             a, damping = ca.SX(ca.DM(quadratic_form[0])), quadratic_form[1]
-            scale = ca.sparsify(
-                ca.SX(ca.DM(law.task.scale(length_unit / law.task.length)))
-            )  # from the law's own unit of length
+            # From the law's own unit of length.
+            scale = ca.sparsify(ca.SX(ca.DM(law.task.scale(length_unit / law.task.length))))
             jacobian = scale @ law.jacobian(q)
             rest_rates = a @ jacobian.T @ u
             # The column itself does not vanish where J loses rank, as J A J' u does.
-            direction = (
-                jacobian @ (1 - mask)
-                if self._locks_one and not damping
-                else jacobian @ rest_rates + damping * (scale @ scale @ u)
-            )
+            damped = jacobian @ rest_rates + damping * (scale @ scale @ u)
+            direction = jacobian @ (1 - mask) if self._locks_one and not damping else damped
         # As many equations as unknowns, but for the locked joints.
         equations = ca.vertcat(mask * rest_rates, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * direction)
         expressions = [equations, ca.sum1((1 - mask) * rest_rates), ca.jacobian(equations, self._unknowns)]

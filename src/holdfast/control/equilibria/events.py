@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from holdfast.control.equilibria.curves import EquilibriumCurve, Segment
 from holdfast.control.equilibria.stability import Kind, classify_kinds
 from holdfast.control.equilibria.system import RestSystem
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 EVENT_SPACING = 1e-4  # rad and m: events nearer than this are at one place
 _EVENT_BISECTIONS = 44
@@ -132,7 +132,7 @@ def _evaluate_event_tests(system: RestSystem, joint: int, z: FloatArray, forward
 
 
 def _bisect_events(
-    system: RestSystem, joint: int, steps: CurveSteps, event_index: NDArray[np.intp], sign: FloatArray
+    system: RestSystem, joint: int, steps: CurveSteps, event_index: IndexArray, sign: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the fraction of each step at which a test function changes its sign, and the points there."""
     row_index, forward = np.arange(len(event_index)), steps.end - steps.start
@@ -146,9 +146,7 @@ def _bisect_events(
     return (lower + upper) / 2, points
 
 
-def _split_curve_by_kind(
-    system: RestSystem, z: FloatArray, label: NDArray[np.int64], kind: NDArray[np.uint8]
-) -> tuple[Segment, ...]:
+def _split_curve_by_kind(system: RestSystem, z: FloatArray, label: IndexArray, kind: NDArray[np.uint8]) -> tuple[Segment, ...]:
     """Split a curve into sections of one kind between events."""
     n, segments = system.law.arm.n, list[Segment]()
     # Events of several functions at one place leave stretches of no length between them.
@@ -176,7 +174,7 @@ def _split_curve_by_kind(
     return tuple(segments)
 
 
-def _has_imaginary_pair(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
+def _has_imaginary_pair(eigenvalues: NDArray[np.complex128]) -> BoolArray:
     """Return (N,) True where a complex pair lies on the imaginary axis."""
     scale = np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray(((np.abs(eigenvalues.real) < 1e-6 * scale) & (np.abs(eigenvalues.imag) > 1e-6 * scale)).any(axis=1))

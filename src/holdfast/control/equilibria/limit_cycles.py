@@ -19,7 +19,7 @@ from holdfast.control.simulation.runs import RunOutcome
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.errors import InputError
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import target_poses
 
@@ -55,7 +55,7 @@ class Orbit(Result):
     label: str
     period: float
     amplitude: FloatArray
-    windings: NDArray[np.int64]
+    windings: IndexArray
     multipliers: NDArray[np.complex128]
     rates: FloatArray
     q: FloatArray
@@ -137,7 +137,7 @@ class _ShootingMethod:
         minima = minima[(minima > departure) & (distance[minima] < _RETURN_FRACTION * distance.max())]
         return [float(return_time) for return_time in time[minima[:_MAX_GUESSES]]]
 
-    def _close_orbit(self, q: FloatArray, period: float) -> tuple[FloatArray, float, FloatArray, NDArray[np.int64]] | None:
+    def _close_orbit(self, q: FloatArray, period: float) -> tuple[FloatArray, float, FloatArray, IndexArray] | None:
         """Find a state on the closed orbit near q, its period, the matrix of a return, and the full turns of each joint."""
         arm, moving_joints, h = self.system.law.arm, self.moving_joints, self.moving_joints.size
         first_period, section_normal = period, self._field(q)[moving_joints]
@@ -148,11 +148,9 @@ class _ShootingMethod:
                 full_turns = np.where(arm.prismatic, 0, np.round((end_state - q) / (2 * np.pi)))
                 return q, period, matrix, full_turns.astype(np.int64)
             bordered = np.zeros((h + 1, h + 1))
-            bordered[:h, :h], bordered[:h, h], bordered[h, :h] = (
-                matrix - np.eye(h),
-                self._field(end_state)[moving_joints],
-                section_normal,
-            )
+            bordered[:h, :h] = matrix - np.eye(h)
+            bordered[:h, h] = self._field(end_state)[moving_joints]
+            bordered[h, :h] = section_normal
             try:
                 step = np.linalg.solve(bordered, np.r_[-return_error, 0.0])
             except np.linalg.LinAlgError:
@@ -179,7 +177,7 @@ class _ShootingMethod:
         return end_state[:n], end_state[n:].reshape(h, h)
 
     def _make_orbit(
-        self, path: FloatArray, period: float, windings: NDArray[np.int64], matrix: FloatArray, window: float | None = None
+        self, path: FloatArray, period: float, windings: IndexArray, matrix: FloatArray, window: float | None = None
     ) -> Orbit:
         system, gain = self.system, self.system.law.gain
         displacement = path[-1] - path[0]

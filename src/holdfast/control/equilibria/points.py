@@ -15,15 +15,14 @@ from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import Progress, ignore_progress
 from holdfast.core.result import Result
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 
 WAVE_STARTS = 256
 MAX_IDLE_WAVES = 3
 MAX_WAVES = 40
-# POINT_TOLERANCE and CONTINUUM_SPACING: rad (and m): points nearer than this are one
-POINT_TOLERANCE = 1e-5
-CONTINUUM_SPACING = 0.05
+POINT_TOLERANCE = 1e-5  # rad (and m): points nearer than this are one
+CONTINUUM_SPACING = 0.05  # rad (and m) between points of a continuum
 MAX_CONTINUUM_POINTS = 256  # points of a continuum that are kept
 
 
@@ -129,7 +128,7 @@ class StationaryPoints(Result):
                 )
         return lines
 
-    def _subset(self, rows: BoolArray | NDArray[np.intp]) -> StationaryPoints:
+    def _subset(self, rows: BoolArray | IndexArray) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
@@ -140,14 +139,8 @@ def find_stationary_points(
     """Find all stationary points that random starts reach with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     has_spare_joints = int(system.healthy.sum()) > system.law.task.m
-    solutions, solution_starts = _gather_points(
-        system,
-        locked_values,
-        system.find_target_configurations,
-        generator,
-        1 if has_spare_joints else MAX_WAVES,
-        ignore_progress,
-    )
+    target_waves, search = 1 if has_spare_joints else MAX_WAVES, system.find_target_configurations
+    solutions, solution_starts = _gather_points(system, locked_values, search, generator, target_waves, ignore_progress)
     stuck_points, stuck_starts = _gather_points(
         system, locked_values, system.find_stuck_configurations, generator, MAX_WAVES, report_progress
     )
@@ -162,9 +155,7 @@ def _gather_points(
     max_waves: int,
     report_progress: Progress,
 ) -> tuple[FloatArray, int]:
-    """Return stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new, and the
-    starts used.
-    """
+    """Return stationary points (P, n) from waves of starts, until some bring none new and isolated, and the starts used."""
     arm = system.law.arm
     isolated, continuum = np.empty((0, arm.n)), np.empty((0, arm.n))
     starts = idle_waves = 0
@@ -176,9 +167,8 @@ def _gather_points(
         is_isolated = system.is_isolated(candidates)
         new_points = select_distinct(arm, candidates[is_isolated], isolated, POINT_TOLERANCE)
         isolated = np.concatenate([isolated, new_points])
-        continuum = np.concatenate([continuum, select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)])[
-            :MAX_CONTINUUM_POINTS
-        ]
+        new_continuum = select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)
+        continuum = np.concatenate([continuum, new_continuum])[:MAX_CONTINUUM_POINTS]
         idle_waves = 0 if len(new_points) else idle_waves + 1
         report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
         if idle_waves == MAX_IDLE_WAVES:

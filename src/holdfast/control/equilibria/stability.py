@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.system import FailedArmSystem
 from holdfast.core.caching import cached_property
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 
@@ -46,7 +46,7 @@ class Kind(IntEnum):
         return self.name.lower()
 
 
-def is_attracting(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
+def is_attracting(eigenvalues: NDArray[np.complex128]) -> BoolArray:
     """Return (N,) True where no real part is above 0, zeros allowed; NaN does not attract."""
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray((eigenvalues.real < band).all(axis=1))
@@ -78,11 +78,8 @@ class Linearisation:
         system = self._system
         error, _ = system.error_and_jacobian(system.q)
         error_norms = ca.norm_2(error), ca.norm_2(system.scaled_error_and_jacobian(system.q)[0])
-        return Kernel(
-            "rest rates",
-            [system.q, system.target, system.rotation],
-            [ca.vertcat(self.law.rates(system.q, error), *error_norms)],
-        )
+        rates = ca.vertcat(self.law.rates(system.q, error), *error_norms)
+        return Kernel("rest rates", [system.q, system.target, system.rotation], [rates])
 
     @cached_property
     @cached_kernel
@@ -90,11 +87,11 @@ class Linearisation:
         system = self._system
         error, jacobian = system.error_and_jacobian(system.q)
         inputs = [system.q, system.target, system.rotation]
-        outputs = [
+        rate_jacobian, scaled_error = (
             self.law.with_slopes(system.q, error, system.q)[1],
-            jacobian,
-            ca.norm_2(system.scaled_error_and_jacobian(system.q)[0]),
-        ]
+            system.scaled_error_and_jacobian(system.q)[0],
+        )
+        outputs = [rate_jacobian, jacobian, ca.norm_2(scaled_error)]
         return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -102,10 +99,8 @@ class Linearisation:
         outputs = self._rates_kernel.rows(q, pose[:3, 3], pose[:3, :3])
         return outputs[:, :-2], outputs[:, -2], outputs[:, -1]
 
-    def field(self, pose: FloatArray, healthy: NDArray[np.bool_]) -> Callable[[FloatArray], FloatArray]:
-        """Return the fastest function of the motion, rates (n,) of q (n,) with other joints at rest; not for
-        several threads.
-        """
+    def field(self, pose: FloatArray, healthy: BoolArray) -> Callable[[FloatArray], FloatArray]:
+        """Return the fastest function of the motion, rates (n,) of q (n,), other joints at rest; not for several threads."""
         n, rates_function = self.law.arm.n, self._rates_kernel.single_row()
         inputs = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
         healthy_mask = healthy.astype(np.float64)
@@ -116,20 +111,19 @@ class Linearisation:
 
         return healthy_rates
 
-    def matrices(self, q: FloatArray, pose: FloatArray, healthy: NDArray[np.bool_]) -> FloatArray:
+    def matrices(self, q: FloatArray, pose: FloatArray, healthy: BoolArray) -> FloatArray:
         """Return the linearisation (N, h, h) of the healthy joints at q (N, n)."""
         jacobians, task_jacobian, scaled_error = self._jacobian_kernel(q, pose[:3, 3], pose[:3, :3])
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
         # of the rotation vector is 0/0 there.
         n, at_target = self.law.arm.n, np.flatnonzero(scaled_error < REACHED_ERROR)
-        error_changes = (
-            -task_jacobian[at_target].transpose(0, 2, 1).reshape(-1, self.law.task.m)
-        )  # of the error with each joint in turn
+        # Of the error with each joint in turn.
+        error_changes = -task_jacobian[at_target].transpose(0, 2, 1).reshape(-1, self.law.task.m)
         rates = self.law.velocity(np.repeat(q[at_target], n, axis=0), error_changes)
         jacobians[at_target] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(jacobians[:, healthy][:, :, healthy])
 
-    def eigenvalues(self, q: FloatArray, pose: FloatArray, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
+    def eigenvalues(self, q: FloatArray, pose: FloatArray, healthy: BoolArray) -> NDArray[np.complex128]:
         """Return the eigenvalues (N, h) by falling real part; NaN where the law is undefined."""
         matrices = self.matrices(q, pose, healthy)
         is_finite = np.isfinite(matrices).all(axis=(1, 2))

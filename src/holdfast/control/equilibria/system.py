@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.equilibria.equations import RestEquations
-from holdfast.control.equilibria.solutions import SolutionSearch
 from holdfast.control.equilibria.stability import REACHED_ERROR, linearisation
 from holdfast.control.laws.law import Law
+from holdfast.control.simulation.residual import solution_search
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.model.arm.model import Arm
@@ -76,14 +76,14 @@ class RestSystem:
 
     def find_target_configurations(self, z: FloatArray) -> FloatArray:
         """Find configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
-        q, converged = _compiled_solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
+        q, converged = solution_search(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[converged]
 
     def can_reach(self, values: FloatArray, generator: np.random.Generator) -> BoolArray:
         """Return (N,) True where the target is reached from one random start with the locked joint at values (N,)."""
         q = self.sample_starts(len(values), generator)[:, : self.law.arm.n]
         q[:, self.locked_joints[0]] = values
-        return _compiled_solutions(self.law).search(q, self.pose, self.mask)[1]
+        return solution_search(self.law).search(q, self.pose, self.mask)[1]
 
     def is_stationary(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where only locked joints are commanded at q (N, n)."""
@@ -110,9 +110,7 @@ class RestSystem:
         return self.linear.eigenvalues(q, self.pose, self.healthy)
 
     def refine_points(self, q: FloatArray) -> FloatArray:
-        """Return (N, n) the erroneous stationary points near q (N, n), locked joints at their values; NaN where
-        there is none.
-        """
+        """Return (N, n) the erroneous stationary points near q (N, n), locked joints at their values; NaN for none."""
         n = self.law.arm.n
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
@@ -148,9 +146,7 @@ def wrap_angles(arm: Arm, q: FloatArray) -> FloatArray:
 
 
 def select_distinct(arm: Arm, q: FloatArray, known_points: FloatArray, min_distance: float) -> FloatArray:
-    """Select those of q (N, n), in order, that are ``min_distance`` from the known points (P, n) and from those selected
-    before.
-    """
+    """Select those of q (N, n), in order, that are ``min_distance`` from known points (P, n) and each other."""
     unlimited_arm = arm.without_limits
     if len(known_points) and len(q):
         q = q[joint_space.find_nearest(unlimited_arm, known_points, q)[0] > min_distance]
@@ -166,9 +162,3 @@ def select_distinct(arm: Arm, q: FloatArray, known_points: FloatArray, min_dista
 def _compiled_equations(law: Law, locks_one: bool) -> RestEquations:
     """Return the compiled equations of a law."""
     return RestEquations(law, locks_one)
-
-
-@lru_cache(maxsize=16)
-def _compiled_solutions(law: Law) -> SolutionSearch:
-    """Return the compiled search for configurations of a target with locked joints."""
-    return SolutionSearch(law)

@@ -12,10 +12,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.model import Arm
 
 RANK_TOLERANCE = 1e-9  # of the largest singular value: a smaller one counts as 0
@@ -121,9 +121,7 @@ def null_components(j: ArrayLike, weights: ArrayLike | None, joint: int) -> Floa
     return np.asarray(null_space @ np.linalg.solve(inverse_weights, np.eye(jacobian.shape[1])[:, joint]))
 
 
-def _check_inputs(
-    j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]
-) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+def _check_inputs(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> tuple[FloatArray, FloatArray, BoolArray]:
     """Return J, the inverse of the weights, and the mask of healthy joints."""
     jacobian = np.asarray(j, dtype=np.float64)
     if jacobian.ndim != 2 or not np.isfinite(jacobian).all() or jacobian.shape[0] > jacobian.shape[1]:

@@ -45,9 +45,7 @@ def trace_curves(
     spacing: float = CURVE_SPACING,
     report_progress: Progress = ignore_progress,
 ) -> Curves:
-    """Trace all curves of erroneous rest to which a random start converges; see
-    :func:`holdfast.control.equilibria.stationary_points`.
-    """
+    """Trace all curves of erroneous rest that random starts find; see :func:`holdfast.control.equilibria.stationary_points`."""
     system = RestSystem(law, pose, (joint,))
     tracer = RestCurveTracer(system, joint, spacing)
     curves, loose_points, starts = tracer.find_curves(np.random.default_rng(seed), report_progress)
@@ -73,9 +71,7 @@ class RestCurveTracer:
     def find_curves(
         self, generator: np.random.Generator, report_progress: Progress = ignore_progress
     ) -> tuple[list[EquilibriumCurve], FloatArray, int]:
-        """Find every curve to which a start converges, until some waves bring no new one, the points on none, and the starts
-        used.
-        """
+        """Find every curve to which starts converge, until waves bring no new one, the points on none, and the starts used."""
         curves: list[EquilibriumCurve] = []
         loose_points = np.empty((0, self._n))
         starts = idle_waves = 0
@@ -101,9 +97,7 @@ class RestCurveTracer:
         return curves, wrap_angles(self.system.law.arm, loose_points), starts
 
     def _is_on_curve(self, z: FloatArray) -> BoolArray:
-        """Return (N,) True where the points near z (N, size) form one curve, and no surface or curve with several u
-        for one q.
-        """
+        """Return (N,) True where the points near z (N, size) form one curve, no surface, and none with several u for one q."""
         if not len(z):
             return np.zeros(0, dtype=bool)
         _, jacobian = self.system.evaluate_equations(z)

@@ -270,9 +270,8 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
             or (configurations.ndim == 2 and velocities.ndim == 2 and len(configurations) != len(velocities))
         ):
             raise InputError(
-                f"the velocity has shape {velocities.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), "
-                f"or (N, {m}), "
-                "a row for each configuration"
+                f"the velocity has shape {velocities.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or "
+                f"(N, {m}), a row for each configuration"
             )
         if configurations.ndim == velocities.ndim == 1:
             return configurations[None], velocities[None], True

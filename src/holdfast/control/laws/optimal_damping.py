@@ -7,13 +7,14 @@ from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.control.laws import damping_search
 from holdfast.control.laws.c_functions import CFunction, generate_c_functions
 from holdfast.control.laws.law import Law
 from holdfast.core.errors import InputError
 from holdfast.core.registry import Parameter, constructor
+from holdfast.core.typing import BoolArray
 from holdfast.core.validation import check_constructor
 from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
@@ -138,11 +139,11 @@ static void inverse(const double *j, const double *v, double *rates) {{
         """Compute the largest damping that keeps the healthy arm's error within the allowed one; a number or (N,)."""
         return self._extra_output(q, v, 1)
 
-    def feasible(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.bool_] | np.bool_:
+    def feasible(self, q: ArrayLike, v: ArrayLike) -> BoolArray | np.bool_:
         """Return True where some damping keeps the healthy arm's error within the allowed one; () or (N,), False where q or v
         is NaN.
         """
-        flags: NDArray[np.bool_] | np.bool_ = self._extra_output(q, v, 2) > 0
+        flags: BoolArray | np.bool_ = self._extra_output(q, v, 2) > 0
         return flags
 
     def _extra_output(self, q: ArrayLike, v: ArrayLike, number: int) -> Any:

@@ -68,9 +68,8 @@ class TradeOff(Result):
         lines = [f"{self.arm.title}, task {self.task.describe()}, {len(self.gain)} configurations and directions"]
         for index, allowed_error in enumerate(self.allowed):
             lines.append(
-                f"pre-failure error up to {allowed_error:.2f}: median peak error after a failure "
-                f"{median_gains[index]:.3f} of the pseudoinverse's "
-                f"(95% interval {lower[index]:.3f} to {upper[index]:.3f}), median error of the healthy arm "
+                f"pre-failure error up to {allowed_error:.2f}: median peak error after a failure {median_gains[index]:.3f} of "
+                f"the pseudoinverse's (95% interval {lower[index]:.3f} to {upper[index]:.3f}), median error of the healthy arm "
                 f"{healthy_errors[index]:.3f}"
             )
         return lines

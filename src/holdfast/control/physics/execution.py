@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError
 from holdfast.core.files.output import write_table
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.paths.joint_table import joint_columns
 from holdfast.kinematics.tool_constraints.constraint import CONSTRAINT_TOLERANCE, ToolConstraint
 from holdfast.model.arm.model import Arm
@@ -146,7 +145,7 @@ class Execution(Result):
         return [(self.arm, slice(sample)), (self.degraded.limited, slice(sample, None))]
 
     @cached_property
-    def is_locked(self) -> NDArray[np.bool_]:
+    def is_locked(self) -> BoolArray:
         """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.lock_time - 1e-9)
 

@@ -176,9 +176,8 @@ def _make_lock_times(
         or (times_in_order < 0).any()
     ):
         raise InputError(
-            f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for "
-            f"each joint "
-            "that locks"
+            f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for each "
+            "joint that locks"
         )
     for name, joint_time in zip(order, np.broadcast_to(times_in_order, len(degraded.locked)), strict=True):
         lock_times[arm.joint_index(name)] = joint_time

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law
 from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
@@ -19,7 +19,7 @@ from holdfast.control.simulation.runs import Runs
 from holdfast.control.simulation.system import FailedArmSystem
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -219,7 +219,7 @@ def _target_pose(law: Law, runs: Runs) -> tuple[FloatArray, FloatArray]:
     return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
 
 
-def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolute: NDArray[np.bool_]) -> tuple[Ending, Why]:
+def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolute: BoolArray) -> tuple[Ending, Why]:
     """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
@@ -256,5 +256,5 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
     return undecided
 
 
-def _wrap_angles(q: FloatArray, is_revolute: NDArray[np.bool_]) -> FloatArray:
+def _wrap_angles(q: FloatArray, is_revolute: BoolArray) -> FloatArray:
     return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.physics.model import build_mujoco_spec, compile_model
 from holdfast.control.physics.servos import Servos
 from holdfast.control.physics.surroundings import add_cell_objects
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.mjcf import import_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
@@ -27,7 +26,7 @@ class ServoPlant:
         arm: Arm,
         q: FloatArray,
         rates: FloatArray,
-        healthy: NDArray[np.bool_],
+        healthy: BoolArray,
         servos: Servos,
         cell_clearance: Clearance | None = None,
     ) -> None:
@@ -69,7 +68,7 @@ class ServoPlant:
         self.data.ctrl[:] = (reference - self.start)[self.free]
         self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
 
-    def lock_all_except(self, healthy: NDArray[np.bool_]) -> ServoPlant:
+    def lock_all_except(self, healthy: BoolArray) -> ServoPlant:
         """Return the arm at this moment with fewer healthy joints: the others stop at once, as in an impact without rebound.
 
         The momenta of the joints that stay healthy go on: M_hh rates_h is after it what (M rates)_h was before.

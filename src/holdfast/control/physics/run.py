@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.physics.servos import Servos, max_tracking_error, saturated_fraction
 from holdfast.control.simulation.runs import RunPath, Runs
 from holdfast.core.caching import cached_property
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.collision.contacts import Contact
 
 if TYPE_CHECKING:
@@ -114,7 +113,7 @@ class PhysicalRun(Result):
         return saturated_fraction(self.law.arm, self.torque, self.is_locked)
 
     @cached_property
-    def is_locked(self) -> NDArray[np.bool_]:
+    def is_locked(self) -> BoolArray:
         """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
 

@@ -92,8 +92,7 @@ def free_swing(
     if has_stops and not failed_joint.lower <= start[joint_number] <= failed_joint.upper:
         raise InputError(
             f"q puts joint '{failed_joint.name}' at {start[joint_number]:g} {failed_joint.unit}, outside its limits "
-            f"{failed_joint.lower:g} to "
-            f"{failed_joint.upper:g}; start inside them"
+            f"{failed_joint.lower:g} to {failed_joint.upper:g}; start inside them"
         )
     checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
     cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance

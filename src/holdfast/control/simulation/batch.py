@@ -29,7 +29,7 @@ from holdfast.control.simulation.system import (
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import ProgressCount, ignore_count
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.compiled import expect_row_count
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -126,13 +126,13 @@ class ClosedLoopSimulator:
         """Simulate one block of runs, and return the fields of :class:`Runs`."""
         parameters = self._phases.make_parameters(target, setting)
         is_finite = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
-        finite_rows: slice | NDArray[np.int64] = slice(None) if is_finite.all() else np.flatnonzero(is_finite)
+        finite_rows: slice | IndexArray = slice(None) if is_finite.all() else np.flatnonzero(is_finite)
         has_orientation, time_scale = target.ndim == 3 and self.law.task.angular, self._phases.time_scale
         # A run whose joints lock later ends at each lock, and goes on.
         locks_later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
         report_ended = ignore_count if locks_later else report
 
-        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
             if has_orientation and not self.cycles:
                 return self._advance_until_trapped(states, parameters, report_ended)
             result = self._stepper.loop.run(
@@ -181,13 +181,13 @@ class ClosedLoopSimulator:
             "time": parts["time"][:, 0] / time_scale,
         }
 
-    def _is_half_turn_away(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> NDArray[np.bool_]:
+    def _is_half_turn_away(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> BoolArray:
         """Return (N,) True where the end effector is half a turn from its target, where the orientation error jumps."""
         return np.asarray(self._angle_kernel.rows(q, position, rotation)[:, 0] > np.pi - HALF_TURN_TOLERANCE_RAD)
 
     def _advance_until_trapped(
         self, states: FloatArray, parameters: FloatArray, report_ended: Tell
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+    ) -> tuple[FloatArray, BoolArray]:
         """Advance the states as the loop does, but give up running rows that are trapped half a turn from their target.
 
         Where the motion on either side of half a turn leads to it, steps across it shrink until next to nothing is left of
@@ -196,9 +196,8 @@ class ClosedLoopSimulator:
         """
         done, active, states = np.zeros(len(states), dtype=bool), np.arange(len(states)), states.copy()
         parts = self._stepper.layout.view_parts(states)
-        half_turn_counts = np.zeros(
-            len(states), dtype=np.int64
-        )  # looks one after the other that found the row half a turn away
+        # Looks one after the other that found the row half a turn away.
+        half_turn_counts = np.zeros(len(states), dtype=np.int64)
         check_steps = HALF_TURN_CHECK_STEPS * self._stepper.calls_per_step
         for checks_left in reversed(range(MAX_STEPS // check_steps)):
             earlier_times = parts["time"][active, 0]
@@ -222,7 +221,7 @@ class ClosedLoopSimulator:
 
     def _classify_endings(
         self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
-    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.bool_]]:
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], BoolArray]:
         """Return outcomes and reasons, and the runs that are fast enough at the time limit to look for a limit cycle."""
         codes = parts["code"][:, 0]
         slowest, early_speed, late_speed = (parts[name][:, 0] for name in ("slowest", "early", "late"))
@@ -285,7 +284,7 @@ class ClosedLoopSimulator:
             time, q, tool_points, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked
         )
 
-    def compute_errors(self, runs: Runs, run: int | NDArray[np.bool_], q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def compute_errors(self, runs: Runs, run: int | BoolArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k.
 
         Where k is a mask of runs, the configurations are one for each of them.
@@ -300,7 +299,7 @@ class ClosedLoopSimulator:
         history: list[tuple[FloatArray, FloatArray]] = []
         time_scale = self._phases.time_scale
 
-        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
             parts = self._stepper.layout.view_parts(states)
             for _ in range(MAX_STEPS):
                 history.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both

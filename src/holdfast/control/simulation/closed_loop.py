@@ -16,7 +16,7 @@ from holdfast.control.simulation.runs import Runs, RunSettings
 from holdfast.control.simulation.tableaus import CLASSIC_RK4
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.task import target_poses
@@ -36,9 +36,8 @@ class LockSchedule(Protocol):
         ...
 
 
-# TIME_LIMIT and CYCLE_LIMIT: 1/Ke, cycles
-TIME_LIMIT = 3000.0
-CYCLE_LIMIT = 1000.0
+TIME_LIMIT = 3000.0  # 1/Ke
+CYCLE_LIMIT = 1000.0  # cycles
 TARGET_RADIUS_M = 0.1  # m
 DEFAULT_TOLERANCE = 1e-9
 MAX_TOLERANCE = 1e-6
@@ -52,7 +51,7 @@ def simulate(
     q0: ArrayLike,
     target: ArrayLike,
     *,
-    locked: Locked | NDArray[np.int64] | FloatArray = (),
+    locked: Locked | IndexArray | FloatArray = (),
     cycles: bool = False,
     method: Method = "adaptive",
     time_limit: float | None = None,

@@ -8,11 +8,10 @@ return to the same velocity. The distance that remains between two passages meas
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.simulation.runge_kutta import RungeKuttaStepper
 from holdfast.control.simulation.system import LARGE_NUMBER, STATE_RUNNING
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 
 _STEPS_PER_ROUND = 1500  # of the integrator: a period is no longer
 _MAX_STRETCHES = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
@@ -25,8 +24,8 @@ DRIFT_HORIZON = 1e5  # 1/Ke, after the end of the run
 
 
 def detect_periodic(
-    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
-) -> NDArray[np.bool_]:
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
+) -> BoolArray:
     """Find the periodic motions: those that return to an earlier configuration, always faster than ``min_speed``.
 
     Args:
@@ -48,8 +47,8 @@ def detect_periodic(
 
 
 def _detect_periodic_group(
-    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
-) -> NDArray[np.bool_]:
+    stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
+) -> BoolArray:
     states, unlimited_parameters = states.copy(), parameters.copy()
     state_parts, limits = stepper.layout.view_parts(states), stepper.parameters.view_parts(unlimited_parameters)
     state_parts["code"][:] = STATE_RUNNING
@@ -80,7 +79,7 @@ def _record_steps(stepper: RungeKuttaStepper, states: FloatArray, parameters: Fl
 
 
 def _measure_drift(
-    stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_], min_speed: float
+    stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
 ) -> float:
     """Return the drift of a motion per 1/Ke, in units of its extent, by its first return; infinite where it does not return.
 
@@ -112,7 +111,7 @@ def _measure_drift(
 
 
 def _find_return_time(
-    stepper: RungeKuttaStepper, start: FloatArray, nearby: FloatArray, parameters: FloatArray, is_revolute: NDArray[np.bool_]
+    stepper: RungeKuttaStepper, start: FloatArray, nearby: FloatArray, parameters: FloatArray, is_revolute: BoolArray
 ) -> tuple[float, float]:
     """Return the time at which a motion that is ``nearby`` its start passes it, and the distance; infinite if it does not."""
     layout, parameters = stepper.layout, parameters[None].copy()
@@ -134,5 +133,5 @@ def _find_return_time(
     return float(current["clock"][0, 0] - start_parts["clock"][0, 0]), float(np.linalg.norm(displacement))
 
 
-def _wrap_angles(q: FloatArray, is_revolute: NDArray[np.bool_]) -> FloatArray:
+def _wrap_angles(q: FloatArray, is_revolute: BoolArray) -> FloatArray:
     return np.where(is_revolute, np.arctan2(np.sin(q), np.cos(q)), q)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.cycles import CycleStepper
@@ -24,11 +23,11 @@ from holdfast.control.simulation.system import (
 )
 from holdfast.control.simulation.tableaus import CLASSIC_RK4, DOP853
 from holdfast.core.caching import cached_property
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 
-Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, NDArray[np.bool_]]]
+Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, BoolArray]]
 
 
 class PhaseSimulator:
@@ -94,7 +93,7 @@ class PhaseSimulator:
         scaled_lock_times = lock_time * time_scale
         current_times, active = np.zeros(run_count), np.arange(run_count)
         while active.size:
-            selection: slice | NDArray[np.int64] = slice(None) if active.size == run_count else active
+            selection: slice | IndexArray = slice(None) if active.size == run_count else active
             healthy = scaled_lock_times[selection] > current_times[selection, None]
             healthy_mask[selection] = healthy
             phase_ends[selection] = np.minimum(np.where(healthy, scaled_lock_times[selection], np.inf).min(axis=1), final_time)
@@ -106,7 +105,7 @@ class PhaseSimulator:
             current_times[active] = parts["time"][active, 0] = phase_ends[active]
         return states
 
-    def _start_phase(self, states: FloatArray, rows: slice | NDArray[np.int64], parameters: FloatArray) -> None:
+    def _start_phase(self, states: FloatArray, rows: slice | IndexArray, parameters: FloatArray) -> None:
         """Set the parts of the states that are known where a phase begins."""
         parts = self.stepper.layout.view_parts(states)
         values = self._evaluate_states(states[rows], parameters)

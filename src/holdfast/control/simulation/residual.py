@@ -1,20 +1,25 @@
-"""The least error that a failed arm can reach at a target, by damped least squares over its healthy joints."""
+"""Damped least squares over the healthy joints of a failed arm: configurations that reach a target, and the least error."""
 
 from __future__ import annotations
+
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
+from holdfast.control.laws.law import Law
 from holdfast.control.simulation.system import FailedArmSystem
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm
 from holdfast.kernels.loop import Loop
 from holdfast.model.arm.configurations import sampling_limits
 
+_MAX_SOLUTION_STEPS = 60
+_SOLUTION_ERROR = 1e-12
 _MAX_DESCENT_STEPS = 200
 _GRADIENT_TOLERANCE = 1e-9
 _INITIAL_DAMPING = 1e-3
@@ -96,3 +101,32 @@ class ErrorMinimiser:
             is_better = errors < least_errors
             least_errors[is_better], nearest[is_better] = errors[is_better], solutions.state[is_better, :n]
         return least_errors, nearest
+
+
+class SolutionSearch:
+    """The compiled search for configurations at a target, ``dq = J_H' (J_H J_H' + 1e-3 |e|^2 + 1e-14)^-1 e``."""
+
+    def __init__(self, law: Law) -> None:
+        self._system = FailedArmSystem(law)
+        self.made_of = law
+
+    @cached_property
+    @cached_kernel
+    def _search_loop(self) -> Loop:
+        q = self._system.q
+        error, jacobian = self._system.scaled_error_and_jacobian(q)
+        squared_error = ca.sumsqr(error)
+        step = damped_least_norm(jacobian @ ca.diag(self._system.mask), error, 1e-3 * squared_error + 1e-14)
+        return Loop("solutions", q, self._system.parameters, next_state=q + step, residual=ca.sqrt(squared_error))
+
+    def search(self, q: FloatArray, pose: FloatArray, mask: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Search for configurations (N, n) from starts q (N, n), and return whether they reach the target."""
+        inputs = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask])
+        result = self._search_loop.run(q, np.broadcast_to(inputs, (len(q), inputs.size)), _SOLUTION_ERROR, _MAX_SOLUTION_STEPS)
+        return result.state, result.done
+
+
+@lru_cache(maxsize=16)
+def solution_search(law: Law) -> SolutionSearch:
+    """Return the search for a law, compiled once."""
+    return SolutionSearch(law)

@@ -42,10 +42,8 @@ from holdfast.kernels.program import SX
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 MIN_STEP_SIZE = 1e-12  # of 1/Ke: steps this short lead nowhere
-# SPEED_TOLERANCE_RATIO and MIN_SPEED_TOLERANCE: 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the
-# finest
-SPEED_TOLERANCE_RATIO = 1e-4
-MIN_SPEED_TOLERANCE = 1e-12
+SPEED_TOLERANCE_RATIO = 1e-4  # largest tolerance, as a fraction of the speed
+MIN_SPEED_TOLERANCE = 1e-12  # rad (and m) per 1/Ke: finest tolerance
 MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would see too little of the way
 FIRST_STEP_SIZE = 0.5  # of 1/Ke
 _STAGED_OPERATIONS = 1250  # operations of one evaluation: beyond, stages are taken one at a time
@@ -156,10 +154,8 @@ class RungeKuttaStepper:
         ]
         stage_position = parts["q"] + h * _weighted_sum(weights, rates)
         stage_rates = self.system.evaluate_state_rates(stage_position)
-        tool_speeds, speed_fractions = (
-            [parts["hand"], *ca.vertsplit(parts["hands"])],
-            [parts["share"], *ca.vertsplit(parts["shares"])],
-        )
+        tool_speeds = [parts["hand"], *ca.vertsplit(parts["hands"])]
+        speed_fractions = [parts["share"], *ca.vertsplit(parts["shares"])]
         finished_parts = self._finish_step(parts, h, rates, tool_speeds, speed_fractions, stage_position, stage_rates)
         is_finite = ca.sumsqr(stage_rates.rates) < LARGE_NUMBER
         stored_parts = dict(parts)
@@ -269,10 +265,8 @@ class RungeKuttaStepper:
             turning_error = value_at_turning_point(error0, error1, interval * slope0, interval * slope1)
             turning_joint = value_at_turning_point(q0, q1, interval * rates0, interval * rates1)
             closest = elementwise_min(closest, elementwise_min(turning_error, error1))
-            lowest, highest = (
-                elementwise_min(lowest, elementwise_min(turning_joint, q1)),
-                elementwise_max(highest, elementwise_max(turning_joint, q1)),
-            )
+            lowest = elementwise_min(lowest, elementwise_min(turning_joint, q1))
+            highest = elementwise_max(highest, elementwise_max(turning_joint, q1))
         return closest, lowest, highest
 
     def _estimate_error(self, h: SX, rates: list[SX]) -> SX:

@@ -329,8 +329,7 @@ class Runs(Result):
             touching = len({contact.run for contact in self.contacts})
             object_counts = Counter(contact.object for contact in self.contacts)
             object_list = ", ".join(
-                f"{object_name} by {count} link{'' if count == 1 else 's'}"
-                for object_name, count in object_counts.most_common(3)
+                f"{name} by {count} link{'' if count == 1 else 's'}" for name, count in object_counts.most_common(3)
             )
             return f"{touching} of them touch something on the way" + (
                 f" ({object_list}, all runs together)" if object_list else ""

@@ -74,15 +74,11 @@ class FailedArmSystem:
         return task_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def scaled_error_and_jacobian(self, q: SX) -> tuple[SX, SX]:
-        """Return the error and Jacobian of :meth:`error_and_jacobian` with lengths in units of the arm's length, for
-        thresholds.
-        """
+        """Return :meth:`error_and_jacobian` with lengths in units of the arm's length, for thresholds."""
         return scaled_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def compute_limited_velocity(self, error: SX) -> tuple[SX, SX]:
-        """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction to which the speed limit
-        reduces it.
-        """
+        """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction that the speed limit leaves."""
         velocity = self.law.command(error) / self.law.gain
         if self.law.speed_limit is None:
             return velocity, ca.SX(1)
@@ -101,21 +97,14 @@ class FailedArmSystem:
 
     @cached_property
     def rates_function(self) -> ca.Function:
-        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once because a law takes a second to write
-        down.
-        """
+        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once, as a law takes a second to write."""
         q = self.q
         error, jacobian = self.error_and_jacobian(q)
         velocity, speed_fraction = self.compute_limited_velocity(error)
         rates = self.compute_rates(q, velocity)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
-        outputs = [
-            rates,
-            self.compute_tool_speed(q, rates),
-            speed_fraction,
-            ca.sumsqr(error),
-            -2 * ca.dot(error, jacobian @ rates),
-        ]
+        tool_speed, squared_error_rate = self.compute_tool_speed(q, rates), -2 * ca.dot(error, jacobian @ rates)
+        outputs = [rates, tool_speed, speed_fraction, ca.sumsqr(error), squared_error_rate]
         return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
 
     def evaluate_state_rates(self, q: SX) -> StateRates:
@@ -153,9 +142,7 @@ def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: Flo
 
 
 def position_and_angle_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute position errors (N,), m, and angle errors (N,), rad, as :func:`split_error_norms`, at q (N, n) for a
-    target or N.
-    """
+    """Compute position (m) and angle errors (rad), (N,), at q (N, n) for a target or N; see :func:`split_error_norms`."""
     return split_error_norms(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 
@@ -261,10 +248,8 @@ STATE_COLLAPSED = 2
 STATE_TIME_LIMIT = 3
 STATE_PHASE_END = 4
 STATE_ARRIVED = 5
-# END_WINDOW_FRACTION and LATE_WINDOW_FRACTION: shares of the time limit: the end of a motion is watched from the first on, in
-# two halves
-END_WINDOW_FRACTION = 0.8
-LATE_WINDOW_FRACTION = 0.9
+END_WINDOW_FRACTION = 0.8  # of the time limit, from which the end of a motion is watched
+LATE_WINDOW_FRACTION = 0.9  # of the time limit, from which the second half is watched
 
 
 def track_final_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:

@@ -122,9 +122,8 @@ class SingularValueBound(Result):
         lengths = "any lengths" if self.lever == inf else f"mean lever of the joints {self.lever:.4g}{unit or ' m'}"
         reason = f"{self.bound_by}, {BOUND_REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
         return [
-            f"{self.n} joints, a task of {count_rows(self.m)}, {lengths}: when {failure_phrase(self.k)}, no least "
-            f"singular value is above "
-            f"{self.bound:.6g} ({reason})"
+            f"{self.n} joints, a task of {count_rows(self.m)}, {lengths}: when {failure_phrase(self.k)}, no least singular "
+            f"value is above {self.bound:.6g} ({reason})"
         ]
 
 

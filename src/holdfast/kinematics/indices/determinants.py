@@ -12,12 +12,12 @@ from dataclasses import replace
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.registry import constructor
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.frameworks import RowFunction
 from holdfast.kernels.kernel import Kernel
@@ -55,6 +55,7 @@ class RelativeManipulability(Index):
     """
 
     source = "Abdi et al. 2012, eq. (3), (4)"
+    _formula_name = "relative manipulability"
 
     def __init__(
         self,
@@ -64,7 +65,10 @@ class RelativeManipulability(Index):
         *,
         length: float | None = None,
     ) -> None:
-        super().__init__("relative manipulability", arm, task, failures=failures, length=length)
+        super().__init__(self._formula_name, arm, task, failures=failures, length=length)
+        self._set_scale_and_bound()
+
+    def _set_scale_and_bound(self) -> None:
         self.ceiling = bound_of_index(self)
         if self.ceiling is not None:
             self.bound, self.bound_note = self.ceiling.bound, self.ceiling.gap_phrase
@@ -254,7 +258,7 @@ class RelativeManipulability(Index):
         worst = outputs[:, 1].astype(np.int64)
         return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
 
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         values, marked = self._values_kernel.marked_rows(q)
         marked_rows, singular = self._find_singular_rows(q, values, marked)
         if marked_rows.size:
@@ -270,9 +274,7 @@ class RelativeManipulability(Index):
             gradient[singular] = 0.0
         return gradient
 
-    def _find_singular_rows(
-        self, q: FloatArray, outputs: FloatArray, marked: bool
-    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _find_singular_rows(self, q: FloatArray, outputs: FloatArray, marked: bool) -> tuple[IndexArray, BoolArray]:
         """Return the rows that a kernel marked with NaN although q is finite, and which rows are singular."""
         singular = np.zeros(len(q), dtype=bool)
         marked_rows = np.zeros(0, dtype=np.int64)
@@ -289,18 +291,9 @@ class Manipulability(RelativeManipulability):
     """
 
     source = "Abdi et al. 2012, eq. (1), (2)"
+    _formula_name = "manipulability"
 
-    def __init__(
-        self,
-        arm: Arm,
-        task: str | Task | Sequence[str] = "pose",
-        failures: FailureSpec = "single",
-        *,
-        length: float | None = None,
-    ) -> None:
-        super().__init__(arm, task, failures, length=length)
-        self.name = "manipulability"
-        self.ceiling, self.bound, self.bound_note = None, None, ""
+    def _set_scale_and_bound(self) -> None:
         # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
         self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
         linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))

@@ -9,11 +9,10 @@ from typing import Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError, TaskError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_constructor
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -78,7 +77,7 @@ class FormulaIndex(Index):
         values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * value for value in formulas]), symbols, q))
         return values, directional_derivatives(values, q, directions)
 
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         values = self._values_kernel.rows(q)
         singular = self._singular_rows(q)
         values[singular] = self.singular_value_by_convention
@@ -89,7 +88,7 @@ class FormulaIndex(Index):
         gradient[self._singular_rows(q)] = 0.0
         return gradient
 
-    def _singular_rows(self, q: FloatArray) -> NDArray[np.bool_]:
+    def _singular_rows(self, q: FloatArray) -> BoolArray:
         singular = np.zeros(len(q), dtype=bool)
         finite = np.flatnonzero(np.isfinite(q).all(axis=1))
         singular[finite] = self._is_singular(q[finite])

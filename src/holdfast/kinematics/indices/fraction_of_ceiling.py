@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import comb
 
 from holdfast.core.registry import constructor
@@ -11,7 +10,7 @@ from holdfast.kernels.program import SX
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.kinematics.indices.determinants import RelativeManipulability
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.task import Task
+from holdfast.model.arm.task import TaskSpec
 from holdfast.model.failure_modes import FailureSpec
 
 _ATTAINED_TOLERANCE = 1e-9  # relative
@@ -28,21 +27,12 @@ class CeilingFraction(RelativeManipulability):
     """
 
     source = "derived here"
+    _formula_name = "ceiling fraction"
 
-    def __init__(
-        self,
-        arm: Arm,
-        task: str | Task | Sequence[str] = "pose",
-        failures: FailureSpec = "single",
-        *,
-        length: float | None = None,
-    ) -> None:
-        super().__init__(arm, task, failures, length=length)
-        self.name = "ceiling fraction"
-        self.ceiling, self.bound, self.bound_note = None, None, ""
-        ceilings = {count: upper_bound(n=arm.n, m=self.task.m, k=count) for count in {len(s) for s in self.failures}}
+    def _set_scale_and_bound(self) -> None:
+        ceilings = {count: upper_bound(n=self.arm.n, m=self.task.m, k=count) for count in {len(s) for s in self.failures}}
         self._attainable = {count: bound.best_known or bound.bound for count, bound in ceilings.items()}
-        complete = [count for count in ceilings if sum(len(s) == count for s in self.failures) == comb(arm.n, count)]
+        complete = [count for count in ceilings if sum(len(s) == count for s in self.failures) == comb(self.arm.n, count)]
         if complete:
             self.bound = min(ceilings[count].bound / self._attainable[count] for count in complete)
             self.bound_note = "" if self.bound <= 1 + _ATTAINED_TOLERANCE else "an upper bound; the best known is 1"
@@ -65,7 +55,7 @@ class CeilingFraction(RelativeManipulability):
 
 @constructor(formula="min<sub>S</sub> ρ<sub>S</sub> / c(n, m, |S|)", properties=("base-free",))
 def ceiling_fraction(
-    arm: Arm, task: str | Task | Sequence[str] = "pose", failures: FailureSpec = "single", *, length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> CeilingFraction:
     """Relative manipulability of the best known for so many joints that lock, the least over all failures; derived here."""
     return CeilingFraction(arm, task, failures, length=length)

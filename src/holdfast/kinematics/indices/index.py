@@ -14,7 +14,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import TaskError
 from holdfast.core.registry import INDEX_REGISTRY, Labelled
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -47,7 +47,7 @@ class IndexEvaluation:
 
     value: FloatArray
     by_failure: FloatArray
-    worst: NDArray[np.int64]
+    worst: IndexArray
     status: NDArray[np.uint8]
 
 
@@ -60,7 +60,7 @@ class WorstCase:
     """
 
     value: FloatArray
-    worst: NDArray[np.int64]
+    worst: IndexArray
     status: NDArray[np.uint8]
 
 
@@ -114,7 +114,7 @@ class Index(Labelled, Objective):
     # ---- what a formula provides -------------------------------------------------------------------------------
 
     @abstractmethod
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
 
     @abstractmethod
@@ -144,9 +144,8 @@ class Index(Labelled, Objective):
         """
         rows, single = self._read_configurations(q)
         by_failure, singular = self._evaluate_by_failure(rows)
-        worst_failures = (
-            by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
-        )  # a NaN, if there is any
+        # A NaN, if there is any.
+        worst_failures = by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
         worst = worst_failures.astype(np.int64, copy=False)
         value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
         status = np.full(len(rows), Status.OK, dtype=np.uint8)
@@ -179,11 +178,11 @@ class Index(Labelled, Objective):
         """The value for each failure, (N, F) or (F,); for single failures one column per joint."""
         return self.evaluate(q).by_failure
 
-    def worst_failure(self, q: ArrayLike) -> NDArray[np.int64]:
+    def worst_failure(self, q: ArrayLike) -> IndexArray:
         """Position in ``failures`` of the worst one, (N,) or a scalar."""
         return self.evaluate(q).worst
 
-    def worst_joint(self, q: ArrayLike) -> NDArray[np.int64]:
+    def worst_joint(self, q: ArrayLike) -> IndexArray:
         """Index from 0 of the joint whose failure is the worst, (N,) or a scalar.
 
         Raises:
@@ -203,10 +202,10 @@ class Index(Labelled, Objective):
         gradient = self._evaluate_gradient(rows)
         return gradient[0] if single else gradient
 
-    def singular(self, q: ArrayLike) -> NDArray[np.bool_]:
+    def singular(self, q: ArrayLike) -> BoolArray:
         """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
         rows, single = self._read_configurations(q)
-        finite: NDArray[np.bool_] = np.asarray(np.isfinite(rows).all(axis=1))
+        finite: BoolArray = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
 
@@ -277,7 +276,7 @@ class Index(Labelled, Objective):
         """Task Jacobian (N, m, n) for q (N, n), linear rows divided by the characteristic length."""
         return self._task_jacobian.rows(q).reshape(-1, self.task.m, self.arm.n)
 
-    def _is_singular(self, q: FloatArray) -> NDArray[np.bool_]:
+    def _is_singular(self, q: FloatArray) -> BoolArray:
         """The definition itself, by singular values of the task Jacobian."""
         if not len(q):
             return np.zeros(0, dtype=bool)

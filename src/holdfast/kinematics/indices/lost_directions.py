@@ -87,9 +87,7 @@ def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLos
 
 
 def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:
-    """Return ``sqrt(det(Jf Jf') / det(J J'))`` of any failed set, the product of the remaining fractions; Abdi et al. 2012, eq.
-    (3).
-    """
+    """Return ``sqrt(det(Jf Jf') / det(J J'))`` of any failed set: the product of the fractions; Abdi et al. 2012, eq. (3)."""
     return float(np.prod([loss.kept for loss in losses_found]))
 
 

@@ -114,9 +114,7 @@ class Objective(Presentable, Differentiable, ABC):
         return None
 
     def reversed(self) -> Objective:
-        """Return the objective with the opposite better direction, to find the worst configuration or to move so
-        that it grows.
-        """
+        """Return the objective with the opposite better direction, to find the worst configuration or to let it grow."""
         return NegatedObjective(self)
 
     # ---- arithmetic --------------------------------------------------------------------------------------------

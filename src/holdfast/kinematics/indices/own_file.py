@@ -120,9 +120,7 @@ def source_digest(text: str, name: str) -> str:
 
 
 def _concerns_names(node: ast.stmt, needed: set[str]) -> bool:
-    """Return whether a statement concerns one of the names: a definition its name, an import its bindings, any other statement
-    all its names.
-    """
+    """Return whether a statement concerns one of the names: defines it, imports it, or, if any other statement, has it."""
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return node.name in needed
     if isinstance(node, ast.If) and "__name__" in ast.unparse(node.test):

@@ -129,10 +129,8 @@ def _inverse_root_quadrature() -> list[tuple[float, float]]:
     period = float(ellipkm1(_QUADRATURE_RANGE**2))
     u = (np.arange(_QUADRATURE_NODES) + 0.5) * period / _QUADRATURE_NODES
     sn, cn, dn, _ = ellipj(u, 1 - _QUADRATURE_RANGE**2)
-    squares, weights = (
-        (_QUADRATURE_RANGE * sn / cn) ** 2,
-        2 / np.pi * period / _QUADRATURE_NODES * _QUADRATURE_RANGE * dn / cn**2,
-    )
+    squares = (_QUADRATURE_RANGE * sn / cn) ** 2
+    weights = 2 / np.pi * period / _QUADRATURE_NODES * _QUADRATURE_RANGE * dn / cn**2
     return list(zip(squares.tolist(), weights.tolist(), strict=True))
 
 

@@ -11,11 +11,10 @@ from typing import Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.registry import constructor
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import HouseholderQR, dot_product, jacobi_sweep
@@ -240,7 +239,7 @@ class SpectralIndex(Index):
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 
-    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
         values = np.empty((len(q), len(self.failures)))
         singular = np.zeros(len(q), dtype=bool)
         for start in range(0, len(q), _BLOCK_ROWS):
@@ -271,9 +270,8 @@ class SpectralIndex(Index):
         with np.errstate(divide="ignore", invalid="ignore"):
             v = turned / sigma[:, :, None]
             u = np.einsum("rmc,ric->rmi", reduced, v) / sigma[:, None, :]
-            seed = (
-                np.einsum("rmi,ri,ric->rmc", u, self._derivative_by_singular_value(sigma), v) * free_columns
-            )  # d sigma_i = u_i' dJ v_i
+            # d sigma_i = u_i' dJ v_i.
+            seed = np.einsum("rmi,ri,ric->rmc", u, self._derivative_by_singular_value(sigma), v) * free_columns
         has_no_gradient = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
         seed[has_no_gradient & np.isfinite(q).all(axis=1)] = 0.0
         return self._jacobian_pullback_kernel.rows(q, seed)

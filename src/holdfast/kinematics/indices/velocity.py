@@ -108,9 +108,8 @@ def _is_prescribed(task: Task, direction: FloatArray) -> bool:
 def _prescribed(arm: Arm, task: TaskSpec) -> FloatArray:
     """Return a direction that a task prescribes: an axis if one is prescribed."""
     task_object = as_task(arm, task)
-    translations = (
-        task_object.rows.T @ np.linalg.svd(task_object.rows[:, 3:].T)[2][-1]
-    )  # of all combinations of rows the one that turns least
+    # Of all combinations of rows the one that turns least.
+    translations = task_object.rows.T @ np.linalg.svd(task_object.rows[:, 3:].T)[2][-1]
     candidates: list[FloatArray] = [*np.eye(3), *task_object.rows[:, :3], translations[:3]]
     return next((u for u in candidates if u.any() and _is_prescribed(task_object, u)), candidates[0])
 

@@ -111,8 +111,6 @@ def _connected_to_both_ends(boxes: FloatArray) -> BoolArray | None:
         touching = np.abs(center_values[first] - center_values[second]) <= widths[first] + widths[second] + _CONTACT_TOLERANCE
         first, second = first[touching], second[touching]
     _, label = connected_components(coo_array((np.ones(len(first)), (first, second)), shape=(len(boxes),) * 2), directed=False)
-    begins, ends = (
-        centers[:, -1] - half_widths[:, -1] <= _CONTACT_TOLERANCE,
-        centers[:, -1] + half_widths[:, -1] >= 1 - _CONTACT_TOLERANCE,
-    )
+    begins = centers[:, -1] - half_widths[:, -1] <= _CONTACT_TOLERANCE
+    ends = centers[:, -1] + half_widths[:, -1] >= 1 - _CONTACT_TOLERANCE
     return np.asarray(np.isin(label, np.intersect1d(label[begins], label[ends])))

@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 
 import casadi as ca
 import numpy as np
@@ -154,12 +155,10 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     rho += [ca.sqrt(ca.sumsqr(leg_vector))] * is_along_leg
     rotates_tool += [False] * is_along_leg
     allowed_angle = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.orientation != "none" else ca.SX(0)
-    allowed_angle = ca.if_else(
-        allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi
-    )  # the angle whose sine it is at most
-    position_tolerance = (
-        tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
-    )  # a point beside the tool is missed by both
+    # The angle whose sine it is at most.
+    allowed_angle = ca.if_else(allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi)
+    # A point beside the tool is missed by both.
+    position_tolerance = tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
     error_bounds = ca.vertcat(*remainder) + ca.vertcat(position_tolerance, tolerance[len(parts.linear) :])
     weighted = task_jacobian @ ca.diag(half_widths * half_widths)
     gram = weighted @ task_jacobian.T + ca.diag(error_bounds * error_bounds + _GRAM_REGULARIZATION)
@@ -184,7 +183,7 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     middle = -(gain @ errors)
     radius = ca.fabs(ca.SX.eye(size) - gain @ task_jacobian) @ half_widths + ca.fabs(gain) @ error_bounds + ROUNDING_M_RAD
     lower, upper = ca.fmax(middle - radius, -half_widths), ca.fmin(middle + radius, half_widths)
-    margin = _maximum([*tests, *ca.vertsplit(lower - upper)]) - ROUNDING_M_RAD
+    margin = reduce(ca.fmax, [*tests, *ca.vertsplit(lower - upper)]) - ROUNDING_M_RAD
     new_half_widths = ca.fmax((upper - lower) / 2, 0)
     measures = _box_measures(
         half_widths,
@@ -208,9 +207,7 @@ def _box_measures(half_widths: SX, new_half_widths: SX, reach: SX, widths: list[
 
 
 def is_orienting_joint(arm: Arm, parts: BoundedTask) -> list[bool]:
-    """Return (n,) True for joints that change the orientation components; a joint along the tool's axis does not turn that
-    axis.
-    """
+    """Return (n,) True for joints that change the orientation components; one along the tool's axis does not turn it."""
     if parts.orientation == "none":
         return [False] * arm.n
     orients = [not joint.prismatic for joint in arm.joints]
@@ -278,9 +275,7 @@ def _position_remainders(rho: list[SX], half_widths: SX, is_revolute: list[bool]
 def _second_order_terms(
     second_derivative: Callable[[int, int], SX], half_widths: SX, inner: list[bool], outer: list[bool]
 ) -> SX:
-    """Bound the second-order terms of each component at the center: ``second_derivative`` of a joint and one as near the base
-    or farther.
-    """
+    """Bound the second-order terms at the center: ``second_derivative`` of a joint and one as near the base or farther."""
     total = ca.SX(0)
     for i in range(len(outer)):
         for k in range(i + 1):
@@ -325,13 +320,6 @@ def _orientation_terms(
         )
 
     return component_rows @ value, component_rows @ gradient, second_derivative, (ca.trace(error_rotation) - 1) / 2
-
-
-def _maximum(values: list[SX]) -> SX:
-    largest = values[0]
-    for value in values[1:]:
-        largest = ca.fmax(largest, value)
-    return largest
 
 
 def _error_beyond_bound(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:

@@ -6,10 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import TaskError
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.kernel import Kernel
 from holdfast.kinematics.interval_search.box_bounds import BoundedTask, box_contraction_kernel, is_last_joint_idle
 from holdfast.model.arm.model import Arm
@@ -39,7 +38,7 @@ class ContractedBoxes:
     original: FloatArray
     inside: BoolArray
     volume: FloatArray
-    widest_joint: NDArray[np.intp]
+    widest_joint: IndexArray
 
     def __getitem__(self, selection: BoolArray) -> ContractedBoxes:
         return ContractedBoxes(

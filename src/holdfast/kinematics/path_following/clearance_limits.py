@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.objects.one_row import SingleConfigurationClearance
@@ -33,7 +32,7 @@ class ClearanceHistory:
     """
 
     margin: FloatArray
-    nearest_pair: NDArray[np.int64]
+    nearest_pair: IndexArray
     pair_names: list[str]
     min_distances: FloatArray
 
@@ -62,11 +61,8 @@ class ClearanceRateLimit:
             return self._samples[0]
         clearance, gradient = self._nearest(q)
         sample = (q.copy(), clearance - self.margin, gradient)
-        others = [
-            other
-            for other in self._samples
-            if np.abs(other[0] - q).max() < _GRADIENT_RANGE and not _are_similar(other[2], sample[2])
-        ]
+        nearby = [other for other in self._samples if np.abs(other[0] - q).max() < _GRADIENT_RANGE]
+        others = [other for other in nearby if not _are_similar(other[2], sample[2])]
         self._samples = [sample, *others[: _MEMORY_SIZE - 1]]
         return sample
 
@@ -88,15 +84,13 @@ class ClearanceRateLimit:
         latest = self._clearance_and_gradient(q)
         around = sorted(
             ((clearance + float(gradient @ (q - sample_q)), gradient) for sample_q, clearance, gradient in self._samples[1:]),
-            key=_extrapolated_clearance,
+            key=lambda entry: entry[0],
         )
         entries = [(latest[1], latest[2]), *around, (np.inf, np.zeros(len(q)))]
         return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
 
     def allowed_fraction(self, q: FloatArray, step_end: FloatArray) -> float:
-        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up on the
-        way.
-        """
+        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless used up on the way."""
         step_start = self._clearance_and_gradient(q)
         for fraction in _STEP_FRACTIONS:
             if self._clearance_and_gradient(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):
@@ -113,10 +107,6 @@ class ClearanceRateLimit:
             clearance.pair_names,
             clearance.margins + self.margin,
         )
-
-
-def _extrapolated_clearance(entry: tuple[float, FloatArray]) -> float:
-    return entry[0]
 
 
 def _are_similar(gradient: FloatArray, reference: FloatArray) -> bool:

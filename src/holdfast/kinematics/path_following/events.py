@@ -32,9 +32,8 @@ from holdfast.model.arm import kinematics
 from holdfast.model.arm.task import Task
 
 NEGATIVE_CURVATURE_FRACTION = 1e-2  # of the median curvature along a path: this much below 0 is not a local best
-_LOW_CURVATURE_FRACTION = (
-    0.2  # of the median curvature along a path: where it is less and rates are high, an extremum nearly ends
-)
+# Of the median curvature along a path: where it is less and rates are high, an extremum nearly ends.
+_LOW_CURVATURE_FRACTION = 0.2
 _FAST_RATE_FACTOR = 4.0  # times the median rate: this is high
 ZERO_COST_FRACTION = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
 _VALUE_TOLERANCE = 0.01  # of the value, or of its range
@@ -155,20 +154,16 @@ def find_events(
     is_zero = (
         positive & (motion.value <= ZERO_COST_FRACTION * max(float(motion.value.max()), 1e-300)) & (motion.value.max() > 0)
     )
-    add_events(
-        "zero cost",
-        is_zero,
-        lambda when: f"{when}: {objective.name} is zero (below {ZERO_COST_FRACTION:.1%} of its largest value)",
-    )
+    text = f"{objective.name} is zero (below {ZERO_COST_FRACTION:.1%} of its largest value)"
+    add_events("zero cost", is_zero, lambda when: f"{when}: {text}")
     value_range = float(np.ptp(motion.value))
     jump = np.r_[False, np.abs(np.diff(motion.value)) > _JUMP_FRACTION * value_range] & (value_range > 0)
     add_events(
         "value jump",
         jump,
         lambda when: (
-            f"{when}: {objective.name} jumps by more than {_JUMP_FRACTION:.0%} of its range in one step; swing angles do "
-            f"where a joint "
-            "is balanced about its axis or upright, and the worst of several failures may"
+            f"{when}: {objective.name} jumps by more than {_JUMP_FRACTION:.0%} of its range in one step; swing angles do where "
+            "a joint is balanced about its axis or upright, and the worst of several failures may"
         ),
     )
     events += _find_fast_motions(objective, motion, follows_extremum, is_zero)
@@ -199,7 +194,7 @@ def find_events(
         lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the end effector may lag",
     )
     for name, flags in motion.at_limit.items():
-        add_events("joint limit", flags, partial(_describe_limit, name))
+        add_events("joint limit", flags, partial("{1}: '{0}' is at its limit".format, name))
     return tuple(sorted(events, key=lambda event: (event.start, event.kind)))
 
 
@@ -234,10 +229,6 @@ def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHi
                 )
             events.append(Event(kind=kind, start=float(motion.time[first]), end=float(motion.time[last]), text=text))
     return events
-
-
-def _describe_limit(name: str, time_phrase: str) -> str:
-    return f"{time_phrase}: '{name}' is at its limit"
 
 
 def _find_fast_motions(objective: Objective, motion: MotionHistory, tracks: bool, is_zero: BoolArray) -> list[Event]:

@@ -10,9 +10,8 @@ from holdfast.kernels.program import SX
 
 Row = tuple[SX, SX]
 
-_MIN_NULL_SPACE_FRACTION = (
-    1e-4  # of the square of a row: where less than that of it lies in the self-motion, it is not fully kept by that
-)
+# Of the square of a row: where less than that of it lies in the self-motion, it is not fully kept by that.
+_MIN_NULL_SPACE_FRACTION = 1e-4
 
 
 def limit_self_motion(

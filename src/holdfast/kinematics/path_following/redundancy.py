@@ -153,9 +153,8 @@ class AugmentedJacobian(Resolution):
     def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
         sign = 1.0 if self.objective.better == "larger" else -1.0
         gradient = gradient_to_maximise(self.objective, q, jacobian)
-        missing = self.gain * (sign * self.wanted - value_to_maximise(self.objective, q, jacobian)) - ca.dot(
-            gradient, particular
-        )
+        value = value_to_maximise(self.objective, q, jacobian)
+        missing = self.gain * (sign * self.wanted - value) - ca.dot(gradient, particular)
         # Least norm within the null space; where the objective does not change there, it cannot be helped.
         projected_gradient = gradient - jacobian.T @ ca.vertcat(
             *Cholesky(damped_gram(jacobian, SINGULAR_REGULARIZATION)).solve(ca.vertsplit(ca.densify(jacobian @ gradient)))

@@ -218,11 +218,9 @@ class Resolution(Steppable):
                     ratio, limit = self._bound_ratio(rates[k], lower[k], upper[k])
                     ratio = ratio * free[k]
                     is_worse = ratio > worst_ratio
-                    worst_ratio, worst_joint, worst_bound = (
-                        ca.if_else(is_worse, ratio, worst_ratio),
-                        ca.if_else(is_worse, k, worst_joint),
-                        ca.if_else(is_worse, limit, worst_bound),
-                    )
+                    worst_ratio = ca.if_else(is_worse, ratio, worst_ratio)
+                    worst_joint = ca.if_else(is_worse, k, worst_joint)
+                    worst_bound = ca.if_else(is_worse, limit, worst_bound)
                 newly_fixed = [ca.if_else(worst_joint == k, 1.0, 0.0) if k in bounded else ca.SX(0) for k in range(n)]
                 fixed_rates = ca.vertcat(*[fixed_rates[k] + newly_fixed[k] * worst_bound for k in range(n)])
                 free = ca.vertcat(*[free[k] * (1 - newly_fixed[k]) for k in range(n)])

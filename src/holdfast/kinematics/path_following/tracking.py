@@ -166,14 +166,8 @@ def follow(
         if best
         else (None, None)
     )
-    plain_options: dict[str, Any] = {
-        "minimise": minimise,
-        "maximise": maximise,
-        "rate_cap": rate_cap,
-        "task": resolved_task,
-        "q": start,
-    }
-    plain_options |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
+    plain_options: dict[str, Any] = {"minimise": minimise, "maximise": maximise, "rate_cap": rate_cap, "task": resolved_task}
+    plain_options |= {"q": start, "samples": samples, "limits": limits, "damping": damping, "seed": seed}
     plain_options |= {"clearance": resolved_clearance, "margin": margin}
     trajectory = Trajectory(
         arm=arm,
@@ -277,9 +271,8 @@ def _find_start(
     )
     if not engine.check_solutions(start[None], first_pose[None], 1e-3)[0]:
         raise InputError(
-            f"the start q is {position_error:.3g} m and {rotation_error:.3g} rad from the first pose of the path, or "
-            f"outside the joint "
-            "limits; leave it out to have one found"
+            f"the start q is {position_error:.3g} m and {rotation_error:.3g} rad from the first pose of the path, or outside "
+            "the joint limits; leave it out to have one found"
         )
     if clearance is not None and float(clearance.margin_left(start)) < margin:
         raise InputError(f"at the start q the arm {clearance.too_close(margin, start)}; leave it out to have one found")

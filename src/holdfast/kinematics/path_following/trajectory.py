@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,8 +10,8 @@ import numpy as np
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError, StoreError
-from holdfast.core.files.output import guard_writing, open_replacement
-from holdfast.core.files.spreadsheet import escape_formula
+from holdfast.core.files.csv_table import write_rows
+from holdfast.core.files.output import guard_writing
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
@@ -213,11 +212,8 @@ class Trajectory(Result):
             StoreError: The file cannot be written.
         """
         table = self.columns()
-        with open_replacement(Path(path), "motion") as file:
-            writer = csv.writer(file)
-            writer.writerow(map(escape_formula, table))
-            writer.writerows(zip(*[[repr(float(number)) for number in column] for column in table.values()], strict=True))
-        return Path(path)
+        columns = (np.asarray(column, dtype=np.float64).tolist() for column in table.values())
+        return write_rows(path, table, zip(*columns, strict=True), "motion")
 
     def to_parquet(self, path: str | Path) -> Path:
         """Write the same table as Parquet.

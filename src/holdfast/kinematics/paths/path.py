@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.result import Presentable
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.paths.timing import Trapezoid
 from holdfast.model.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
@@ -72,10 +72,8 @@ class Path(Presentable):
     def corners(self) -> FloatArray:
         """Values (C,) of s, inside the path, at which the twist jumps."""
         junctions = self.bounds[1:-1]
-        twist_before, twist_after = (
-            self._leg_twist(junctions, np.arange(junctions.size)),
-            self._leg_twist(junctions, np.arange(1, junctions.size + 1)),
-        )
+        twist_before = self._leg_twist(junctions, np.arange(junctions.size))
+        twist_after = self._leg_twist(junctions, np.arange(1, junctions.size + 1))
         return np.asarray(
             junctions[
                 np.linalg.norm(twist_after - twist_before, axis=1) > _CORNER_TOLERANCE * np.linalg.norm(twist_before, axis=1)
@@ -156,12 +154,12 @@ class Path(Presentable):
         """
         return load_path_file(file)[0]
 
-    def _locate(self, s: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    def _locate(self, s: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the leg (N,) and the parameter u (N,) from 0 to 1 on it, of s (N,)."""
         leg = np.clip(np.searchsorted(self.bounds, s, side="right") - 1, 0, len(self.starts) - 1)
         return leg, (s - self.bounds[leg]) / np.diff(self.bounds)[leg]
 
-    def _leg_twist(self, s: FloatArray, leg: NDArray[np.intp]) -> FloatArray:
+    def _leg_twist(self, s: FloatArray, leg: IndexArray) -> FloatArray:
         """Return :meth:`twist` on legs (N,) that contain s (N,) or end at it."""
         leg_fractions = np.diff(self.bounds)[leg]
         u = (s - self.bounds[leg]) / leg_fractions

@@ -25,7 +25,6 @@ Where no pose has an orientation, none is asked for (task ``position``). A pose 
 
 from __future__ import annotations
 
-import csv
 import pathlib
 from typing import Annotated, Any, Literal
 
@@ -33,7 +32,7 @@ import numpy as np
 from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast.core.errors import InputError
-from holdfast.core.files import reading
+from holdfast.core.files.csv_table import read_csv_table
 from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotations_of_quaternions
@@ -115,10 +114,8 @@ def _shape_and_arguments(model: _PathFile, file: pathlib.Path) -> tuple[Shape, d
     if sum(entry is not None for entry in (model.line, model.arc, model.poses)) != 1:
         raise InputError("it must hold one of 'line:', 'arc:' and 'poses:'")
     if model.line is not None:
-        start_pose, end_pose = (
-            _pose_array(model.line.start, radians_per_unit, "line.from"),
-            _pose_array(model.line.to, radians_per_unit, "line.to"),
-        )
+        start_pose = _pose_array(model.line.start, radians_per_unit, "line.from")
+        end_pose = _pose_array(model.line.to, radians_per_unit, "line.to")
         return "line", {"start": start_pose, "end": end_pose, "name": name}
     if model.arc is not None:
         arc = model.arc
@@ -176,30 +173,16 @@ def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[FloatArra
     Raises:
         InputError: What is wrong with which row.
     """
-    try:
-        with reading.guard_reading(f"{option}: '{file.name}'", "give a CSV file that exists"):
-            lines = [[cell.strip() for cell in row] for row in csv.reader(reading.read_text(file).splitlines()) if row]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{option}: '{file.name}' is not a CSV file ({error})") from error
-    names = tuple(lines[0]) if lines else ()
-    if sorted(names) not in (sorted(POSITION_COLUMNS), sorted(POSITION_COLUMNS + QUATERNION_COLUMNS)):
+    table = read_csv_table(file, f"{option}: '{file.name}'")
+    names = (*POSITION_COLUMNS, *QUATERNION_COLUMNS)[: 3 if len(table.header) == 3 else 7]
+    if sorted(table.header) != sorted(names):
         raise InputError(
-            f"{option}: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(names)}"
+            f"{option}: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(table.header)}"
         )
-    poses = []
-    for index, cells in enumerate(lines[1:]):
-        location = f"{option}: '{file.name}', row {index + 1}"
-        try:
-            row = dict(zip(names, map(float, cells), strict=True))
-        except ValueError as error:
-            raise InputError(f"{location}: it must hold {len(names)} numbers, got {','.join(cells)}") from error
-        if not np.isfinite(list(row.values())).all():
-            raise InputError(f"{location}: it holds NaN or infinity; all numbers must be finite")
-        position = np.array([row[column] for column in POSITION_COLUMNS])
-        has_orientation = len(names) > 3
-        poses.append(
-            _assemble_pose(position, _rotation_matrix(np.array([row[column] for column in QUATERNION_COLUMNS]), location))
-            if has_orientation
-            else position
-        )
-    return poses
+    rows = table.select_columns(names) if table.numbered_lines else np.zeros((0, len(names)))
+    if len(names) == 3:
+        return list(rows)
+    return [
+        _assemble_pose(row[:3], _rotation_matrix(row[3:], f"{table.title}, line {number}"))
+        for (number, _), row in zip(table.numbered_lines, rows, strict=True)
+    ]

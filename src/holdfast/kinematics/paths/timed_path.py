@@ -94,26 +94,20 @@ class TimedPath(Presentable):
         return float(self.timing.duration)
 
     def pose(self, t: ArrayLike) -> FloatArray:
-        """Return the tool pose in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,); constant before 0 and
-        after the end.
-        """
+        """Return the tool pose at time t, s, in the world: (4, 4), or (N, 4, 4) for t (N,), constant outside the path."""
         return self.path.pose(self._path_parameters(_check_times(t)))
 
     def twist(self, t: ArrayLike) -> FloatArray:
-        """Return the twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world frame; 0 before 0 and after the
-        end.
-        """
+        """Return the twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world; 0 outside the path."""
         times = _check_times(t)
         return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._timing_with_stops.rate, times)
 
     def twist_rate(self, t: ArrayLike) -> FloatArray:
         """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
         times = _check_times(t)
-        parameters, rate, acceleration = (
-            self._path_parameters(times),
-            self._evaluate_column(self._timing_with_stops.rate, times),
-            self._evaluate_column(self._timing_with_stops.acceleration, times),
-        )
+        parameters = self._path_parameters(times)
+        rate = self._evaluate_column(self._timing_with_stops.rate, times)
+        acceleration = self._evaluate_column(self._timing_with_stops.acceleration, times)
         return self.path.twist_slope(parameters) * rate**2 + self.path.twist(parameters) * acceleration
 
     def stretch(self, factor: float) -> TimedPath:

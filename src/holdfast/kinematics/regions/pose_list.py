@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.files import reading
-from holdfast.core.typing import FloatArray
+from holdfast.core.files.csv_table import read_csv_table
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kinematics.regions.weights import check_weights
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
@@ -91,12 +88,12 @@ class PoseList:
     def __hash__(self) -> int:
         return hash(self.rows.tobytes())
 
-    def sample_indices(self, uniform: FloatArray) -> NDArray[np.int64]:
+    def sample_indices(self, uniform: FloatArray) -> IndexArray:
         """Return the indices from 0 of the poses for uniform numbers (B,) in [0, 1), each pose in proportion to its weight."""
         cumulative = np.cumsum(np.ones(len(self)) if self.weights is None else self.weights)
         return np.asarray(np.searchsorted(cumulative / cumulative[-1], uniform, side="right"))
 
-    def pose_matrices(self, indices: NDArray[np.int64]) -> FloatArray:
+    def pose_matrices(self, indices: IndexArray) -> FloatArray:
         """Return the poses (B, 4, 4) with the given indices (B,)."""
         from scipy.spatial.transform import Rotation
 
@@ -130,48 +127,20 @@ class PoseList:
         Raises:
             InputError: Unreadable, or a column or number that is missing, unknown or wrong; the message names it.
         """
-        try:
-            with reading.guard_reading(f"poses '{path}'"):
-                text = reading.read_text(path)
-        except UnicodeDecodeError as error:
-            raise InputError(f"poses '{path}' are not text in UTF-8; save the table as CSV") from error
-        try:
-            return cls._parse_csv(csv.reader(io.StringIO(text)))
-        except csv.Error as error:
-            raise InputError(f"poses '{path}' are not a CSV table: {error}") from error
-        except InputError as error:
-            raise InputError(f"poses '{path}': {error}") from error
-
-    @classmethod
-    def _parse_csv(cls, lines: Iterable[list[str]]) -> PoseList:
-        table = [(line_number, cells) for line_number, cells in enumerate(lines, 1) if any(entry.strip() for entry in cells)]
-        header = [entry.strip() for entry in table[0][1]] if table else []
-        for name in header:
-            if name not in (*POSE_COLUMNS, "weight") or header.count(name) > 1:
-                problem = "is given twice" if header.count(name) > 1 else "is not known"
-                raise InputError(
-                    f"column '{name}' {problem}; the first line must name {', '.join(POSE_COLUMNS)} and perhaps weight"
-                )
-        missing = [name for name in POSE_COLUMNS if name not in header]
+        table = read_csv_table(path, f"poses '{path}'")
+        columns = f"{', '.join(POSE_COLUMNS)} and perhaps weight"
+        for name in table.header:
+            if name not in (*POSE_COLUMNS, "weight") or table.header.count(name) > 1:
+                problem = "is given twice" if table.header.count(name) > 1 else "is not known"
+                raise InputError(f"{table.title}: column '{name}' {problem}; the first line must name {columns}")
+        missing = [name for name in POSE_COLUMNS if name not in table.header]
         if missing:
-            raise InputError(
-                f"column '{missing[0]}' is missing; the first line must name {', '.join(POSE_COLUMNS)} and perhaps weight"
-            )
-        numbers = []
-        for line, cells in table[1:]:
-            if len(cells) != len(header):
-                raise InputError(f"line {line} has {len(cells)} cells; the header has {len(header)}")
-            try:
-                numbers.append([float(entry) for entry in cells])
-            except ValueError as error:
-                raise InputError(f"line {line}: {error}; every cell must be a number") from error
-        if not numbers:
-            raise InputError("there are no poses below the header; give at least one")
-        array = np.array(numbers)
-        return cls(
-            array[:, [header.index(entry) for entry in POSE_COLUMNS]],
-            array[:, header.index("weight")] if "weight" in header else None,
-        )
+            raise InputError(f"{table.title}: column '{missing[0]}' is missing; the first line must name {columns}")
+        numbers = table.select_columns([*POSE_COLUMNS, "weight"] if "weight" in table.header else POSE_COLUMNS)
+        try:
+            return cls(numbers[:, :7], numbers[:, 7] if "weight" in table.header else None)
+        except InputError as error:
+            raise InputError(f"{table.title}: {error}") from error
 
     def to_csv(self) -> str:
         """Return the CSV text that :meth:`read_csv` reads, with every digit."""

@@ -275,12 +275,8 @@ class Region(Presentable):
                 f"region of joints: lower {lower_values[index]:g} of joint {index + 1} is above upper "
                 f"{upper_values[index]:g}; swap them"
             )
-        return cls(
-            "joints",
-            tuple(((lower_values + upper_values) / 2).tolist()),
-            tuple((upper_values - lower_values).tolist()),
-            name=name,
-        )
+        center, size = (lower_values + upper_values) / 2, upper_values - lower_values
+        return cls("joints", tuple(center.tolist()), tuple(size.tolist()), name=name)
 
     @classmethod
     @check_arguments
@@ -557,12 +553,10 @@ class Region(Presentable):
                 f"uniform on the cap{weight}"
             )
         return (
-            f"{positions}roll, pitch, yaw in "
-            f"{np.rad2deg(rounded_size[5]):.4g} x {np.rad2deg(rounded_size[4]):.4g} x "
-            f"{np.rad2deg(rounded_size[3]):.4g} deg about "
-            f"({np.rad2deg(rounded_center[5]):.4g}, {np.rad2deg(rounded_center[4]):.4g}, "
-            f"{np.rad2deg(rounded_center[3]):.4g}) deg, R = Rz(yaw) Ry(pitch) Rx(roll)"
-            f"{weight}"
+            f"{positions}roll, pitch, yaw in {np.rad2deg(rounded_size[5]):.4g} x {np.rad2deg(rounded_size[4]):.4g} x "
+            f"{np.rad2deg(rounded_size[3]):.4g} deg about ({np.rad2deg(rounded_center[5]):.4g}, "
+            f"{np.rad2deg(rounded_center[4]):.4g}, {np.rad2deg(rounded_center[3]):.4g}) deg, R = Rz(yaw) Ry(pitch) "
+            f"Rx(roll){weight}"
         )
 
 
@@ -581,9 +575,7 @@ def builtin_region(arm: str) -> Region | None:
 
 
 def _well_conditioned_configuration(arm: Arm, reach: float) -> FloatArray:
-    """Return the best conditioned of 256 configurations (n,) about the middle of the joint ranges; lengths are divided by the
-    arm's reach, m.
-    """
+    """Return the best conditioned of 256 configurations (n,) about the middle of the ranges, lengths per reach, m."""
     lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
     upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
     offsets = np.random.default_rng(0).random((256, arm.n)) - 0.5

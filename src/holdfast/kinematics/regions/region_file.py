@@ -62,10 +62,8 @@ def read_region_file(file: Path) -> tuple[Literal["box", "cone", "joints", "pose
             coordinate: [(value * units_by_angle.get(coordinate, 1.0), weight_value) for value, weight_value in points]
             for coordinate, points in (box.density or {}).items()
         }
-        size, angle_size = (
-            np.broadcast_to(box.size, 3),
-            np.broadcast_to(0.0 if box.rpy_size is None else box.rpy_size, 3) * radians_per_unit,
-        )
+        size = np.broadcast_to(box.size, 3)
+        angle_size = np.broadcast_to(0.0 if box.rpy_size is None else box.rpy_size, 3) * radians_per_unit
         if box.cone is not None:
             if box.rpy_center is not None or box.rpy_size is not None:
                 raise InputError(f"region file '{file}': box.cone takes the place of rpy_center and rpy_size; leave them out")
@@ -125,7 +123,7 @@ class _RegionFile(_StrictModel):
 
 def _first_error_message(error: ValidationError) -> str:
     entry = error.errors()[0]
-    location = _join_location([key for key in entry["loc"] if key not in ("float", "tuple[float, float, float]")])
+    location = ".".join(str(key) for key in entry["loc"] if key not in ("float", "tuple[float, float, float]"))
     if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
         return f"{location}: must be one number or 3, got {reprlib.repr(entry['input'])}"
     if entry["type"] == "extra_forbidden":
@@ -134,10 +132,6 @@ def _first_error_message(error: ValidationError) -> str:
     if entry["type"] == "missing":
         return f"key '{location}' is missing"
     return f"{location}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
-
-
-def _join_location(loc: Sequence[int | str]) -> str:
-    return ".".join(str(key) for key in loc)
 
 
 def _known_keys(loc: Sequence[int | str]) -> list[str]:

@@ -36,9 +36,7 @@ def check_weights(weights: ArrayLike, count: int, label: str) -> FloatArray:
 
 
 def swap_roll_and_yaw(points: Mapping[str, Points]) -> dict[str, Points]:
-    """Swap roll and yaw, because samples are stored in the order of Abdi et al. 2012, which names them the other way round than
-    URDF.
-    """
+    """Swap roll and yaw, because samples have the order of Abdi et al. 2012, whose names are the reverse of URDF's."""
     return {{"roll": "yaw", "yaw": "roll"}.get(name, name): value for name, value in points.items()}
 
 

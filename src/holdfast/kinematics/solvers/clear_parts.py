@@ -14,9 +14,8 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 
 MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
-_MAX_STRAY_FRACTION = (
-    0.25  # of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it
-)
+# Of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it.
+_MAX_STRAY_FRACTION = 0.25
 _LENGTH_FACTOR = 1.1  # a curve is longer than the straight piece between two of its points by less than this
 
 
@@ -36,9 +35,7 @@ class CurveConstraint:
 
     @classmethod
     def from_clearance(cls, clearance: Clearance, margin: float) -> CurveConstraint:
-        """Return the distance of every pair of a clearance above its margin, for configurations within the limits
-        of its arm.
-        """
+        """Return the distance of every pair of a clearance above its margin, for configurations within its arm's limits."""
 
         def evaluate_margins(q: FloatArray) -> FloatArray:
             return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
@@ -113,8 +110,6 @@ class CurveConstraint:
         return parts
 
     def _find_blocking_pair(self, inside: FloatArray, outside: FloatArray) -> str:
-        """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is
-        known beyond.
-        """
+        """Name the pair at the end of a part: the smallest margin just beyond the end, or at the end if none is known."""
         margins = outside if np.isfinite(outside).all() else inside
         return self.pair_names[int(np.argmin(margins))]

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import ProgressCount
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm, factor_householder
@@ -56,7 +55,7 @@ class Component:
     barred_by: tuple[str, str] = ("", "")
 
     @property
-    def winding(self) -> NDArray[np.int64]:
+    def winding(self) -> IndexArray:
         """Full revolutions (n,) of each joint along a closed curve; 0 on others.
 
         Not 0: the joint takes every angle, which no spacing of the points blurs.
@@ -77,9 +76,7 @@ class Component:
 
 
 def _interpolated_maximum(x: FloatArray, closed: bool) -> float:
-    """Return the largest value of a smooth curve with points x (K,), by the parabola through the largest point and its
-    neighbors.
-    """
+    """Return the largest value of a smooth curve with points x (K,), by a parabola at the largest point and its neighbors."""
     index, count = int(x.argmax()), len(x)
     if count < 3 or (not closed and index in (0, count - 1)):
         return float(x[index])
@@ -97,8 +94,8 @@ class _CurveRun:
     q: FloatArray
     tangent: FloatArray
     points: list[FloatArray]
-    closed: NDArray[np.bool_]
-    limit: NDArray[np.int64]  # joint, or -1
+    closed: BoolArray
+    limit: IndexArray  # joint, or -1
 
 
 class ManifoldTracer:
@@ -141,18 +138,15 @@ class ManifoldTracer:
         errors, jacobian = ca.vertcat(errors, ca.SX.zeros(fixed_count, 1)), ca.vertcat(jacobian, *fixed_rows)
         is_moving = 1 - ca.sum1(fixed_rows[0]) if fixed_rows else ca.SX.ones(1, arm.n)
         basis = factor_householder(jacobian).null_space_basis()
-        null_vectors = [
-            basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)
-        ]  # not even by rounding
+        # Not even by rounding.
+        null_vectors = [basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)]
         correction = damped_least_norm(jacobian, errors, 1e-14) * is_moving.T
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
         return Kernel(
             "self-motion", [q, position, rotation, *fixed_rows], [ca.vertcat(q + correction, ca.norm_2(errors), *null_vectors)]
         )
 
-    def find_seeds(
-        self, poses: FloatArray, pose_indices: NDArray[np.intp], seed: int, starts: int
-    ) -> tuple[NDArray[np.intp], FloatArray]:
+    def find_seeds(self, poses: FloatArray, pose_indices: IndexArray, seed: int, starts: int) -> tuple[IndexArray, FloatArray]:
         """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
@@ -161,16 +155,12 @@ class ManifoldTracer:
         q, converged = self._solve_from_starts(random_starts[pose_indices].reshape(-1, self.arm.n), poses[owner])
         return owner[converged], q[converged]
 
-    def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """Solve inverse kinematics from starts q (N, n); return the ends, and whether each is on the pose and within the
-        limits.
-        """
+    def _solve_from_starts(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Solve inverse kinematics from starts q (N, n); return the ends, and which are on the pose within the limits."""
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
-    def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
-        """Move configurations (N, n) back to their poses; return them, whether that worked, and null vectors (N, free, n)
-        there.
-        """
+    def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray, FloatArray]:
+        """Move configurations (N, n) back to their poses; return them, where that worked, and null vectors (N, free, n)."""
         n = self.arm.n
         positions, rotations = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for steps_left in reversed(range(_CORRECTOR_STEPS)):
@@ -194,14 +184,12 @@ class ManifoldTracer:
     def trace_curves(
         self,
         poses: FloatArray,
-        pose_of_seed: NDArray[np.intp],
+        pose_of_seed: IndexArray,
         q: FloatArray,
         spacing: float,
         curves_by_pose: list[list[Component]],
     ) -> list[list[Component]]:
-        """Add to the curves ``curves_by_pose`` of each pose every other curve through a seed q (S, n) of pose ``pose_of_seed``
-        (S,).
-        """
+        """Add to ``curves_by_pose`` every other curve through a seed q (S, n) of pose ``pose_of_seed`` (S,)."""
         pending = np.ones(pose_of_seed.size, dtype=bool)
         for pose_index in np.unique(pose_of_seed):
             for component in curves_by_pose[pose_index]:
@@ -225,10 +213,10 @@ class ManifoldTracer:
 
     def _drop_seeds(
         self,
-        pending: NDArray[np.bool_],
+        pending: BoolArray,
         component: Component,
         pose: np.intp,
-        pose_of_seed: NDArray[np.intp],
+        pose_of_seed: IndexArray,
         q: FloatArray,
         spacing: float,
     ) -> None:
@@ -255,11 +243,7 @@ class ManifoldTracer:
             q, converged = self._solve_from_starts(np.array([start for _, start in starts]), poses[owner])
             known_counts = [len(curves) for curves in curves_by_pose]
             self.trace_curves(poses, owner[converged], q[converged], spacing, curves_by_pose)
-            new_curves = [
-                (pose_index, curve)
-                for pose_index, curves in enumerate(curves_by_pose)
-                for curve in curves[known_counts[pose_index] :]
-            ]
+            new_curves = [(k, curve) for k, curves in enumerate(curves_by_pose) for curve in curves[known_counts[k] :]]
         return curves_by_pose
 
     def _trace_both_ways(self, q: FloatArray, poses: FloatArray, spacing: float) -> list[Component | None]:
@@ -320,11 +304,8 @@ class ManifoldTracer:
             travelled[rows] += distance[is_taken]
             step[rows] = np.minimum(2 * step[rows], spacing)
             step[active[~is_accepted]] *= 0.5
-            has_ended = (
-                at_limit
-                | (~is_accepted & (step[active] < _MIN_STEP_FRACTION * spacing))
-                | (travelled[active] > _MAX_CURVE_LENGTH)
-            )
+            is_too_short = ~is_accepted & (step[active] < _MIN_STEP_FRACTION * spacing)
+            has_ended = at_limit | is_too_short | (travelled[active] > _MAX_CURVE_LENGTH)
             has_ended |= np.isin(active, rows[is_closed])
             active = active[~has_ended]
         all_rows = np.concatenate(taken_rows)
@@ -332,7 +313,7 @@ class ManifoldTracer:
         run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(all_rows[order], np.arange(1, len(q))))
         return run
 
-    def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+    def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, IndexArray]:
         """Return the fraction (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
         displacement = new - q
         distance_to_limit = np.where(displacement > 0, self.arm.upper - q, self.arm.lower - q)
@@ -341,10 +322,8 @@ class ManifoldTracer:
             fraction = np.where(outside, np.maximum(distance_to_limit / displacement, 0.0), 1.0)
         return fraction.min(axis=1), fraction.argmin(axis=1)
 
-    def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
-        """Return True where the step from q to new (N, n) passes the first point of the curve, in the direction of
-        its start.
-        """
+    def _closes_curve(self, q: FloatArray, new: FloatArray, first: FloatArray, direction: FloatArray) -> BoolArray:
+        """Return True where the step from q to new (N, n) passes the curve's first point, in the direction of its start."""
         before, after = (joint_space.joint_difference(self.arm, point, first) for point in (q, new))
         crosses = (np.einsum("ij,ij->i", before, direction) < 0) & (np.einsum("ij,ij->i", after, direction) >= 0)
         step_length = np.linalg.norm(new - q, axis=1)
@@ -413,7 +392,7 @@ def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
     return segments
 
 
-def _count_earlier_equals(owner: NDArray[np.intp]) -> NDArray[np.intp]:
+def _count_earlier_equals(owner: IndexArray) -> IndexArray:
     """Return (S,) the number of earlier entries that are equal to each entry."""
     order = np.argsort(owner, kind="stable")
     first = np.searchsorted(owner[order], owner[order])

@@ -61,10 +61,8 @@ def minimise_constrained(
             break
         step, multipliers = first
         penalties = np.maximum(np.abs(multipliers), (np.abs(multipliers) + penalties) / 2)
-        merit, directional_derivative = (
-            cost + penalties @ violation(constraints),
-            gradient @ step - penalties @ violation(constraints),
-        )
+        merit = cost + penalties @ violation(constraints)
+        directional_derivative = gradient @ step - penalties @ violation(constraints)
         correction = np.zeros(n)  # towards where the constraints hold that bend away from the step
         for fraction in (1.0, *0.5 ** np.arange(_MAX_HALVINGS)):
             candidate = np.clip(x + fraction * step + fraction**2 * correction, low, high)

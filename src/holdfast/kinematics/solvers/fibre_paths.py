@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status, require_ok
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.best_paths import BestPathTable, NodeMoves, bound_move_length
 from holdfast.kinematics.solvers.self_motions import TRACING_STARTS, SelfMotion, fibres
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
@@ -124,23 +125,28 @@ def best_path_over(
     step_limit = _read_rate_limit(arm, rate_limit)
     points = [manifold.q for manifold in found]
     values = _evaluate_points(objective_value, points)
-    steps = [
-        _Transitions(arm, from_points, to_points, manifold.spacing, step_limit)
-        for from_points, to_points, manifold in zip(points[:-1], points[1:], found, strict=False)
-    ]
+    moves, reach = zip(
+        *(
+            _find_moves(arm, before, after, manifold.spacing, step_limit)
+            for before, after, manifold in zip(points[:-1], points[1:], found, strict=False)
+        ),
+        strict=True,
+    )
     best = [int(np.argmin(pose_values)) if np.isfinite(pose_values).any() else -1 for pose_values in values]
-    smallest = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, best, strict=True)])
     finite_values = np.concatenate(values)[np.isfinite(np.concatenate(values))]
     weight = motion * float(np.median(finite_values) - finite_values.min()) if finite_values.size else 0.0
-    chosen, gaps = _choose_points_and_gaps(values, steps, weight, cost)
-    no_configuration = np.full(arm.n, np.nan)
-    q = np.array(
-        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, chosen, strict=True)]
-    )
-    global_q = np.array(
-        [pose_points[index] if index >= 0 else no_configuration for pose_points, index in zip(points, best, strict=True)]
-    )
-    value = np.array([pose_values[index] if index >= 0 else np.nan for pose_values, index in zip(values, chosen, strict=True)])
+    chosen, gaps = _choose_points_and_gaps(values, moves, weight, cost)
+
+    def take_points(indices: list[int]) -> tuple[FloatArray, FloatArray]:
+        """Return the configurations (T, n) with these indices, and their values (T,); NaN where the index is -1."""
+        no_configuration, chosen_points = np.full(arm.n, np.nan), list(zip(points, values, indices, strict=True))
+        return (
+            np.array([pose_points[index] if index >= 0 else no_configuration for pose_points, _, index in chosen_points]),
+            np.array([pose_values[index] if index >= 0 else np.nan for _, pose_values, index in chosen_points]),
+        )
+
+    q, value = take_points(chosen)
+    global_q, smallest = take_points(best)
     status = np.array([manifold.status for manifold in found], dtype=np.uint8)
     status[(np.array(best) < 0) & (status == Status.OK)] = Status.UNDEFINED
     return FibrePath(
@@ -149,101 +155,67 @@ def best_path_over(
         global_value=smallest,
         global_q=global_q,
         gaps=np.array(gaps, dtype=np.int64),
-        reach=np.array([step.reach for step in steps]),
+        reach=np.array(reach),
         status=status,
     )
 
 
-class _Transitions:
-    """The allowed moves from the points of one manifold to those of the next.
-
-    Attributes:
-        reach: Largest distance.
-        source, target: (P,) the points of each allowed move.
-        size: (P,) its length, as a share of the reach.
-    """
-
-    def __init__(
-        self, arm: Arm, from_points: FloatArray, to_points: FloatArray, spacing: float, limit: FloatArray | None
-    ) -> None:
-        self.source = self.target = np.empty(0, dtype=np.int64)
-        self.size, self.reach = np.empty(0), np.nan
-        if not len(from_points) or not len(to_points):
-            return
-        if limit is None:
-            self.reach = 3 * spacing + 2 * float(np.median(joint_space.find_nearest(arm, to_points, from_points)[0]))
-        else:
-            self.reach = float(np.linalg.norm(limit + spacing))
-        target_tree = joint_space.build_tree(arm, to_points)
-        pairs = joint_space.build_tree(arm, from_points).sparse_distance_matrix(target_tree, self.reach, output_type="ndarray")
-        self.source, self.target = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64)
-        self.size = pairs["v"] / self.reach
-        if limit is not None:
-            within_limit = (
-                np.abs(joint_space.joint_difference(arm, to_points[self.target], from_points[self.source])) <= limit + spacing
-            )
-            allowed = within_limit.all(axis=1)
-            self.source, self.target, self.size = self.source[allowed], self.target[allowed], self.size[allowed]
+def _find_moves(
+    arm: Arm, before: FloatArray, after: FloatArray, spacing: float, limit: FloatArray | None
+) -> tuple[NodeMoves, float]:
+    """Return the allowed moves between the points of two manifolds, in units of the largest distance, and this distance."""
+    if not len(before) or not len(after):
+        return NodeMoves(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0), np.empty(0)), np.nan
+    if limit is None:
+        reach = bound_move_length(spacing, joint_space.find_nearest(arm, after, before)[0])
+    else:
+        reach = float(np.linalg.norm(limit + spacing))
+    target_tree = joint_space.build_tree(arm, after)
+    pairs = joint_space.build_tree(arm, before).sparse_distance_matrix(target_tree, reach, output_type="ndarray")
+    pairs = pairs[np.argsort(pairs["j"], kind="stable")]
+    sources, targets, excesses = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64), np.zeros(len(pairs))
+    if limit is not None:
+        joint_steps = np.abs(joint_space.joint_difference(arm, after[targets], before[sources]))
+        excesses = np.where(joint_steps <= limit + spacing, 0.0, np.inf).max(axis=1, initial=0.0)
+    return NodeMoves(targets, sources, (pairs["v"] / reach) ** 2, excesses), reach
 
 
 def _choose_points_and_gaps(
-    values: list[FloatArray], steps: list[_Transitions], weight: float, cost: str
+    values: list[FloatArray], moves: Sequence[NodeMoves], weight: float, cost: str
 ) -> tuple[list[int], list[int]]:
     """Choose a point at each pose (-1: none exists), and return the gaps too."""
-    chosen: list[int] = [-1] * len(values)
+    gains = [-pose_values for pose_values in values]
+    chosen: list[int] = [-1] * len(gains)
     gaps: list[int] = []
     t = 0
-    while t < len(values):
-        if np.isfinite(values[t]).any():
-            end = _last_reached(values, steps, t)
-            stretch_values, stretch_steps = values[t : end + 1], steps[t:end]
+    while t < len(gains):
+        if np.isfinite(gains[t]).any():
+            stretch_gains = gains[t:]
             if cost == "max":
-                largest_value, _ = _cheapest_path(stretch_values, stretch_steps, np.maximum, 0.0)
-                stretch_values = [np.where(pose_values <= largest_value, pose_values, np.inf) for pose_values in stretch_values]
-            chosen[t : end + 1] = _cheapest_path(stretch_values, stretch_steps, np.add, weight)[1]
-            t = end
-        if t + 1 < len(values):
+                nodes = _find_best_nodes(stretch_gains, moves[t:], 0.0, np.minimum)
+                stretch_gains = stretch_gains[: len(nodes)]
+                least_gain = min(gain[node] for gain, node in zip(stretch_gains, nodes, strict=True))
+                stretch_gains = [np.where(gain >= least_gain, gain, -np.inf) for gain in stretch_gains]
+            nodes = _find_best_nodes(stretch_gains, moves[t : t + len(stretch_gains) - 1], weight, np.add)
+            chosen[t : t + len(nodes)] = nodes.tolist()
+            t += len(nodes) - 1
+        if t + 1 < len(gains):
             gaps.append(t)
         t += 1
     return chosen, gaps
 
 
-def _last_reached(values: list[FloatArray], steps: list[_Transitions], start: int) -> int:
-    """Return the last pose to which some point of pose ``start`` leads."""
-    is_reached = np.isfinite(values[start])
-    for t in range(start, len(steps)):
-        next_reached = np.zeros(values[t + 1].size, dtype=bool)
-        next_reached[steps[t].target[is_reached[steps[t].source]]] = True
-        next_reached &= np.isfinite(values[t + 1])
-        if not next_reached.any():
-            return t
-        is_reached = next_reached
-    return len(steps)
-
-
-def _cheapest_path(
-    values: list[FloatArray],
-    steps: list[_Transitions],
-    combine_values: Callable[[FloatArray, FloatArray], FloatArray],
+def _find_best_nodes(
+    gains: list[FloatArray],
+    moves: Sequence[NodeMoves],
     weight: float,
-) -> tuple[float, list[int]]:
-    """Return the smallest joined value of the paths from the first pose to the last, and the points of one such path."""
-    total = values[0]
-    predecessors: list[IndexArray] = []
-    for value, step in zip(values[1:], steps, strict=True):
-        costs = total[step.source] + weight * step.size**2
-        order = np.lexsort((costs, step.target))
-        target, first = np.unique(step.target[order], return_index=True)
-        previous = np.full(value.size, -1)
-        previous[target] = step.source[order[first]]
-        total = np.full(value.size, np.inf)
-        total[target] = combine_values(costs[order[first]], value[target])
-        predecessors.append(previous)
-    last_point = int(np.argmin(total))
-    points = [last_point]
-    for previous in reversed(predecessors):
-        points.append(int(previous[points[-1]]))
-    return float(total[last_point]), points[::-1]
+    combine_gains: Callable[[FloatArray, FloatArray], FloatArray],
+) -> IndexArray:
+    """Return the nodes of the best motion from the first pose to the last that can be reached."""
+    table = BestPathTable(gains, move_weight=weight, combine_gains=combine_gains)
+    for step in moves:
+        table.advance_to_next_pose(step)
+    return table.trace_best_motion()
 
 
 def _evaluate_points(objective_value: Objective, points: list[FloatArray]) -> list[FloatArray]:
@@ -272,7 +244,7 @@ def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> FloatArray | Non
 def _unwrap_path(arm: Arm, q: FloatArray) -> FloatArray:
     """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
     displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
-    unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
+    unbroken: BoolArray = np.asarray(np.isfinite(q).all(axis=1))
     unwrapped = q.copy()
     for t in range(1, len(q)):
         if unbroken[t] and unbroken[t - 1]:

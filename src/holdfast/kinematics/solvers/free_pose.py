@@ -17,9 +17,8 @@ from holdfast.kinematics.solvers.optimum import Ascent, Optimum
 FREE_STARTS = 10_000
 _SAMPLES_PER_START = 20  # random configurations for each start
 _CHECKED_PER_START = 8  # of them, for each start, are looked at for collisions
-# _FIRST_STEPS and _LAST_STEPS: steps of all starts, and of those that are followed to the end
-_FIRST_STEPS = 8
-_LAST_STEPS = 80
+_FIRST_STEPS = 8  # steps of every start
+_LAST_STEPS = 80  # steps of the starts that are followed to the end
 _REFINED_FRACTION = 0.05  # of the starts
 _VALUE_TOLERANCE = 1e-7  # values that differ by less are all the same: nothing to climb, and nothing is compiled
 
@@ -77,9 +76,7 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
 
 
 def _ascend_starts(ascent: Ascent, q: FloatArray, retained: int) -> tuple[FloatArray, FloatArray]:
-    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end is not
-    collision-free.
-    """
+    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end collides."""
     has_clearance = ascent.clearance is not None
 
     def evaluate_worth(q: FloatArray) -> FloatArray:

@@ -15,7 +15,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import ProgressCount, reports_progress
 from holdfast.core.status import Status, require_ok
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -29,17 +29,15 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task
 
-Accept = Callable[[FloatArray], NDArray[np.bool_]]
+Accept = Callable[[FloatArray], BoolArray]
 
 MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
-# _HALF_TURN_SINE, _ZERO_SINE and _ROUNDING_SINE: sines of half a turn, of no turn, and of which nothing is left but rounding
-_HALF_TURN_SINE = 1e-6
-_ZERO_SINE = 1e-9
-_ROUNDING_SINE = 1e-15
+_HALF_TURN_SINE = 1e-6  # sine of a rotation by half a turn
+_ZERO_SINE = 1e-9  # sine of no rotation
+_ROUNDING_SINE = 1e-15  # sine that is only rounding
 _WAVE_ROWS = 8192  # rows of starts that run side by side when poses are left over
-# _ROW_MULTIPLIER and _START_MULTIPLIER: odd numbers: each row walks through the whole pool of starts
-_ROW_MULTIPLIER = 2654435761
-_START_MULTIPLIER = 40503
+_ROW_MULTIPLIER = 2654435761  # odd, so each row walks through the whole pool of starts
+_START_MULTIPLIER = 40503  # odd, too
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,10 +56,10 @@ class PoseSolutions:
     status: NDArray[np.uint8]
     position_error: FloatArray
     rotation_error: FloatArray
-    restarts: NDArray[np.int64]
+    restarts: IndexArray
 
     @property
-    def success(self) -> NDArray[np.bool_]:
+    def success(self) -> BoolArray:
         """Flags (N,) of the poses that are reached within tolerance and limits."""
         return np.asarray(self.status == Status.OK)
 
@@ -85,10 +83,8 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
     """
     error_rotation = target_rotation @ rotation.T
     skew_vector = _axis_times_sine(error_rotation)
-    sine, cosine = (
-        ca.sqrt(ca.sumsqr(skew_vector)),
-        0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1),
-    )
+    sine = ca.sqrt(ca.sumsqr(skew_vector))
+    cosine = 0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > _ZERO_SINE, angle / ca.if_else(sine > _ZERO_SINE, sine, 1.0), 1.0)
     # Near half a turn the skew part is too short to give the axis a, but says which way it points. The other part of R,
@@ -129,9 +125,7 @@ def _axis_times_sine(r: SX) -> SX:
 
 
 def pose_error_for_task(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the world-frame error (6,) of the end effector, of which a task takes its rows: the shortest rotation for the
-    task.
-    """
+    """Return the world-frame error (6,) of the end effector, of which a task takes its rows, by its shortest rotation."""
     return (pointing_error if _has_free_tool_rotation(task) else pose_error)(position, rotation, target, target_rotation)
 
 
@@ -152,18 +146,14 @@ def task_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_rota
 
 
 def scaled_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """Return :func:`task_error_and_jacobian` with lengths in units of :attr:`holdfast.Arm.length_unit`, for comparison with a
-    tolerance.
-    """
+    """Return :func:`task_error_and_jacobian` with lengths in units of :attr:`holdfast.Arm.length_unit`, for tolerances."""
     error, jacobian = task_error_and_jacobian(arm, task, q, target, target_rotation)
     scale = ca.sparsify(ca.SX(ca.DM(task.scale(arm.length_unit))))
     return scale @ error, scale @ jacobian
 
 
 def sine_task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the error of :func:`task_error_and_jacobian` with sines in place of angles: the same near 0, but
-    differentiable.
-    """
+    """Return the error of :func:`task_error_and_jacobian` with sines in place of angles: equal near 0, but differentiable."""
     chain = kinematics.kinematic_chain(arm, q)
     if _has_free_tool_rotation(task):
         rotation_vector = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
@@ -172,14 +162,15 @@ def sine_task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX
     return task.error(ca.vertcat(target - chain.position, rotation_vector), chain.rotation)
 
 
+def _append_free_joints(poses: FloatArray, joint_count: int, locked: IndexArray) -> FloatArray:
+    """Return flat poses (N, 12) and a mask (N, n) that is 0 for the joints ``locked`` (N, k) of each row."""
+    is_free = np.ones((len(poses), joint_count))
+    is_free[np.arange(len(poses))[:, None], locked] = 0.0
+    return np.concatenate([_flatten_poses(poses), is_free], axis=1)
+
+
 def _flatten_poses(poses: FloatArray) -> FloatArray:
     return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
-
-
-@dataclass(frozen=True)
-class _StartSearchResult:
-    q: FloatArray
-    restarts: NDArray[np.int64]
 
 
 class InverseKinematics:
@@ -228,16 +219,15 @@ class InverseKinematics:
 
     def attempt(
         self, q: FloatArray, poses: FloatArray, tolerance: float, fixed_joints: Sequence[int] = ()
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+    ) -> tuple[FloatArray, BoolArray]:
         """Try one start q (N, n) for each pose; return the ends, and whether each is on the pose and within the limits.
 
         Joints that are ``fixed_joints``, by index from 0, stay where they are.
         """
-        parameters, loop = _flatten_poses(poses), self._locked_damped_step_loop if fixed_joints else self._damped_step_loop
+        parameters, loop = _flatten_poses(poses), self._damped_step_loop
         if fixed_joints:
-            is_free = np.ones((len(q), self.arm.n))
-            is_free[:, fixed_joints] = 0.0
-            parameters = np.concatenate([parameters, is_free], axis=1)
+            locked = np.tile(np.array(fixed_joints, dtype=np.int64), (len(q), 1))
+            parameters, loop = _append_free_joints(poses, self.arm.n, locked), self._locked_damped_step_loop
         run = loop.run(q, parameters, tolerance**2, MAX_STEPS)
         return run.state, self.check_solutions(run.state, poses, tolerance)
 
@@ -253,62 +243,40 @@ class InverseKinematics:
     def solve_locked(
         self,
         poses: FloatArray,
-        locked: NDArray[np.int64],
+        locked: IndexArray,
         angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
         accept: Accept | None = None,
     ) -> PoseSolutions:
-        """Solve as :meth:`solve` with joint, or joints, ``locked[i]`` of row i locked at ``angles[i]``; values are
-        not wrapped.
-        """
+        """Solve as :meth:`solve`, with joint or joints ``locked[i]`` locked at ``angles[i]`` and values not wrapped."""
         lock_count = locked.shape[1] if locked.ndim > 1 else 1
         locked, angles = locked.reshape(-1, lock_count), angles.reshape(-1, lock_count)  # no rows are rows, too
-        rows = np.arange(len(poses))[:, None]
-        is_free = np.ones((len(poses), self.arm.n))
-        is_free[rows, locked] = 0.0
-        parameters = np.concatenate([_flatten_poses(poses), is_free], axis=1)
-        finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1)
+        parameters = _append_free_joints(poses, self.arm.n, locked)
+        finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1))
 
-        def lock_joints(start: FloatArray, chosen: NDArray[np.int64]) -> FloatArray:
+        def lock_joints(start: FloatArray, chosen: IndexArray) -> FloatArray:
             start[np.arange(chosen.size)[:, None], locked[chosen]] = angles[chosen]
             return start
 
-        solutions = self._solve_with_restarts(
-            self._locked_damped_step_loop,
-            parameters,
-            np.flatnonzero(finite),
-            seed,
-            restarts,
-            tolerance,
-            lock_joints,
-            accept=accept,
+        loop = self._locked_damped_step_loop
+        q, start_counts = self._solve_with_restarts(
+            loop, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock_joints, accept=accept
         )
-        is_valid = (solutions.q[rows, locked] == angles).all(axis=1)
-        is_valid &= True if accept is None else accept(solutions.q)
-        position_error, rotation_error = self.position_and_rotation_errors(solutions.q, poses)
-        reached = self._is_reached(solutions.q, position_error, rotation_error, tolerance) & is_valid
-        status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
-        status[~finite] = Status.BAD_INPUT
-        return PoseSolutions(
-            q=solutions.q,
-            status=status,
-            position_error=position_error,
-            rotation_error=rotation_error,
-            restarts=solutions.restarts,
-        )
+        is_locked = (q[np.arange(len(q))[:, None], locked] == angles).all(axis=1)
+        return self._check_results(q, poses, tolerance, accept, finite, start_counts, is_locked)
 
     def is_reachable_with_lock(
         self,
         poses: FloatArray,
-        locked: NDArray[np.int64],
+        locked: IndexArray,
         angles: FloatArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
         accept: Accept | None = None,
-    ) -> NDArray[np.bool_]:
+    ) -> BoolArray:
         """Return (N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
@@ -344,16 +312,18 @@ class InverseKinematics:
         self,
         loop: Loop,
         parameters: FloatArray,
-        rows: NDArray[np.int64],
+        rows: IndexArray,
         seed: np.random.SeedSequence,
         restarts: int,
         tolerance: float,
-        prepare: Callable[[FloatArray, NDArray[np.int64]], FloatArray],
+        prepare: Callable[[FloatArray, IndexArray], FloatArray],
         first: FloatArray | None = None,
         accept: Accept | None = None,
         steps: int = MAX_STEPS,
-    ) -> _StartSearchResult:
-        """Try starts until each of the chosen rows is solved; several starts of a row run in parallel once few rows are left.
+    ) -> tuple[FloatArray, IndexArray]:
+        """Try starts until each of the chosen rows is solved, and return the configurations (N, n) and starts used (N,).
+
+        Several starts of a row run in parallel once few rows are left.
 
         What is not accepted counts as if its start had led nowhere.
 
@@ -401,15 +371,13 @@ class InverseKinematics:
                 unsolved = unsolved[~solved]
                 next_start += wave_size
                 advance(wave_size)
-        return _StartSearchResult(q, start_counts)
+        return q, start_counts
 
-    def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> NDArray[np.bool_]:
+    def check_solutions(self, q: FloatArray, poses: FloatArray, tolerance: float) -> BoolArray:
         """Return (N,) True where q is on the pose and within the limits."""
         return self._is_reached(q, *self.position_and_rotation_errors(q, poses), tolerance)
 
-    def _is_reached(
-        self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float
-    ) -> NDArray[np.bool_]:
+    def _is_reached(self, q: FloatArray, position_error: FloatArray, rotation_error: FloatArray, tolerance: float) -> BoolArray:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
@@ -440,21 +408,39 @@ class InverseKinematics:
             steps: At most so many from each start.
         """
         parameters = _flatten_poses(poses)
-        finite = np.isfinite(parameters).all(axis=1)
-        rows = np.flatnonzero(finite)
-        solutions = self._solve_with_restarts(
-            self._damped_step_loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first, accept, steps
+        finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1))
+        q, start_counts = self._solve_with_restarts(
+            self._damped_step_loop,
+            parameters,
+            np.flatnonzero(finite),
+            seed,
+            restarts,
+            tolerance,
+            lambda start, _: start,
+            first,
+            accept,
+            steps,
         )
-        q, start_counts = solutions.q, solutions.restarts
-        q = joint_space.wrap_joints(self.arm, q)
-        # The verdict comes from the configuration handed out, not from the solver's own residual.
+        return self._check_results(joint_space.wrap_joints(self.arm, q), poses, tolerance, accept, finite, start_counts)
+
+    def _check_results(
+        self,
+        q: FloatArray,
+        poses: FloatArray,
+        tolerance: float,
+        accept: Accept | None,
+        finite: BoolArray,
+        restarts: IndexArray,
+        is_valid: BoolArray | bool = True,
+    ) -> PoseSolutions:
+        """Return the result for q (N, n): its verdict comes from the configuration handed out, not from a residual."""
         position_error, rotation_error = self.position_and_rotation_errors(q, poses)
-        reached = self._is_reached(q, position_error, rotation_error, tolerance)
+        reached = self._is_reached(q, position_error, rotation_error, tolerance) & is_valid
         reached &= True if accept is None else accept(q)
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return PoseSolutions(
-            q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=start_counts
+            q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=restarts
         )
 
     def prefer_given_configurations(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _MAX_PAIRWISE_DISTANCES = 1 << 20
 
 
-def is_unlimited(arm: Arm) -> NDArray[np.bool_]:
+def is_unlimited(arm: Arm) -> BoolArray:
     """Return (n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
     return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
 
@@ -35,10 +35,8 @@ def build_tree(arm: Arm, q: FloatArray) -> KDTree:
     return KDTree(wrap_joints_to_positive(arm, q), boxsize=np.where(is_unlimited(arm), 2 * np.pi, 0.0))
 
 
-def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and the index of
-    that point.
-    """
+def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArray, IndexArray]:
+    """Return the distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and its index."""
     if _is_brute_force_faster(q, points):
         distances = _pairwise_distances(arm, q, points)
         index = distances.argmin(axis=1)
@@ -47,10 +45,8 @@ def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArra
     return np.asarray(distance), np.asarray(index)
 
 
-def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> NDArray[np.intp]:
-    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, each k <
-    m, in order.
-    """
+def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> IndexArray:
+    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, k < m, in order."""
     if _is_brute_force_faster(q, q):
         return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
     close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
@@ -79,9 +75,7 @@ def wrap_joints(arm: Arm, q: FloatArray) -> FloatArray:
 
 
 def wrap_around_limit_center(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0 without
-    limits.
-    """
+    """Return configurations (..., n) with revolute joints within half a turn of the middle of their limits, or of 0."""
     unlimited = is_unlimited(arm)
     middle = (np.where(unlimited, 0.0, arm.lower) + np.where(unlimited, 0.0, arm.upper)) / 2
     revolutions = np.rint((q - middle) / (2 * np.pi))
@@ -92,3 +86,19 @@ def wrap_joints_to_positive(arm: Arm, q: FloatArray) -> FloatArray:
     """Return configurations (N, n) with joints without limits in 0 to 2 pi, 2 pi excluded."""
     remainder = q % (2 * np.pi)
     return np.where(is_unlimited(arm), np.where(remainder >= 2 * np.pi, 0.0, remainder), q)
+
+
+def join_intervals(
+    intervals: Iterable[tuple[float, float]], gap: float = 0.0, period: float | None = None
+) -> list[tuple[float, float]]:
+    """Join intervals that overlap or lie within ``gap``, by lower end; with a period the last one also with the first."""
+    joined: list[tuple[float, float]] = []
+    for lower, upper in sorted(intervals):
+        if joined and lower <= joined[-1][1] + gap:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], upper))
+        else:
+            joined.append((lower, upper))
+    while period is not None and len(joined) > 1 and joined[0][0] + period <= joined[-1][1] + gap:
+        _, upper = joined.pop(0)
+        joined[-1] = (joined[-1][0], max(joined[-1][1], upper + period))
+    return joined

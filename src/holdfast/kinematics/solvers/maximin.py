@@ -48,11 +48,8 @@ def maximin_step(
     y, u, n = [mu / s for s in value_slack], [mu / s for s in upper_slack], [mu / s for s in lower_slack]
 
     for _ in range(INTERIOR_POINT_ITERATIONS):
-        target = (
-            _CENTERING_FACTOR
-            * (dot_product(value_slack, y) + dot_product(upper_slack, u) + dot_product(lower_slack, n))
-            / count
-        )
+        slack_products = dot_product(value_slack, y) + dot_product(upper_slack, u) + dot_product(lower_slack, n)
+        target = _CENTERING_FACTOR * slack_products / count
         # residuals of the constraints, and of the multipliers' balance
         ra = [s - (v + dot_product(g, z) - t[k]) for s, v, g, k in zip(value_slack, values, gradients, part_of, strict=True)]
         ru = [s - (h - dot_product(a, z)) for s, (a, _, h) in zip(upper_slack, two_sided, strict=True)]

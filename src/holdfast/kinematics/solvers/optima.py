@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError, InputError
@@ -16,7 +16,7 @@ from holdfast.core.formatting import format_count, format_number
 from holdfast.core.progress import ProgressCount, reports_progress
 from holdfast.core.result import Result
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.kinematics.indices.index import Index
@@ -62,11 +62,9 @@ class Cap:
 
     def __str__(self) -> str:
         return (
-            f"{self.failure} caps the value: after its failure the index is {format_number(self.before)} before "
-            f"optimisation and "
-            f"{format_number(self.after)} after it, while after a failure of {self.other} it is "
-            f"{format_number(self.other_before)} "
-            f"before and {format_number(self.other_after)} after"
+            f"{self.failure} caps the value: after its failure the index is {format_number(self.before)} before optimisation "
+            f"and {format_number(self.after)} after it, while after a failure of {self.other} it is "
+            f"{format_number(self.other_before)} before and {format_number(self.other_after)} after"
         )
 
 
@@ -122,7 +120,7 @@ class Optima(Optimum, Result):
         """Compute the clearance of the arm from itself and its cell, (N,) m, at q (N, n); NaN if no clearance is given."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
 
-    def close(self, q: FloatArray) -> NDArray[np.bool_]:
+    def close(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where the clearance is below the margin at q (N, n); False if no clearance is given."""
         return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.margin_left(q) < self.margin
 
@@ -138,7 +136,7 @@ class Optima(Optimum, Result):
         return [names[pair] if pair >= 0 else "" for pair in rows.blocked_by]
 
     @property
-    def worse(self) -> NDArray[np.bool_]:
+    def worse(self) -> BoolArray:
         """Flags (N,) of the given configurations that are better than those found, and as collision-free."""
         loss = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
         better = loss > 1e-9 * np.abs(self.value)
@@ -182,10 +180,8 @@ class Optima(Optimum, Result):
 
     def describe(self) -> list[str]:
         """Describe the objective before and after optimisation; of several poses the median of those reached."""
-        is_reached, unit = (
-            np.atleast_1d(self.success),
-            "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}",
-        )
+        is_reached = np.atleast_1d(self.success)
+        unit = "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
         values = [np.atleast_1d(numbers)[is_reached] for numbers in (self.value_before, self.value)]
         before, after = (f"{format_number(float(np.median(numbers)))}{unit}" if numbers.size else "none" for numbers in values)
         subject = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"

@@ -18,7 +18,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import TaskError
 from holdfast.core.progress import track
 from holdfast.core.status import Status, require_ok
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import damped_least_norm, dot_product, factor_householder
@@ -78,13 +78,13 @@ class Optimum:
     status: NDArray[np.uint8]
     position_error: FloatArray
     rotation_error: FloatArray
-    starts: NDArray[np.int64]
+    starts: IndexArray
     agreeing: FloatArray
-    blocked: NDArray[np.bool_]
-    blocked_by: NDArray[np.int64]
+    blocked: BoolArray
+    blocked_by: IndexArray
 
     @property
-    def success(self) -> NDArray[np.bool_]:
+    def success(self) -> BoolArray:
         """Flags (N,) of the poses that are reached."""
         return np.asarray((self.status == Status.OK) | (self.status == Status.SINGULAR))
 
@@ -233,8 +233,8 @@ class Ascent:
         return value if self.objective.better == "larger" else -value
 
     def _refine_starts(
-        self, owner: NDArray[np.int64], q: FloatArray, poses: FloatArray, tolerance: float, collision_free: bool
-    ) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
+        self, owner: IndexArray, q: FloatArray, poses: FloatArray, tolerance: float, collision_free: bool
+    ) -> tuple[IndexArray, FloatArray, FloatArray]:
         """Ascend from starts q of poses ``owner`` and drop the poor ones; return owners, ends, and oriented values.
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
@@ -254,17 +254,13 @@ class Ascent:
             is_valid &= self.is_collision_free(q)
         return owner, q, np.where(is_valid, self.values_to_maximise(q), -np.inf)
 
-    def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
+    def is_collision_free(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where q (N, n) respects the margin."""
         assert self.clearance is not None
         return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
-    def _most_frequent_nearest_pair(
-        self, owner: NDArray[np.int64], q: FloatArray, poses: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        """Return for each of some poses (H,) the pair that has the smallest margin at most of its configurations among q (K,
-        n).
-        """
+    def _most_frequent_nearest_pair(self, owner: IndexArray, q: FloatArray, poses: IndexArray) -> IndexArray:
+        """Return for each pose (H,) the pair of the smallest margin at most of its configurations among q (K, n)."""
         assert self.clearance is not None
         is_selected = np.isin(owner, poses)
         votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)
@@ -273,7 +269,7 @@ class Ascent:
 
     def _sample_starts(
         self, poses: FloatArray, first: PoseSolutions, seed: np.random.SeedSequence, starts: int, tolerance: float
-    ) -> tuple[NDArray[np.int64], FloatArray]:
+    ) -> tuple[IndexArray, FloatArray]:
         """Sample start configurations of the reached poses; return the pose of each and the configurations.
 
         Where joint limits let few random starts converge, more waves of them follow, so that hard poses are searched as
@@ -326,7 +322,7 @@ class Ascent:
             owner, q = self._sample_starts(poses, ik_solutions, seed, starts, tolerance)
             start_counts = np.bincount(owner, minlength=count)
 
-            def choose_best(owner: NDArray[np.int64], q: FloatArray, value: FloatArray, chosen: NDArray[np.int64]) -> None:
+            def choose_best(owner: IndexArray, q: FloatArray, value: FloatArray, chosen: IndexArray) -> None:
                 best_index = largest_per_group(owner, value, 1)
                 # A formula of the user's own may have no value at the first configuration: any other is better.
                 best_index = best_index[(value[best_index] > -np.inf) & ~(value[best_index] <= best_value[owner[best_index]])]
@@ -393,7 +389,7 @@ def default_starts(arm: Arm, task: Task) -> int:
     return 128 if arm.n - task.m <= 1 else 32
 
 
-def largest_per_group(owner: NDArray[np.int64], value: FloatArray, count: int) -> NDArray[np.int64]:
+def largest_per_group(owner: IndexArray, value: FloatArray, count: int) -> IndexArray:
     """Return the positions of the ``count`` largest values of each group, ordered by group, then by value."""
     order = np.lexsort((-value, owner))
     sorted_owner = owner[order]

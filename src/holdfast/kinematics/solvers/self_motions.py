@@ -10,17 +10,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.files.output import write_table
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.solvers.clear_parts import CurveConstraint
@@ -75,9 +75,7 @@ class SelfMotion(Result):
     def describe(self) -> list[str]:
         """Describe the configurations in sentences."""
         lines = [f"{self.arm.title}, task {self.task.name}: {self._summarise()}"]
-        lines += [
-            f"curve {index + 1}: {curve.length:.3g} rad, {self.ends(index)}" for index, curve in enumerate(self.components)
-        ]
+        lines += [f"curve {k + 1}: {curve.length:.3g} rad, {self.ends(k)}" for k, curve in enumerate(self.components)]
         if self.components and not self.arm.prismatic.all():
             revolute_count = np.count_nonzero(~self.arm.prismatic)
             lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {revolute_count} whole turns")
@@ -202,9 +200,9 @@ def self_motion(
     Source: Goel et al. 2005.
     """
     resolved_task = as_task(arm, task)
-    options = {"clearance": clearance, "cell": cell, "margin": margin}
+    options: dict[str, Any] = {"clearance": clearance, "cell": cell, "margin": margin}
     pose = target_pose(resolved_task, target)
-    return fibres(arm, pose, resolved_task, spacing=spacing, seed=seed, starts=starts, **options)[0]  # type: ignore[arg-type]
+    return fibres(arm, pose, resolved_task, spacing=spacing, seed=seed, starts=starts, **options)[0]
 
 
 def fibres(
@@ -256,23 +254,15 @@ def fibres(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy a pose has no "
-            "self-motion; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy a "
+            "pose has no self-motion; choose a task with fewer rows"
         )
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
     engine = make_tracer(arm, resolved_task)
-    options = {
-        "spacing": spacing,
-        "seed": seed,
-        "starts": starts,
-        "follow": follow,
-        "clearance": resolved_clearance,
-        "margin": margin,
-    }
-    return trace_self_motions(engine, resolved_task, targets, **options)  # type: ignore[arg-type]
+    options = {"spacing": spacing, "seed": seed, "starts": starts, "follow": follow, "clearance": resolved_clearance}
+    return trace_self_motions(engine, resolved_task, targets, **options, margin=margin)  # type: ignore[arg-type]
 
 
 @reports_progress("tracing self-motions")
@@ -295,7 +285,7 @@ def trace_self_motions(
         raise InputError(f"starts is {starts}; it must be 1 or more")
     arm = engine.arm
     constraint = None if clearance is None or not clearance.pair_names else CurveConstraint.from_clearance(clearance, margin)
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
+    finite: BoolArray = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
     owner, q = engine.find_seeds(targets, np.flatnonzero(finite), seed, starts)
     components: list[list[Component]] = [[] for _ in targets]
     if engine.dimension == 1:
@@ -308,10 +298,7 @@ def trace_self_motions(
                 [part for curve in pose_curves for part in constraint.find_feasible_parts(engine, target, curve)]
                 for target, pose_curves in zip(targets, components, strict=True)
             ]
-        points = [
-            np.concatenate([curve.q for curve in pose_curves]) if pose_curves else np.empty((0, arm.n))
-            for pose_curves in components
-        ]
+        points = [np.concatenate([curve.q for curve in curves]) if curves else np.empty((0, arm.n)) for curves in components]
     else:
         points = [
             engine.sample_manifold(target, q[owner == index], spacing)
@@ -319,15 +306,13 @@ def trace_self_motions(
         ]
         was_found = [bool(len(pose_points)) for pose_points in points]
         points = points if constraint is None else [pose_points[constraint.is_satisfied(pose_points)] for pose_points in points]
-    statuses = [
-        Status.OK if len(pose_points) else Status.INFEASIBLE if had_points else Status.NOT_FOUND
-        for pose_points, had_points in zip(points, was_found, strict=True)
-    ]
-    status = [pose_status if is_finite else Status.BAD_INPUT for pose_status, is_finite in zip(statuses, finite, strict=True)]
+    status = np.where([len(pose_points) > 0 for pose_points in points], Status.OK, Status.INFEASIBLE)
+    status[~np.array(was_found, dtype=bool)] = Status.NOT_FOUND
+    status[~finite] = Status.BAD_INPUT
     common = {"arm": arm, "task": task, "redundancy": engine.dimension, "spacing": spacing}
     common |= {"clearance": clearance, "margin": margin}
     return [
-        SelfMotion(pose=target, components=tuple(curve), q=pose_points, status=pose_status, **common)  # type: ignore[arg-type]
+        SelfMotion(pose=target, components=tuple(curve), q=pose_points, status=Status(pose_status), **common)  # type: ignore[arg-type]
         for target, curve, pose_points, pose_status in zip(targets, components, points, status, strict=True)
     ]
 
@@ -349,15 +334,7 @@ def _join_intervals(spans: list[tuple[float, float]], is_periodic: bool) -> list
             for lower, upper in spans
         ]
         spans += [(-np.pi, upper - period) for _, upper in spans if upper > np.pi]
-    joined: list[tuple[float, float]] = []
-    for lower, upper in sorted(spans):
-        if joined and lower <= joined[-1][1]:
-            joined[-1] = (joined[-1][0], max(upper, joined[-1][1]))
-        else:
-            joined.append((lower, upper))
-    if is_periodic and len(joined) > 1 and joined[-1][1] >= joined[0][0] + period:
-        joined[-1] = (joined[-1][0], max(joined[-1][1], joined[0][1] + period))
-        joined.pop(0)
+    joined = joint_space.join_intervals(spans, period=period if is_periodic else None)
     if is_periodic and len(joined) == 1 and joined[0][1] - joined[0][0] >= period:
         return [(-np.pi, np.pi)]
     return joined

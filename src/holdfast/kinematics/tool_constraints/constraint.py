@@ -66,9 +66,7 @@ class ToolConstraint:
         return self.angle or self.within[1]
 
     def distances(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return how far tool poses (N, 4, 4) are from the line or plane, (N,) m, and how far they are rotated
-        away, (N,) rad.
-        """
+        """Return how far tool poses (N, 4, 4) are from the line or plane, (N,) m, and rotated away from it, (N,) rad."""
         assert self.pose is not None, "not anchored"
         distance = np.linalg.norm((poses[:, :3, 3] - self.pose[:3, 3]) @ self.normals.T, axis=1)
         if self.turned:

@@ -6,12 +6,10 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from holdfast.core import registry
 from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities, split_label
+from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint, plane, rail, upright
 
@@ -59,7 +57,7 @@ def _read_value(key: str, text: str) -> Any:
     return numbers if len(numbers) > 1 else numbers[0]
 
 
-def anchor_constraints(keep: KeepLike | None, start: NDArray[np.float64]) -> tuple[ToolConstraint, ...]:
+def anchor_constraints(keep: KeepLike | None, start: FloatArray) -> tuple[ToolConstraint, ...]:
     """Return the constraints through the tool's pose (4, 4) at the start; raises as :func:`read_constraints`."""
     return tuple(constraint.anchor(start) for constraint in read_constraints(keep))
 

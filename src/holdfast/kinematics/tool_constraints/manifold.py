@@ -15,15 +15,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 
-More = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray]]
+More = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
 """Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
 
 _ROUNDING_M_RAD = 1e-9  # m and rad
@@ -104,10 +103,8 @@ class ConstraintManifold:
     def bound_curvature(self, d: FloatArray) -> FloatArray:
         """Bound the second derivatives (N, R) of the error vectors for motions d (N, n)."""
         joint_travel = np.abs(d)
-        position_bound, rotation_bound = (
-            ((joint_travel @ self._second_derivative_bounds) * joint_travel).sum(axis=1),
-            (joint_travel @ self._revolute) ** 2,
-        )
+        position_bound = ((joint_travel @ self._second_derivative_bounds) * joint_travel).sum(axis=1)
+        rotation_bound = (joint_travel @ self._revolute) ** 2
         bounds = []
         for constraint in self.keep:
             if len(constraint.normals):
@@ -145,22 +142,18 @@ class ConstraintManifold:
             ) & is_proved[edge_index]
             if not undecided.any():
                 return is_proved
-            edge_index, start, start_margins, end_margins = (
-                edge_index[undecided],
-                start[undecided],
-                start_margins[undecided],
-                end_margins[undecided],
-            )
+            edge_index = edge_index[undecided]
+            start = start[undecided]
+            start_margins = start_margins[undecided]
+            end_margins = end_margins[undecided]
             length /= 2
             middle_margins = self.constraint_margins(a[edge_index] + (start + length)[:, None] * (b - a)[edge_index])
             if deviation is not None:
                 middle_margins -= self.bound_changes(deviation[edge_index])
             is_proved[edge_index[middle_margins.min(axis=1) < 0]] = False
             edge_index, start = np.concatenate([edge_index, edge_index]), np.concatenate([start, start + length])
-            start_margins, end_margins = (
-                np.concatenate([start_margins, middle_margins]),
-                np.concatenate([middle_margins, end_margins]),
-            )
+            start_margins = np.concatenate([start_margins, middle_margins])
+            end_margins = np.concatenate([middle_margins, end_margins])
         is_proved[edge_index] = False
         return is_proved
 
@@ -184,10 +177,8 @@ class ConstraintManifold:
             errors, jacobians = self._constraint_errors(q[moving])
             if extra_equations is not None:
                 extra_terms = extra_equations(q[moving], moving)
-                errors, jacobians = (
-                    np.concatenate([errors, extra_terms[0]], axis=1),
-                    np.concatenate([jacobians, extra_terms[1]], axis=1),
-                )
+                errors = np.concatenate([errors, extra_terms[0]], axis=1)
+                jacobians = np.concatenate([jacobians, extra_terms[1]], axis=1)
             unmet = np.abs(errors).max(axis=1) > _EQUALITY_TOLERANCE
             moving, errors, jacobians = moving[unmet], errors[unmet], jacobians[unmet]
             if not moving.size:
@@ -230,9 +221,7 @@ class ConstraintManifold:
 
 
 def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the angles by which axes (N, 3) must rotate to their direction or back into the cone, and the rotation axes (N, k,
-    3).
-    """
+    """Return the angles by which axes (N, 3) must rotate to their direction or into the cone, and the axes (N, k, 3)."""
     assert constraint.direction is not None
     across = np.cross(axis, constraint.direction)
     sine = np.linalg.norm(across, axis=1)

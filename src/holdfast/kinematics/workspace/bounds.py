@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.progress import reports_progress, track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.solvers import joint_space
 from holdfast.kinematics.workspace.extrema import CriticalPoints, critical_point_solver
@@ -74,9 +74,8 @@ def joint_bounds(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy every lock loses "
-            "almost every target; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy "
+            "every lock loses almost every target; choose a task with fewer rows"
         )
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
@@ -95,7 +94,7 @@ def joint_bounds(
 
 def _find_critical_values(
     solver: CriticalPoints, pose: FloatArray, seeds: FloatArray, starts: int, generator: np.random.Generator
-) -> tuple[NDArray[np.int64], FloatArray]:
+) -> tuple[IndexArray, FloatArray]:
     """Find critical points (C, n) and the joint (C,) of which each one is critical."""
     arm = solver.arm
     joint = np.repeat(np.arange(arm.n), starts)
@@ -128,12 +127,12 @@ class _JointSegments:
 
     joint: int
     cuts: FloatArray
-    is_critical: NDArray[np.bool_]
+    is_critical: BoolArray
     is_periodic: bool
     witnesses: FloatArray
 
     @property
-    def is_reached(self) -> NDArray[np.bool_]:
+    def is_reached(self) -> BoolArray:
         """Flags (S,) of the segments with a known reached value."""
         return np.asarray(~np.isnan(self.witnesses[:, 0]))
 
@@ -177,19 +176,11 @@ class _JointSegments:
             return [(-np.pi, np.pi)] if self.is_periodic else [(float(self.cuts[0]), float(self.cuts[-1]))]
         boundaries, count = self.boundaries, self.is_reached.size
         pieces = [(boundaries[index], boundaries[index + 1]) for index in range(count) if self.is_reached[index]]
-        pieces = sorted(pieces + [(critical_value, critical_value) for critical_value in self.cuts[self.is_critical]])
-        joined: list[list[float]] = []
-        for low, high in pieces:
-            if joined and low <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
-                joined[-1][1] = max(joined[-1][1], high)
-            else:
-                joined.append([low, high])
+        pieces += [(critical_value, critical_value) for critical_value in self.cuts[self.is_critical]]
+        period = 2 * np.pi
+        joined = joint_space.join_intervals(pieces, 10 * _CRITICAL_VALUE_TOLERANCE, period if self.is_periodic else None)
         if self.is_periodic:
-            if len(joined) > 1 and joined[0][0] + 2 * np.pi <= joined[-1][1] + 10 * _CRITICAL_VALUE_TOLERANCE:
-                joined[-1][1] = max(joined[-1][1], joined[0][1] + 2 * np.pi)
-                joined.pop(0)
-            periods = [2 * np.pi if low >= np.pi else 0.0 for low, _ in joined]
-            joined = [[low - period, high - period] for (low, high), period in zip(joined, periods, strict=True)]
+            joined = [(low - period, high - period) if low >= np.pi else (low, high) for low, high in joined]
         return sorted((float(low), float(high)) for low, high in joined)
 
 
@@ -227,7 +218,7 @@ def _decide_segments(
 ) -> None:
     """Decide which segments are reached, then move the cuts that bound reached segments to the exact bounds."""
 
-    def check_reached(joint: NDArray[np.int64], values: FloatArray) -> NDArray[np.bool_]:
+    def check_reached(joint: IndexArray, values: FloatArray) -> BoolArray:
         poses = np.broadcast_to(pose, (joint.size, 4, 4))
         return solver.engine.is_reachable_with_lock(
             poses, joint, values, np.random.SeedSequence(seed), LOCKED_RESTARTS, _TARGET_TOLERANCE

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -36,9 +35,7 @@ class ThreeLinks:
 
     @classmethod
     def from_task(cls, arm: Arm, task: Task) -> ThreeLinks | None:
-        """Return the arm in the plane of a planar task; None if it is of another kind or a joint has limits below a
-        full turn.
-        """
+        """Return the arm in the plane of a planar task; None for another kind, or with limits below a full turn."""
         if arm.n != 3 or task.name != "planar" or arm.prismatic.any():
             return None
         if not (arm.upper - arm.lower >= FULL_TURN_RAD - 1e-9).all():
@@ -78,9 +75,7 @@ def _quadrature_nodes(radii: int, panels: int = 4) -> tuple[FloatArray, FloatArr
 
 
 def common_annulus(arm: ThreeLinks, limits: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or joint 3 locks within its limits (P, 3,
-    2).
-    """
+    """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or 3 locks in its limits (P, 3, 2)."""
     second_annulus, third_annulus = _locked_annulus(arm, limits, 1), _locked_annulus(arm, limits, 2)
     return np.maximum(second_annulus[0], third_annulus[0]), np.minimum(second_annulus[1], third_annulus[1])
 
@@ -107,7 +102,7 @@ def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> Floa
     return np.asarray(FULL_TURN_RAD - _union_length(start, end))
 
 
-def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[NDArray[np.bool_]]:
+def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[BoolArray]:
     """Return which points (N, 2) in the task plane the healthy arm reaches within limits (3, 2) of the link angles, then for
     each joint which points it reaches wherever that joint locks. The region is the intersection of all.
     """
@@ -115,7 +110,7 @@ def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> 
     radius, direction = np.maximum(np.hypot(*displacement.T), 1e-12), np.arctan2(displacement[:, 1], displacement[:, 0])
     relative_angle = (direction - limits[0].mean())[:, None]
 
-    def outside_arcs(arcs: tuple[FloatArray, FloatArray]) -> NDArray[np.bool_]:
+    def outside_arcs(arcs: tuple[FloatArray, FloatArray]) -> BoolArray:
         start, end = arcs[0][0], arcs[1][0]
         return np.asarray(~((end > start) & ((relative_angle - start) % FULL_TURN_RAD < end - start)).any(axis=1))
 
@@ -149,9 +144,7 @@ def _arcs_lost_to_joint1(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> 
 
 
 def _arcs_outside_healthy_reach(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the start and end (P, R, 12) of the arcs of directions that the healthy arm does not reach, with joint 1 anywhere
-    within its limits.
-    """
+    """Return the ends (P, R, 12) of the arcs of directions that the healthy arm does not reach, with joint 1 in its limits."""
     half_range = (limits[:, 0, 1] - limits[:, 0, 0])[:, None, None] / 2
     start, end = _unreached_directions(arm, limits, r)
     return start + half_range, end - half_range
@@ -206,7 +199,7 @@ def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) ->
     return np.where(is_excluded, 1.0, start), np.where(is_excluded, 0.0, end_point)
 
 
-def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: FloatArray) -> NDArray[np.bool_]:
+def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: FloatArray) -> BoolArray:
     """Return whether the arm with link 1 along 0 reaches (r, direction) (P, R, A) within the limits of joints 2 and 3."""
     first, second, third = arm.lengths
     displacement = r[..., None] * np.exp(1j * direction) - first
@@ -219,7 +212,7 @@ def _is_reached(arm: ThreeLinks, limits: FloatArray, r: FloatArray, direction: F
     return is_reached
 
 
-def _within_limits(angle: FloatArray, limits: FloatArray) -> NDArray[np.bool_]:
+def _within_limits(angle: FloatArray, limits: FloatArray) -> BoolArray:
     """Return whether angles (P, ...) are within limits (P, 2), modulo full turns; NaN is not."""
     shape = (-1,) + (1,) * (angle.ndim - 1)
     lower, upper = limits[:, 0].reshape(shape), limits[:, 1].reshape(shape)

@@ -7,11 +7,10 @@ from typing import Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.progress import track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kinematics.solvers.inverse_kinematics import scaled_error_and_jacobian, solver
@@ -61,9 +60,7 @@ class CriticalPoints:
         q, converged = self.engine.attempt(starts, np.broadcast_to(pose, (count, 4, 4)), CRITICAL_POINT_TOLERANCE)
         return q[converged]
 
-    def solve(
-        self, pose: FloatArray, q: FloatArray, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def solve(self, pose: FloatArray, q: FloatArray, joint: IndexArray, fixed: BoolArray) -> tuple[FloatArray, BoolArray]:
         """Find critical points of ``joint`` (B,) from starts q (B, n), with the joints ``fixed`` (B, n) at their values.
 
         Returns:
@@ -76,8 +73,8 @@ class CriticalPoints:
         return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
 
     def _solve_chunk(
-        self, pose: FloatArray, q: FloatArray, joint: NDArray[np.int64], fixed: NDArray[np.bool_]
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+        self, pose: FloatArray, q: FloatArray, joint: IndexArray, fixed: BoolArray
+    ) -> tuple[FloatArray, BoolArray]:
         n, m, count = self.arm.n, self.m, len(q)
         is_constrained = ~fixed  # whose columns must be at right angles to u
         is_constrained[np.arange(count), joint] = False

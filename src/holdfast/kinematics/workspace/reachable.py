@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.solvers.inverse_kinematics import PoseSolutions, solver
 from holdfast.model.arm.model import Arm
@@ -87,7 +87,7 @@ def reachable_when_locked(
     return solutions
 
 
-def _read_lock_values(arm: Arm, locked: LockedValues) -> tuple[NDArray[np.int64], FloatArray]:
+def _read_lock_values(arm: Arm, locked: LockedValues) -> tuple[IndexArray, FloatArray]:
     """Read the locked joints (k,) and their values (k,), or of one joint (1, N) values."""
     if isinstance(locked, Degraded):
         locked.require_arm(arm)

@@ -51,10 +51,8 @@ class SamplingBox:
         else:
             raise TaskError(f"task '{task.name}' does not hold a point of space or of a plane; use position, planar or pose")
         lower, upper = sampling_limits(arm)
-        tool_points = (
-            arm.forward_kinematics(np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n)))[:, :3, 3]
-            @ directions.T
-        )
+        q = np.random.default_rng(0).uniform(lower, upper, (_BOX_SAMPLES, arm.n))
+        tool_points = arm.forward_kinematics(q)[:, :3, 3] @ directions.T
         minimum, maximum = tool_points.min(axis=0), tool_points.max(axis=0)
         return cls(directions, minimum - 0.02 * (maximum - minimum), maximum + 0.02 * (maximum - minimum), rotation)
 
@@ -124,15 +122,11 @@ class LimitChoices:
 
     @classmethod
     def from_table(cls, grid: FloatArray, is_periodic: bool, table: BoolArray, q: FloatArray) -> LimitChoices:
-        """Return the choices of a grid (K,) of joint values, its table of reached values (H, K), and configurations q (H, S);
-        NaN is in none.
-        """
+        """Return the choices of a grid (K,) with its reached values (H, K), and configurations q (H, S); NaN is in none."""
         count, step = grid.size, grid[1] - grid[0]
         if is_periodic:
-            table, pairs = (
-                np.tile(table, 2),
-                [(first_index, first_index + span) for first_index in range(count) for span in range(count)],
-            )
+            table = np.tile(table, 2)
+            pairs = [(first_index, first_index + span) for first_index in range(count) for span in range(count)]
             pairs.append((0, count))
         else:
             pairs = [(first_index, last_index) for first_index in range(count) for last_index in range(first_index, count)]
@@ -140,11 +134,8 @@ class LimitChoices:
         lost_counts = np.concatenate([np.zeros((len(table), 1), dtype=np.int64), np.cumsum(~table, axis=1)], axis=1)
         survives = (lost_counts[:, np.minimum(last + 1, lost_counts.shape[1] - 1)] == lost_counts[:, first]).T
         grid_position = (q - grid[0]) / step
-        offsets = (
-            np.mod(grid_position[None] - first[:, None, None], count)
-            if is_periodic
-            else grid_position[None] - first[:, None, None]
-        )
+        offsets = grid_position[None] - first[:, None, None]
+        offsets = np.mod(offsets, count) if is_periodic else offsets
         holds = (offsets >= 0) & (offsets <= (last - first)[:, None, None])
         return cls(np.stack([grid[0] + step * first, grid[0] + step * last], axis=1), survives, holds)
 
@@ -206,9 +197,7 @@ def find_solutions_per_pose(arm: Arm, task: Task, poses: FloatArray, generator: 
 def _ascend_coordinates(
     choices: list[LimitChoices], point: int, solution: int, generator: np.random.Generator
 ) -> tuple[list[int], int]:
-    """Ascend from narrow limits around one configuration; return the choice of each joint and the number of
-    contained points.
-    """
+    """Ascend from narrow limits around one configuration; return each joint's choice and the number of contained points."""
     chosen = []
     for choice in choices:
         width = np.where(choice.holds[:, point, solution], np.diff(choice.limits)[:, 0], np.inf)

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
 from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import ProgressCount, reports_progress, track
 from holdfast.core.result import Result
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.workspace import closed_form as tolerant_planar
 from holdfast.kinematics.workspace import samples as tolerant_sampled
@@ -67,10 +67,10 @@ class TolerantWorkspace(Result):
     size_interval: tuple[float, float]
     healthy_size: float
     points: FloatArray
-    healthy: NDArray[np.bool_]
-    within: NDArray[np.bool_]
-    survives: NDArray[np.bool_]
-    inside: NDArray[np.bool_]
+    healthy: BoolArray
+    within: BoolArray
+    survives: BoolArray
+    inside: BoolArray
     exact: bool
     angles: int
     optimised: bool
@@ -188,9 +188,8 @@ def tolerant_workspace(
     resolved_task = as_task(arm, task)
     if arm.n <= resolved_task.m:
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without "
-            f"redundancy no region survives "
-            "a lock; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints and the task '{resolved_task.name}' {resolved_task.m} rows: without redundancy "
+            "no region survives a lock; choose a task with fewer rows"
         )
     check_confidence(confidence)
     if points < 1 or angles < 2:
@@ -303,7 +302,8 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
         float(tolerant_planar.workspace_area(planar_arm, links[None], radii)[0]) for radii in (_AREA_RADII, _AREA_RADII // 2)
     )
     error = abs(area - coarse)
-    outer_radius, inner_radius = _outer_and_inner_radius(planar_arm)
+    outer_radius = float(planar_arm.lengths.sum())
+    inner_radius = max(0.0, 2 * float(planar_arm.lengths.max()) - outer_radius)
     coordinates = np.linspace(-outer_radius, outer_radius, _GRID_POINTS)
     plane_points = np.stack(np.meshgrid(coordinates, coordinates), axis=-1).reshape(-1, 2)
     radius = np.hypot(*plane_points.T)
@@ -328,11 +328,6 @@ def _exact_workspace(arm: Arm, task: Task, planar_arm: ThreeLinks, limits: Float
         optimised=optimised,
         confidence=1.0,
     )
-
-
-def _outer_and_inner_radius(planar_arm: ThreeLinks) -> tuple[float, float]:
-    total = float(planar_arm.lengths.sum())
-    return total, max(0.0, 2 * float(planar_arm.lengths.max()) - total)
 
 
 def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray:

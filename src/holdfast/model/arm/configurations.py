@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.machine import ArmData
 
 Length = TypeVar("Length", bound=Any)  # a number or a symbolic expression, m
@@ -29,15 +29,11 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
 
 
 def sampling_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
-    """Return (n,) lower and upper limits to sample between; a missing limit is +-pi rad or +-1 m, or lies that far beyond the
-    other limit.
-    """
+    """Return (n,) lower and upper limits to sample between; a missing limit is pi rad or 1 m from 0, or from the other."""
     return replace_infinite_limits(arm.lower, arm.upper, arm.prismatic)
 
 
-def replace_infinite_limits(
-    lower: FloatArray, upper: FloatArray, prismatic: NDArray[np.bool_]
-) -> tuple[FloatArray, FloatArray]:
+def replace_infinite_limits(lower: FloatArray, upper: FloatArray, prismatic: BoolArray) -> tuple[FloatArray, FloatArray]:
     """Replace infinite limits (..., n), which need not belong to one arm, as :func:`sampling_limits` does."""
     default_bound = np.where(prismatic, 1.0, np.pi)
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))

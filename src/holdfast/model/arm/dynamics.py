@@ -19,7 +19,7 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.model.arm import statics
-from holdfast.model.arm.kinematics import Frame, constant_matrix, joint_symbols, joint_transforms, split_transform
+from holdfast.model.arm.kinematics import constant_matrix, joint_symbols, joint_transforms, split_transform
 from holdfast.model.arm.machine import ArmData
 from holdfast.model.arm.soundness import require_possible_inertia
 
@@ -43,9 +43,7 @@ def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
 
 @cached_kernel
 def torque_terms_kernel(arm: ArmData) -> Kernel:
-    """Return the kernel ``(q, qd, qdd) -> inertial, viscous, and gravity torques``, each (n,): the terms of
-    :func:`inverse_dynamics`.
-    """
+    """Return the kernel ``(q, qd, qdd) -> inertial, viscous, gravity torques`` (n,): terms of :func:`inverse_dynamics`."""
     q, qd, qdd = joint_symbols(arm), ca.SX.sym("qd", arm.n), ca.SX.sym("qdd", arm.n)
     return Kernel("inverse dynamics", [q, qd, qdd], _torque_terms(arm, q, qd, qdd))
 
@@ -127,17 +125,12 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
         force, couple = force + forces[index], couple + couples[index]
         torques[index] = ca.dot(constant_matrix(joint.axis), force if joint.prismatic else couple) + joint.armature * qdd[index]
         for frame in (steps[index], split_transform(joint.origin)):
-            force, couple = _wrench_in_parent(frame, force, couple)
+            rotation, offset = frame
+            force = rotation @ force  # from here on in the parent frame, and the couple about its origin
+            couple = rotation @ couple + ca.cross(offset, force)
     return ca.vertcat(*torques)
 
 
 def _point_acceleration(angular_velocity: SX, angular_acceleration: SX, r: SX) -> SX:
     """Return the acceleration of a point r fixed in a rotating body: ``alpha x r + omega x (omega x r)``."""
     return ca.cross(angular_acceleration, r) + ca.cross(angular_velocity, ca.cross(angular_velocity, r))
-
-
-def _wrench_in_parent(frame: Frame, force: SX, couple: SX) -> tuple[SX, SX]:
-    """Express a force and a couple at the origin of a frame in the parent frame, about the parent's origin."""
-    rotation, offset = frame
-    force = rotation @ force
-    return force, rotation @ couple + ca.cross(offset, force)

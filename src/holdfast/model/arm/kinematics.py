@@ -52,7 +52,7 @@ def kinematic_chain(arm: ArmData, q: SX, frame: int | None = None, steps: list[F
         steps: :func:`joint_transforms` of the same q, where several chains are made.
     """
     body_frames, joint_frames = body_and_joint_frames(arm, joint_transforms(arm, q) if steps is None else steps, frame)
-    axes = [_rotate_axis(rotation, joint.axis) for (rotation, _), joint in zip(joint_frames, arm.joints, strict=True)]
+    axes = [rotation @ constant_matrix(joint.axis) for (rotation, _), joint in zip(joint_frames, arm.joints, strict=True)]
     return KinematicChain(
         axes, [position for _, position in joint_frames], *compose_frames(body_frames[-1], split_transform(arm.tool))
     )
@@ -83,9 +83,7 @@ def body_and_joint_frames(arm: ArmData, steps: list[Frame], frame: int | None = 
 
 
 def body_poses(arm: ArmData, q: SX) -> SX:
-    """Return the world poses, each (3, 4), of the base, of the link that moves with each joint, and of the tool, (3 (n + 2),
-    4).
-    """
+    """Return the world poses (3 (n + 2), 4), each (3, 4): of the base, of the link moved by each joint, and of the tool."""
     body_frames, _ = body_and_joint_frames(arm, joint_transforms(arm, q))
     tool_frame = compose_frames(body_frames[-1], split_transform(arm.tool))
     return ca.densify(ca.vertcat(*[ca.horzcat(*pose) for pose in [*body_frames, tool_frame]]))
@@ -180,10 +178,6 @@ def compose_frames(a: Frame, b: Frame) -> Frame:
 
 def _invert_frame(a: Frame) -> Frame:
     return a[0].T, -(a[0].T @ a[1])
-
-
-def _rotate_axis(rotation: SX, axis: FloatArray) -> SX:
-    return rotation @ constant_matrix(axis)
 
 
 def joint_transforms(arm: ArmData, q: SX) -> list[Frame]:

@@ -9,12 +9,12 @@ from dataclasses import KW_ONLY, dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.files.reading import is_unicode
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_constructor, require_real_numbers
 from holdfast.model.arm.poses import joint_motion
 
@@ -271,7 +271,7 @@ class ArmData:
         return tuple(j.name for j in self.joints)
 
     @cached_property
-    def prismatic(self) -> NDArray[np.bool_]:
+    def prismatic(self) -> BoolArray:
         """Array (n,) that is True for prismatic joints."""
         is_prismatic = np.array([j.prismatic for j in self.joints])
         is_prismatic.setflags(write=False)

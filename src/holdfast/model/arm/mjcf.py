@@ -173,9 +173,8 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
     joints: dict[str, TreeJoint] = {}
     for body_index in range(1, model.nbody):
         body, link = bodies[body_index], bodies[int(model.body_parentid[body_index])]
-        pending = pose_from_wxyz(
-            model.body_pos[body_index], model.body_quat[body_index]
-        )  # of the body, in the link reached so far
+        # Of the body, in the link reached so far.
+        pending = pose_from_wxyz(model.body_pos[body_index], model.body_quat[body_index])
         first, count = int(model.body_jntadr[body_index]), int(model.body_jntnum[body_index])
         for joint_index in range(first, first + count):
             anchor = np.eye(4)
@@ -199,12 +198,7 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
                 joints[f"{tip} (fixed)"] = _fixed_joint(
                     tip, carrier, pose_from_wxyz(model.site_pos[site_index], model.site_quat[site_index])
                 )
-    tied = frozenset(
-        joint_names[joint_index]
-        for _, _, tied_joints, _ in _iterate_couplings(mujoco, model)
-        if len(tied_joints) > 1
-        for joint_index in tied_joints
-    )
+    tied = frozenset(joint_names[k] for _, _, joints, _ in _iterate_couplings(mujoco, model) if len(joints) > 1 for k in joints)
     return LinkTree(label, links, joints, limits_required=False, tied=tied)
 
 
@@ -303,9 +297,7 @@ def _build_arm(
 
 
 def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
-    """Reject equalities and tendons that act on the chain; those between bodies that do not move relative to each other are
-    harmless.
-    """
+    """Reject equalities and tendons on the chain; between bodies that do not move relative to each other, they do nothing."""
     joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
     bodies = _names_or_numbers(model.nbody, model.body, "body", 0)
 
@@ -322,9 +314,8 @@ def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_cha
         tied_names = [joints[joint] for joint in tied_joints if joints[joint] in on_chain]
         if tied_names:
             raise ArmError(
-                f"{kind} '{name}' ties joint {list_names(tied_names)} of the chain, which is then no degree of freedom "
-                f"of its own; "
-                "a serial arm needs independent joints, so remove it or choose another base and tip"
+                f"{kind} '{name}' ties joint {list_names(tied_names)} of the chain, which is then no degree of freedom of its "
+                "own; a serial arm needs independent joints, so remove it or choose another base and tip"
             )
         carriers = {carrying_joint(b) for b in tied_bodies}
         if len(carriers) > 1:
@@ -346,12 +337,8 @@ def _iterate_couplings(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, st
             yield "equality", name, [object_id for object_id in ends if object_id >= 0], []
         elif kind in (int(equality_types.mjEQ_CONNECT), int(equality_types.mjEQ_WELD)):
             at_sites = int(model.eq_objtype[index]) == int(object_types.mjOBJ_SITE)
-            yield (
-                "equality",
-                name,
-                [],
-                [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends],
-            )
+            bodies = [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends]
+            yield "equality", name, [], bodies
     for index in range(model.ntendon):
         first_wrap, tied_joints, tied_bodies = int(model.tendon_adr[index]), [], []
         for wrap_index in range(first_wrap, first_wrap + int(model.tendon_num[index])):

@@ -62,9 +62,7 @@ def _check_model(text: str, path: Path, folder: Path, seen: set[Path]) -> None:
             )
         _reject_huge_sizes(element)
     asset_folders = {
-        Path(compiler.get(folder_key, ""))
-        for compiler in root.iter("compiler")
-        for folder_key in ("meshdir", "texturedir", "assetdir")
+        Path(compiler.get(key, "")) for compiler in root.iter("compiler") for key in ("meshdir", "texturedir", "assetdir")
     } | {Path()}
     for element in root.iter():
         for key, name in element.attrib.items():

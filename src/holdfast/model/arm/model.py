@@ -140,9 +140,7 @@ class Arm(Presentable, ArmData):
         return "; ".join([self.source or "no source given", *([] if self.chain is None else [str(self.chain)])])
 
     def entry(self) -> dict[str, Any]:
-        """Return ``arm``, ``base``, and ``tip`` by name, and the locked joints ``held``: the beginning of every JSON answer
-        about the arm.
-        """
+        """Return the names ``arm``, ``base``, ``tip``, and the locked joints ``held``, with which every JSON answer begins."""
         base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
@@ -327,9 +325,7 @@ class Arm(Presentable, ArmData):
         return inertial + viscous + gravity
 
     def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd``, and ``g``, each (n,) or (N, n);
-        N m and N.
-        """
+        """Return the terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd``, and ``g``, (n,) or (N, n); N m and N."""
         from holdfast.model.arm.dynamics import check_states
 
         states, single = check_states(self, q, qd, qdd)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 
 _QUARTER_TURN_TOLERANCE_RAD = 1e-9  # rad; files write pi/2 with 11 or more digits
 
@@ -22,7 +22,7 @@ def check_poses(poses: ArrayLike) -> FloatArray:
         raise InputError(f"poses have shape {checked.shape}; they must be (4, 4) or (N, 4, 4) arrays")
     checked = checked[None] if checked.ndim == 2 else checked
     rotation = checked[:, :3, :3]
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(checked).all(axis=(1, 2)))
+    finite: BoolArray = np.asarray(np.isfinite(checked).all(axis=(1, 2)))
     orthonormality_error = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0)
     wrong = np.flatnonzero(
         finite & ((orthonormality_error > 1e-6) | (np.linalg.det(np.where(finite[:, None, None], rotation, np.eye(3))) < 0))
@@ -100,16 +100,12 @@ def rotation_vectors(rotations: ArrayLike) -> FloatArray:
 
 
 def zyx_angles(rotations: ArrayLike) -> FloatArray:
-    """Return angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees; at b = +-90 degrees c is
-    0.
-    """
+    """Return angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees, where c is 0."""
     matrices = np.asarray(rotations, dtype=np.float64)
     cosine_of_b = np.hypot(matrices[..., 0, 0], matrices[..., 1, 0])
     upright = cosine_of_b < 1e-12
-    a = np.arctan2(
-        np.where(upright, -matrices[..., 0, 1], matrices[..., 1, 0]),
-        np.where(upright, matrices[..., 1, 1], matrices[..., 0, 0]),
-    )
+    sines = np.where(upright, -matrices[..., 0, 1], matrices[..., 1, 0])
+    a = np.arctan2(sines, np.where(upright, matrices[..., 1, 1], matrices[..., 0, 0]))
     c = np.where(upright, 0.0, np.arctan2(matrices[..., 2, 1], matrices[..., 2, 2]))
     return np.stack([a, np.arctan2(-matrices[..., 2, 0], cosine_of_b), c], axis=-1)
 

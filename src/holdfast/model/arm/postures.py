@@ -29,10 +29,8 @@ def generic_configuration(arm: Arm) -> FloatArray:
     ranges = np.minimum(upper - lower, np.where(arm.prismatic, np.inf, 2 * np.pi))
     start = arm.states.get("home", (lower + upper) / 2)
     margin = 0.05 * (upper - lower)
-    inside = (
-        np.where(np.isfinite(arm.lower), lower + margin, -np.inf),
-        np.where(np.isfinite(arm.upper), upper - margin, np.inf),
-    )
+    finite_lower, finite_upper = np.isfinite(arm.lower), np.isfinite(arm.upper)
+    inside = np.where(finite_lower, lower + margin, -np.inf), np.where(finite_upper, upper - margin, np.inf)
     start = np.clip(start, *inside)
     # Additive recurrence (Roberts 2018): points that fill a cube evenly, the same ones everywhere; first near, then far.
     generator = float(np.max(np.real(np.roots([1.0, *[0.0] * (arm.n - 1), -1.0, -1.0]))))
@@ -44,9 +42,7 @@ def generic_configuration(arm: Arm) -> FloatArray:
 
 
 def _score_configurations(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return scores (N,), 0 or more, of configurations (N, n) from their conditioning and the manipulability that remains after
-    any lock.
-    """
+    """Return scores (N,), 0 or more, of configurations (N, n) by conditioning and manipulability after any lock."""
     jacobian = arm.jacobian(q)
     jacobian[:, :3] /= arm.length_unit
     score = np.ones(len(q))

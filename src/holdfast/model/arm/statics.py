@@ -98,9 +98,7 @@ def links_with_payload(arm: ArmData) -> list[Link]:
 
 
 def length_scale(arm: ArmData) -> float:
-    """Return a length of the arm, m, for relative tolerances of first moments: its link lengths and the largest offset of a
-    center of mass.
-    """
+    """Return a length, m, for relative tolerances of first moments: link lengths and the largest offset of a center of mass."""
     reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:])
     travels = [max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic]
     reach += sum(travel for travel in travels if np.isfinite(travel))
@@ -195,9 +193,7 @@ def _rotate_inertia(inertia: SX, r: SX) -> SX:
 
 
 def _shift_moments(mass: float, moment: SX, inertia: SX, p: SX) -> tuple[SX, SX]:
-    """Return moments about a point from which the old reference point lies at p: ``s + M p``, ``I - [p][s] - [s][p] - M
-    [p][p]``.
-    """
+    """Return moments about a point from which the old one lies at p: ``s + M p``, ``I - [p][s] - [s][p] - M [p][p]``."""
     if p.nnz() == 0:
         return moment, inertia
     outer_product = moment @ p.T

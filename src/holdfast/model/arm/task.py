@@ -1,6 +1,4 @@
-"""Tasks, which select the twist components that the end effector must produce, and their targets: poses or task coordinates of
-the tool point.
-"""
+"""Tasks, which select components of the end effector's twist, and their targets: poses or coordinates of the tool point."""
 
 from __future__ import annotations
 

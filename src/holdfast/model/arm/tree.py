@@ -178,12 +178,9 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
             for child_joint in tree.joints_below[link]
             if not (child_joint.is_moving and _is_finger(child_joint) and only_fingers_below[child_joint.child][0])
         ]
-        moving_joint_counts.update(
-            {child_joint.child: moving_joint_counts[link] + child_joint.is_moving for child_joint in followed_joints}
-        )
+        moving_joint_counts.update({joint.child: moving_joint_counts[link] + joint.is_moving for joint in followed_joints})
         may_end_here = any(
-            child_joint.is_moving and only_fingers_below[child_joint.child][1] and _may_be_finger(tree, child_joint)
-            for child_joint in followed_joints
+            joint.is_moving and only_fingers_below[joint.child][1] and _may_be_finger(tree, joint) for joint in followed_joints
         )
         if moving_joint_counts[link] and (not followed_joints or may_end_here):
             tips[link] = moving_joint_counts[link]
@@ -192,15 +189,11 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
 
 
 def likely_tip(tree: LinkTree, base: str, candidates: Sequence[str]) -> str:
-    """Return the candidate that most resembles a tool: by its name, then with the fewest fingers on its path, then the
-    farthest.
-    """
+    """Return the candidate that most resembles a tool: by its name, then the fewest fingers on its path, then the farthest."""
 
     def rank_tip(link: str) -> tuple[bool, int]:
         moving = [joint for joint in tree.joint_path(base, link) if joint.is_moving]
-        return not TOOL_PATTERN.search(link), sum(
-            _is_finger(moving_joint) or _may_be_finger(tree, moving_joint) for moving_joint in moving
-        )
+        return not TOOL_PATTERN.search(link), sum(_is_finger(joint) or _may_be_finger(tree, joint) for joint in moving)
 
     return min(candidates, key=rank_tip)
 
@@ -211,9 +204,7 @@ def _is_finger(joint: TreeJoint) -> bool:
 
 
 def _may_be_finger(tree: LinkTree, joint: TreeJoint) -> bool:
-    """Return whether a joint may be a finger: it has a gripper's name, or siblings and is tied to another joint or is one of
-    two prismatic siblings.
-    """
+    """Return whether a joint may be a finger: by name, or with siblings, if tied to a joint or one of two prismatic ones."""
     siblings = [sibling for sibling in tree.joints_below[joint.parent] if sibling is not joint]
     has_prismatic_sibling = joint.type == "prismatic" and any(sibling.type == "prismatic" for sibling in siblings)
     return bool(
@@ -227,9 +218,7 @@ def _descendant_joints(tree: LinkTree, base: str) -> Iterator[TreeJoint]:
 
 
 def possible_bases(tree: LinkTree, tip: str | None) -> list[str]:
-    """Return the links on which an arm could be mounted: with a moving joint between them and ``tip``, or below them if no tip
-    is given.
-    """
+    """Return the links on which an arm could be mounted: with a moving joint before ``tip``, or below them without a tip."""
     if tip is None:
         bases: set[str] = set()
         for joint in tree.joints.values():
@@ -344,11 +333,8 @@ def build_chain(
 def _advise_base(moving: Sequence[TreeJoint]) -> str:
     """Return advice for a chain with unsupported joints: the link after the last of them, if joints follow."""
     last_unsupported = max(index for index, joint in enumerate(moving) if joint.type not in MOVING_TYPES)
-    return (
-        f"; mount the arm on the link behind it: --base {moving[last_unsupported].child}"
-        if last_unsupported < len(moving) - 1
-        else ""
-    )
+    is_followed = last_unsupported < len(moving) - 1
+    return f"; mount the arm on the link behind it: --base {moving[last_unsupported].child}" if is_followed else ""
 
 
 def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints) -> None:
@@ -363,9 +349,8 @@ def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints)
         follower_texts = ", ".join(f"joint '{name}' mimics '{master}'" for name, master in followers.items())
         options = " ".join(f"--hold {name}=0" for name in followers)
         raise ArmError(
-            f"{follower_texts}, which moves on the chain, so it cannot be held still; choose another tip, or freeze it "
-            f"all the same: "
-            f"{options} (hold= in Python)"
+            f"{follower_texts}, which moves on the chain, so it cannot be held still; choose another tip, or freeze it all the "
+            f"same: {options} (hold= in Python)"
         )
 
 

@@ -274,12 +274,8 @@ def _read_limits(element: ElementTree.Element, joint_type: str, label: str) -> t
         lower, upper = (_parse_numbers(limit.get(key, "0"), 1, f"{label}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
             raise ArmError(f"{label}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
-    return (
-        lower,
-        upper,
-        _read_nonnegative(limit, "velocity", label) or np.inf,
-        _read_nonnegative(limit, "effort", label) or np.inf,
-    )
+    velocity, effort = (_read_nonnegative(limit, key, label) or np.inf for key in ("velocity", "effort"))
+    return lower, upper, velocity, effort
 
 
 def _read_nonnegative(element: ElementTree.Element, key: str, label: str) -> float:
@@ -301,9 +297,7 @@ def read_origin(element: ElementTree.Element, label: str) -> FloatArray:
 
 
 def rpy_rotation(rpy: Sequence[float]) -> FloatArray:
-    """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch)
-    Rx(roll)``.
-    """
+    """Return the rotation (3, 3) from roll, pitch, yaw (3,), rad, about fixed x, y, z axes: ``Rz(yaw) Ry(pitch) Rx(roll)``."""
     (cos_roll, sin_roll), (cos_pitch, sin_pitch), (cos_yaw, sin_yaw) = (cos_sin(angle) for angle in rpy)
     about_x = np.array([[1, 0, 0], [0, cos_roll, -sin_roll], [0, sin_roll, cos_roll]])
     about_y = np.array([[cos_pitch, 0, sin_pitch], [0, 1, 0], [-sin_pitch, 0, cos_pitch]])

@@ -85,9 +85,7 @@ def command_words(arm: Arm) -> tuple[str, list[str], str]:
 
 
 def root_element_name(path: str) -> str:
-    """Return the name of the outermost element of an XML file; empty if the file is not valid XML, which the file's reader
-    reports.
-    """
+    """Return the name of the outermost element of an XML file; empty if it is not valid XML, which its reader reports."""
     import io
     from xml.etree import ElementTree
 

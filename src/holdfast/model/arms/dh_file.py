@@ -93,24 +93,14 @@ def format_dh_file(
     Returns:
         YAML. What is read from it again has the numbers of the table to 1e-14.
     """
-    lines = [
-        f"name: {_format_scalar(name)}",
-        *([f"source: {_format_scalar(source)}"] if source else []),
-        "angles: deg",
-        "rows:",
-    ]
-    lines += [
-        f"  - {{{', '.join(f'{key}: {_format_scalar(number)}' for key, number in _format_row(row))}}}" for row in table.rows
-    ]
+    source_line = [f"source: {_format_scalar(source)}"] if source else []
+    lines = [f"name: {_format_scalar(name)}", *source_line, "angles: deg", "rows:"]
+    row_entries = [", ".join(f"{key}: {_format_scalar(entry)}" for key, entry in _format_row(row)) for row in table.rows]
+    lines += [f"  - {{{entries}}}" for entries in row_entries]
     for key, pose in (("base", table.base), ("tool", table.tool)):
         if not np.array_equal(pose, np.eye(4)):
-            lines += [
-                f"{key}:",
-                *[
-                    f"  - [{', '.join(_format_scalar(number) for number in matrix_row)}]"
-                    for matrix_row in (pose + 0.0).tolist()
-                ],
-            ]
+            matrix_rows = [", ".join(map(_format_scalar, row)) for row in (pose + 0.0).tolist()]
+            lines += [f"{key}:", *(f"  - [{row}]" for row in matrix_rows)]
     if not np.array_equal(gravity, GRAVITY):
         lines.append(f"gravity: [{', '.join(_format_scalar(float(number)) for number in np.asarray(gravity))}]")
     if any(link is not None for link in links):
@@ -120,9 +110,7 @@ def format_dh_file(
 
 
 def _format_body(link: Link | None) -> str:
-    """Format a body as one line of YAML, with all digits, because a small inertia has as many significant digits as a large
-    one.
-    """
+    """Format a body as one line of YAML, with all digits, because a small inertia has as many as a large one."""
     if link is None:
         return "null"
     inertia = link.inertia

@@ -67,9 +67,7 @@ def dh_table(arm: Arm) -> DHTable:
     joints, axes = arm_at_origin.frames_at_zero[:-1], arm_at_origin.axes_at_zero
     points = [joint_frame[:3, 3] for joint_frame in joints]
     # The x axes that from_dh gave; a URDF joint may have any.
-    own_x_axes = [
-        joint_frame[:3, 0] if joint.axis[2] == 1.0 else None for joint_frame, joint in zip(joints, arm.joints, strict=True)
-    ]
+    own_x_axes = [frame[:3, 0] if joint.axis[2] == 1.0 else None for frame, joint in zip(joints, arm.joints, strict=True)]
 
     first_frame = _first_frame(axes[0], points[0])
     frames = [first_frame]
@@ -88,9 +86,7 @@ def bodies_in_row_frames(arm: Arm, table: DHTable) -> tuple[list[Link | None], L
     row_frames = [row_motions[index + 1] @ Arm.from_dh([row]).flange for index, row in enumerate(table.rows)]
     link_poses = [_invert_pose(row) @ link_frames[index + 1] for index, row in enumerate(row_frames)]
     links = arm.links or (None,) * arm.n
-    row_links = [
-        None if link is None else link.in_frame(_snap_pose(pose)) for link, pose in zip(links, link_poses, strict=True)
-    ]
+    row_links = [link and link.in_frame(_snap_pose(pose)) for link, pose in zip(links, link_poses, strict=True)]
     return row_links, None if arm.payload is None else arm.payload.in_frame(_snap_pose(link_poses[-1]))
 
 
@@ -176,9 +172,7 @@ def _invert_pose(pose: FloatArray) -> FloatArray:
 
 
 def _signed_angle(a: FloatArray, b: FloatArray, axis: FloatArray) -> float:
-    """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees carry no
-    rounding noise.
-    """
+    """Return the angle, rad, from a to b about an axis perpendicular to both; multiples of 90 degrees are exact."""
     degrees = float(np.rad2deg(np.arctan2(np.cross(a, b) @ axis, a @ b)))
     rounded = round(degrees, 9)
     degrees = rounded if abs(degrees - rounded) < 1e-12 else degrees

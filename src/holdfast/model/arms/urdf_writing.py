@@ -24,10 +24,7 @@ def urdf_text(arm: Arm) -> str:
         arm: Any arm; gravity, payload, rotor inertias and states have no place in the format.
     """
     next_origins = [*(joint_after.origin for joint_after in arm.joints[1:]), arm.tool]
-    radius = (
-        _ROD_RADIUS_FRACTION * sum(float(np.linalg.norm(next_origin[:3, 3])) for next_origin in next_origins)
-        or _ROD_RADIUS_FRACTION
-    )
+    radius = _ROD_RADIUS_FRACTION * sum(float(np.linalg.norm(origin[:3, 3])) for origin in next_origins) or _ROD_RADIUS_FRACTION
     links = arm.links or (None,) * arm.n
     lines = ['<?xml version="1.0"?>', f"<robot name={quoteattr(arm.name)}>", '  <link name="base"/>', '  <link name="mount"/>']
     lines += _fixed_joint_lines("mounted", "base", "mount", arm.base)

@@ -279,9 +279,7 @@ class Cell:
             return self.digest_with(hashlib.sha256(reading.read_bytes(Path(self.shape))).hexdigest())
 
     def digest_with(self, shape: str) -> str:
-        """Return the digest with another text for the shape of the arm, because older folders contain the path of its capsule
-        file.
-        """
+        """Return the digest with another text for the shape of the arm, because older folders have the path of its capsules."""
         from holdfast.model.cell import cell_file
 
         def describe_solid(solid: Solid) -> Any:

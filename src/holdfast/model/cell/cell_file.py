@@ -260,7 +260,9 @@ def object_to_dict(solid: Solid) -> dict[str, Any]:
         case HalfSpace():
             entry = {"half_space": [0.0, 0.0, 1.0]}
         case Mesh():
-            entry = {"mesh": _mesh_to_dict(solid) if solid.source is None else str(solid.source.path)}
+            surface = solid.surface  # in m, with its scale already applied
+            triangles = {"vertices": surface.vertices.tolist(), "faces": surface.faces.tolist()}
+            entry = {"mesh": triangles if solid.source is None else str(solid.source.path)}
             entry |= {"scale": float(solid.scale)} if solid.source is not None else {}
             entry |= {"solid": solid.solid}
         case Points():
@@ -272,11 +274,6 @@ def object_to_dict(solid: Solid) -> dict[str, Any]:
         is_rotated = not np.array_equal(solid.pose[:3, :3], np.eye(3))
         entry["pose"] = solid.pose.tolist() if is_rotated else {"xyz": solid.pose[:3, 3].tolist()}
     return entry | ({"margin": float(solid.margin)} if solid.margin else {})
-
-
-def _mesh_to_dict(solid: Mesh) -> dict[str, Any]:
-    """Return the triangles of a mesh in m, with its scale already applied."""
-    return {"vertices": solid.surface.vertices.tolist(), "faces": solid.surface.faces.tolist()}
 
 
 def cell_file_error(path: Path, error: HoldfastError) -> InputError:

@@ -31,9 +31,8 @@ from holdfast.model.cell.outside import (
     tabulate_outside_distances,
 )
 
-FieldData = tuple[
-    NodeGrid, FloatArray, NDArray[np.float32], float
-]  # grid, signed distances of its nodes, and what is seen from outside
+# Grid, signed distances of its nodes, and what is seen from outside.
+FieldData = tuple[NodeGrid, FloatArray, NDArray[np.float32], float]
 
 _CACHE_FORMAT = 3  # of what is on the disk; another number where the making changes
 _MAX_NODES = 1_000_000
@@ -88,9 +87,7 @@ class DistanceField:
         point_array = np.asarray(points, dtype=np.float64)
         flat_points = point_array.reshape(-1, 3)
         parts = [flat_points[start : start + _BATCH_POINTS] for start in range(0, len(flat_points), _BATCH_POINTS)]
-        results = np.concatenate(
-            [np.empty((0, 4)), *[interpolate_bounds(points_part, [self.tables], [len(points_part)]) for points_part in parts]]
-        )
+        results = np.concatenate([np.empty((0, 4)), *[interpolate_bounds(part, [self.tables], [len(part)]) for part in parts]])
         return results[:, 0].reshape(point_array.shape[:-1]) - self.offset, results[:, 1:].reshape(point_array.shape)
 
     @cached_property

@@ -63,15 +63,12 @@ class FieldTables:
 
 
 def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points_per_table: Sequence[int]) -> FloatArray:
-    """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` consecutive points belong to field i, in its
-    own frame.
-    """
+    """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` in turn belong to field i, in its frame."""
     parameters = (
         np.repeat([field.parameters for field in tables], points_per_table, axis=0) if len(tables) > 1 else tables[0].parameters
     )
-    node_coordinates = np.clip(np.nan_to_num(_coordinate_kernel().rows(points, parameters)), 0, _MAX_NODE_INDEX).astype(
-        np.int64
-    )
+    coordinates = np.nan_to_num(_coordinate_kernel().rows(points, parameters))
+    node_coordinates = np.clip(coordinates, 0, _MAX_NODE_INDEX).astype(np.int64)
     cells, corners = np.empty((len(points), 6)), np.empty((len(points), 16))
     ends = np.cumsum(points_per_table)
     for field, start, stop in zip(tables, ends - points_per_table, ends, strict=True):
@@ -89,9 +86,7 @@ def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points
 def _read_cell_corners(
     table: NDArray[np.float32], coordinates: IndexArray, block: IndexArray | int, cells: FloatArray, corners: FloatArray
 ) -> None:
-    """Write the cells (N, 3) of a block of a table that contain given coordinates (N, 3), or are nearest, and the values at
-    their corners (N, 8).
-    """
+    """Write the cells (N, 3) of a block that contain coordinates (N, 3), or are nearest, and the values at corners (N, 8)."""
     x, y, z = table.shape[-3:]
     cell = np.minimum(coordinates, [x - 2, y - 2, z - 2])
     cells[:] = cell
@@ -112,9 +107,7 @@ def _coordinate_kernel() -> Kernel:
 
 @cache
 def _bound_kernel() -> Kernel:
-    """Return the kernel of the bound and its gradient, (4,), from a point (3,), a field's parameters, the cells (6,), and their
-    corners (16,).
-    """
+    """Return the kernel of bound and gradient (4,) from a point (3,), a field's parameters, cells (6,), and corners (16,)."""
     point, parameters, cells, corners = (
         ca.SX.sym(*x) for x in (("at", 3), ("facts", PARAMETER_COUNT), ("cells", 6), ("corners", 16))
     )
@@ -143,10 +136,8 @@ def _field_coordinates(point: SX, parameters: SX) -> FieldCoordinates:
     half_edges = [width * parameters[4 + axis] / 2 for axis in range(3)]
     centered = [point[axis] - parameters[axis] - half_edges[axis] for axis in range(3)]
     overhang = [ca.fabs(centered[axis]) - half_edges[axis] for axis in range(3)]
-    on_first_axis, on_second_axis = (
-        ca.logic_and(overhang[0] >= overhang[1], overhang[0] >= overhang[2]),
-        overhang[1] >= overhang[2],
-    )
+    on_first_axis = ca.logic_and(overhang[0] >= overhang[1], overhang[0] >= overhang[2])
+    on_second_axis = overhang[1] >= overhang[2]
 
     def pick_axis(v: Vector, k: int) -> SX:
         """Return the coordinate normal to the face for k = 0, then the coordinates that follow."""

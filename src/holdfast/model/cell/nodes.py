@@ -114,9 +114,7 @@ def triangle_parts(corners: FloatArray, max_edge: float) -> DistanceParts:
 
 @cache
 def _triangle_distance_kernel() -> Kernel:
-    """Return the kernel of squared distances (P,), m^2, of points (P, 3) from triangles (P, 15): a, the frame, and b and c in
-    it.
-    """
+    """Return the kernel of squared distances (P,), m^2, of points (P, 3) from triangles (P, 15): a, a frame, b and c in it."""
     point, triangle = ca.SX.sym("at", 3), ca.SX.sym("row", 15)
     relative = point - triangle[:3]
     x, y, z = (ca.dot(relative, triangle[3 + 3 * axis : 6 + 3 * axis]) for axis in range(3))
@@ -158,11 +156,9 @@ def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
         finished.append(corners[~is_long])
         corners, longest_edge = corners[is_long], edges[is_long].argmax(axis=1)
         indices = np.arange(len(corners))
-        edge_start, edge_end, apex = (
-            corners[indices, longest_edge],
-            corners[indices, (longest_edge + 1) % 3],
-            corners[indices, (longest_edge + 2) % 3],
-        )
+        edge_start = corners[indices, longest_edge]
+        edge_end = corners[indices, (longest_edge + 1) % 3]
+        apex = corners[indices, (longest_edge + 2) % 3]
         midpoint = (edge_start + edge_end) / 2
         corners = np.concatenate([np.stack([edge_start, midpoint, apex], axis=1), np.stack([midpoint, edge_end, apex], axis=1)])
     return np.concatenate(finished)
@@ -172,9 +168,7 @@ def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
 
 
 def node_distance_bounds(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArray, FloatArray]:
-    """Return lower and upper bounds of the distance of every node from the nearest part, m; they are equal where they are
-    exact.
-    """
+    """Return lower and upper bounds of the distance of every node from the nearest part, m, equal where they are exact."""
     from scipy.ndimage import distance_transform_edt
 
     fine_grid = grid.finer_grid
@@ -211,9 +205,7 @@ def _count_pairs(grid: NodeGrid, parts: DistanceParts, band: float) -> float:
 
 
 def _distances_within_band(grid: NodeGrid, parts: DistanceParts, band: float) -> FloatArray:
-    """Return the distance of every node from the nearest part, m, exact where it is at most ``band``, infinite or larger
-    elsewhere.
-    """
+    """Return the distance of every node from the nearest part, m, exact up to ``band``, infinite or larger elsewhere."""
     first_nodes, counts = _part_node_boxes(grid, parts, band)
     _, nodes_y, nodes_z = grid.shape
     squared_distances = np.full(int(np.prod(grid.shape)), np.inf)
@@ -274,9 +266,7 @@ def find_inside_nodes(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, l
 
 
 def _winding_numbers(grid: NodeGrid, vertices: FloatArray, faces: IndexArray) -> NDArray[np.int32]:
-    """Return, negated, how often the surface is passed outward less inward on the way up along z from far below to
-    each node.
-    """
+    """Return, negated, how often the surface is passed outward less inward on the way up along z to each node."""
     corners = vertices[faces]
     flat_grid = NodeGrid(grid.origin * [1, 1, 0], grid.width, (grid.shape[0], grid.shape[1], 1))
     lower, upper = corners.min(axis=1) * [1, 1, 0], corners.max(axis=1) * [1, 1, 0]

@@ -83,9 +83,7 @@ def tabulate_outside_distances(grid: NodeGrid, samples: FloatArray, sample_gap: 
 
 
 def _subsample_points(points: FloatArray) -> tuple[FloatArray, float]:
-    """Return at most ``_MAX_SURFACE_POINTS`` points (M, 3), and the largest distance of a given point (N, 3) from the nearest
-    of them, m.
-    """
+    """Return at most ``_MAX_SURFACE_POINTS`` points (M, 3), and the largest distance, m, of a point (N, 3) from them."""
     if len(points) <= 8 * _MAX_SURFACE_POINTS:
         points = np.unique(points, axis=0)
     if len(points) <= _MAX_SURFACE_POINTS:

@@ -39,17 +39,13 @@ class Solid:
             raise InputError(f"the margin of object '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
 
     def moved_to(self, pose: ArrayLike) -> Self:
-        """Return the same object at another pose (4, 4) in the world, m, or position (3,); data computed from its shape are
-        kept.
-        """
+        """Return the same object at another pose (4, 4) in the world, m, or position (3,); data of its shape are kept."""
         moved = copy(self)
         object.__setattr__(moved, "pose", _resolve_pose(pose, self.name))
         return moved
 
     def signed_distance(self, points: ArrayLike) -> FloatArray:
-        """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside; never above the true
-        distance.
-        """
+        """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside, never above the true."""
         raise NotImplementedError
 
     def _require_length(self, value: float, quantity: str) -> None:

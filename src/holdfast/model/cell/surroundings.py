@@ -66,9 +66,7 @@ def cell_arguments_from_mjcf(path: Path, base: str | None, tip: str | None, hold
 def _separate_arm_links(
     tree: LinkTree, base: str | None, tip: str | None, hold: Mapping[str, float]
 ) -> tuple[str, set[str], Place]:
-    """Return the base, the links of the arm below its first joint, and a function that places links which do not move with the
-    arm.
-    """
+    """Return the base, the links of the arm below its first joint, and a function that places links that do not move."""
     moving, arm_links = set(), set()
     if any(joint.is_moving for joint in tree.joints.values()):
         base, tip = resolve_base_and_tip(tree, base, tip)
@@ -102,9 +100,7 @@ def _cell_arguments(
 
 
 def _unique_names(pieces: list[Piece], world: str) -> list[str]:
-    """Return the names of the pieces: their own names, else those of their owners or, in the world, of their kinds, with a
-    number if taken.
-    """
+    """Return the names of the pieces: their own, else those of owners or, in the world, of kinds, with a number if taken."""
     taken = {piece.label for piece in pieces}
     names = []
     for piece in pieces:

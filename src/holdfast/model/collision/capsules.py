@@ -120,10 +120,8 @@ class Capsules:
             first_parts, second_parts = ([index for index, part in enumerate(self.parts) if part.link == link] for link in pair)
             all_pairs = _order_pairs(product(first_parts, second_parts))
             if set(all_pairs) <= set(apart):
-                ignore, apart = (
-                    _order_pairs([*ignore, pair]),
-                    tuple(part_pair for part_pair in apart if part_pair not in all_pairs),
-                )
+                ignore = _order_pairs([*ignore, pair])
+                apart = tuple(part_pair for part_pair in apart if part_pair not in all_pairs)
         object.__setattr__(self, "ignore", ignore)
         object.__setattr__(self, "apart", apart)
 
@@ -160,9 +158,7 @@ class Capsules:
         return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
 
     def radius_along(self, arm: Arm) -> float | None:
-        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links` and nothing is ignored;
-        else None.
-        """
+        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links`, none ignored; else None."""
         radius = self.parts[0].radius if self.parts else None
         is_default = (
             radius is not None
@@ -173,9 +169,7 @@ class Capsules:
 
     @property
     def covers(self) -> bool:
-        """True if the capsules contain the collision shapes of a file; see
-        :func:`holdfast.model.collision.cover.make_cover`.
-        """
+        """True if they contain the collision shapes of a file; see :func:`holdfast.model.collision.cover.make_cover`."""
         return self.source.startswith(COVER_PREFIX)
 
     def is_assumed(self, arm: Arm) -> bool:
@@ -224,8 +218,7 @@ class Capsules:
             if link in named:
                 name, entries = named[link]
                 parts += [
-                    _make_capsule(link, entry, data_model.radius, f"links.{name}[{index}]")
-                    for index, entry in enumerate(entries)
+                    _make_capsule(link, entry, data_model.radius, f"links.{name}[{k}]") for k, entry in enumerate(entries)
                 ]
             elif data_model.radius is not None:
                 parts += capsule_along_link(arm, link, data_model.radius)

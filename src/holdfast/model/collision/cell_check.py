@@ -133,11 +133,9 @@ def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Cl
     obstacles = Obstacles(arm, resolved_clearance.capsules, open_cell)
     lower, upper = sampling_limits(arm)
     touches = obstacles.pair_distances(lower + (upper - lower) * sobol_points(CHECKED_CONFIGURATIONS, arm.n)) < 0
-    by_object = (
-        touches.reshape(CHECKED_CONFIGURATIONS, -1, len(loaded_cell)).any(axis=1).mean(axis=0)
-        if len(loaded_cell)
-        else np.zeros(0)
-    )
+    by_object = np.zeros(0)
+    if len(loaded_cell):
+        by_object = touches.reshape(CHECKED_CONFIGURATIONS, -1, len(loaded_cell)).any(axis=1).mean(axis=0)
     checked_objects = [
         _check_object(loaded_cell, solid, float(fraction)) for solid, fraction in zip(loaded_cell, by_object, strict=True)
     ]

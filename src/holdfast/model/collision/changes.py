@@ -32,9 +32,7 @@ def pair_lipschitz_bounds(
     bounds = np.zeros((len(pairs), arm.n))
     for pair_bounds, (first_index, second_index) in zip(bounds, pairs, strict=True):
         first, second = capsules.parts[first_index], capsules.parts[second_index]
-        end_distances = [
-            max(float(np.linalg.norm(end_point)) for end_point in (part.start, part.end)) for part in (first, second)
-        ]
+        end_distances = [max(float(np.linalg.norm(point)) for point in (part.start, part.end)) for part in (first, second)]
         for joint in range(first.link + 1, second.link + 1):
             # Outwards from axis k to the second capsule; inwards from it to the first.
             outward = _bound_outward_distance(extensions, offsets, joint, second.link) + end_distances[1]
@@ -65,9 +63,7 @@ def link_lipschitz_bounds(
 
 
 def _joint_extents(arm: Arm, lower: FloatArray, upper: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the largest extension (n,) of each prismatic joint, and the distance of each joint's frame from the previous one,
-    m.
-    """
+    """Return the largest extension (n,) of each prismatic joint, and each joint frame's distance from the previous one, m."""
     extensions = np.where(arm.prismatic, np.maximum(np.abs(lower), np.abs(upper)), 0.0)
     return extensions, np.array([float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints])
 

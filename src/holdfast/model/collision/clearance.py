@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import ArmError
 from holdfast.core.probability.sobol_sequence import sobol_points
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_json, cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -84,11 +84,7 @@ class Clearance:
             capsules = capsules_in_cell(arm, cell, capsules)
         self.capsules = capsules.without_held if cell is None or not cell.held else capsules
         highest = max(
-            (
-                link
-                for link in self._capsule_links
-                + [ignored_link for ignored_pair in self.capsules.ignore for ignored_link in ignored_pair]
-            ),
+            (link for link in self._capsule_links + [ignored_link for pair in self.capsules.ignore for ignored_link in pair]),
             default=-1,
         )
         if highest >= arm.n:
@@ -177,9 +173,7 @@ class Clearance:
 
     @property
     def _reference_link(self) -> int:
-        """The link whose frame all expressions use, in the middle of the arm: distances do not change, and the code
-        is shorter.
-        """
+        """The link whose frame all expressions use, in the middle of the arm: equal distances by shorter code."""
         return self.arm.n // 2
 
     def _capsule_axes(self, q: SX) -> list[LineSegment]:
@@ -201,10 +195,8 @@ class Clearance:
         ]
 
     def _pair_wrenches(self, axes: list[LineSegment]) -> list[SX]:
-        return [
-            separating_wrench(axes[first], axes[second], *closest_parameters(axes[first], axes[second]))
-            for first, second in self.pairs
-        ]
+        feet = [(first, second, closest_parameters(axes[first], axes[second])) for first, second in self.pairs]
+        return [separating_wrench(axes[first], axes[second], *parameters) for first, second, parameters in feet]
 
     def _joint_screws(self, q: SX) -> list[SX]:
         """Return the screw (6,) of each joint: its product with a wrench is the power per unit of joint speed."""
@@ -277,10 +269,8 @@ class Clearance:
         for value, other_wrench, (first, second) in rows:
             closer = value < best_distance
             best_distance, best_wrench = ca.if_else(closer, value, best_distance), ca.if_else(closer, other_wrench, best_wrench)
-            lower_link, upper_link = (
-                ca.if_else(closer, self._capsule_links[first], lower_link),
-                ca.if_else(closer, self._capsule_links[second], upper_link),
-            )
+            lower_link = ca.if_else(closer, self._capsule_links[first], lower_link)
+            upper_link = ca.if_else(closer, self._capsule_links[second], upper_link)
         gradient = [
             ca.if_else(ca.logic_and(lower_link < joint, joint <= upper_link), ca.dot(screw, best_wrench), 0.0)
             for joint, screw in enumerate(self._joint_screws(q))
@@ -323,18 +313,16 @@ class Clearance:
     @cached_property
     def exactness(self) -> ExactQueries:
         """Exact collision queries, answered by a library."""
-        ignored, self_clearance, held_objects = (
-            [ignored_pair.pair for ignored_pair in self.ignored],
-            self.self_only,
-            () if self.cell is None else self.cell.held,
-        )
+        ignored = [ignored_pair.pair for ignored_pair in self.ignored]
+        self_clearance = self.self_only
+        held_objects = () if self.cell is None else self.cell.held
         from holdfast.model.collision.exact.exactness import ExactQueries  # takes long to import
 
         return ExactQueries(
             self.arm, self.capsules, (self_clearance, self_clearance.by_pair), self.pairs, ignored, self.obstacles, held_objects
         )
 
-    def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
+    def sign(self, q: ArrayLike) -> BoolArray:
         """Return whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules
         cover.
 
@@ -343,9 +331,7 @@ class Clearance:
         return self._evaluate_rows(q, self.exactness.check_collision_free)
 
     def exact(self, q: ArrayLike) -> FloatArray:
-        """Return the smallest exact distance of the covered bodies, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its
-        accuracy.
-        """
+        """Return the smallest exact distance, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its accuracy."""
         return self._evaluate_rows(q, self.exactness.smallest_distances)
 
     def _evaluate_rows(self, q: ArrayLike, evaluate: Callable[[FloatArray], NDArray[Any]]) -> NDArray[Any]:
@@ -358,7 +344,7 @@ class Clearance:
         """Library of :meth:`exact` and its accuracy: ``coal 3.0.3, to 0.001 mm``."""
         return self.exactness.library_description
 
-    def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
+    def closest_pair(self, q: ArrayLike) -> IndexArray:
         """Return the position in ``pair_names`` of the pair with the smallest margin, the first of several, (N,) or a scalar.
 
         It is -1 where q is not finite and if there is no pair to check.

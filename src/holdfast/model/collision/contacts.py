@@ -146,9 +146,7 @@ def _refine_instants(
 def _exact_contact_time(
     clearance: Clearance, pair: int, instants: FloatArray, after: float, evaluate: Callable[[FloatArray], FloatArray]
 ) -> float:
-    """Return when the bodies of a pair first touch at one of some instants, or between it and the previous;
-    infinite if never.
-    """
+    """Return when the bodies of a pair first touch at one of some instants, or since the previous one; infinite if never."""
     instants = np.concatenate([[after], instants[instants > after]])
     for start in range(0, len(instants), _BATCH_INSTANTS):
         batch = instants[start : start + _BATCH_INSTANTS]

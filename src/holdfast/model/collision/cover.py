@@ -270,9 +270,8 @@ def _spread_points(points: FloatArray, faces: Triangles) -> FloatArray:
     a, b, c = (points[faces[:, index]] for index in range(3))
     cumulative_area = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
     index = np.arange(_SURFACE_POINTS)
-    triangle = np.minimum(
-        np.searchsorted(cumulative_area, (index + 0.5) / _SURFACE_POINTS * cumulative_area[-1]), len(faces) - 1
-    )
+    areas = (index + 0.5) / _SURFACE_POINTS * cumulative_area[-1]
+    triangle = np.minimum(np.searchsorted(cumulative_area, areas), len(faces) - 1)
     # The R2 sequence (Roberts 2018).
     u, v = (0.5 + index * 0.7548776662466927) % 1, (0.5 + index * 0.5698402909980532) % 1
     u, v = np.where(u + v > 1, 1 - u, u)[:, None], np.where(u + v > 1, 1 - v, v)[:, None]

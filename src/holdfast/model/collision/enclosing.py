@@ -20,9 +20,7 @@ _GOLDEN_ANGLE_RAD = np.pi * (3 - np.sqrt(5))  # the golden angle
 
 
 def sphere_directions(count: int) -> FloatArray:
-    """Return (count, 3) unit vectors spread evenly over the sphere: the spherical Fibonacci lattice (Swinbank &
-    Purser 2006).
-    """
+    """Return (count, 3) unit vectors spread evenly over the sphere: its Fibonacci lattice (Swinbank & Purser 2006)."""
     index = np.arange(count)
     z = (2 * index + 1) / count - 1
     ring_radius = np.sqrt(1 - z * z)
@@ -71,9 +69,7 @@ def enclosing_capsule(points: FloatArray) -> tuple[FloatArray, FloatArray, float
 
 
 def _segment_distances(points: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the distance (V,) from the segment, the fraction (V,) along it of the nearest point, and the vector (V, 3) from
-    there.
-    """
+    """Return the distance (V,) from the segment, the fraction (V,) of its nearest point, and the vector (V, 3) from it."""
     span = parameters[3:6] - parameters[:3]
     square = float(span @ span)
     fraction = np.clip((points - parameters[:3]) @ span / square, 0, 1) if square > 0 else np.zeros(len(points))

@@ -13,7 +13,6 @@ from itertools import groupby
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import FloatArray, IndexArray
@@ -63,7 +62,7 @@ def nearest_gradient_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
     return Kernel("nearest object of a block", [q, objects], [ca.vertcat(distance, link_position, object_index, *gradient)])
 
 
-def _moving_links(spheres: SphereCover) -> NDArray[np.int64]:
+def _moving_links(spheres: SphereCover) -> IndexArray:
     return np.unique(spheres.link[spheres.link > BASE_LINK])
 
 
@@ -241,9 +240,8 @@ class FormulaObjects:
 
     def _pack_blocks(self, inflation: FloatArray) -> FloatArray:
         """Pack the kernel inputs block by block, (B, BLOCK, 18 + L), with every object inflated by its entry of (F,), m."""
-        far_object = np.concatenate(
-            [np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)]
-        )  # what is lacking to whole blocks
+        # What is lacking to whole blocks.
+        far_object = np.concatenate([np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)])
         numbers = [
             solid.numbers(solid_inflation) for solid, solid_inflation in zip(self.objects, inflation.tolist(), strict=True)
         ]

@@ -12,11 +12,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.kernel import SingleRowKernel
 from holdfast.model.arm.model import Arm
 from holdfast.model.cell.cell import Cell
@@ -100,7 +99,7 @@ class Obstacles:
 
     # ---- what is looked at ---------------------------------------------------------------------------------------
 
-    def _allowed_contacts(self) -> NDArray[np.bool_]:
+    def _allowed_contacts(self) -> BoolArray:
         """Return (n + 1, K) True for pairs of a link, the base first, and an object that may touch."""
         names = [solid.name for solid in self.cell]
         links = ["base", *self.arm.joint_names]
@@ -219,7 +218,7 @@ class Obstacles:
             distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
         return distances.reshape(len(q), len(self.pairs))
 
-    def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+    def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> BoolArray:
         """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
         its own.
 

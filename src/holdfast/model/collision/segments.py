@@ -53,9 +53,7 @@ def closest_parameters(a: LineSegment, b: LineSegment) -> tuple[SX, SX]:
 
 
 def distance_between_points(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
-    """Return the distance of the points at s on a and t on b, at least 1e-12 m; with :func:`closest_parameters`, that of the
-    segments.
-    """
+    """Return the distance of the points at s on a and t on b, at least 1e-12 m; see :func:`closest_parameters`."""
     difference = b.point_at(t) - a.point_at(s)
     square = ca.dot(difference, difference)
     return ca.sqrt(ca.if_else(square > _MIN_SQUARE_DISTANCE, square, _MIN_SQUARE_DISTANCE))

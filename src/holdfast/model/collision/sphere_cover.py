@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.collision.capsules import Capsules
 
 SPHERE_EXCESS_FRACTION = 0.06  # of the radius of a capsule: what the spheres of its chain may reach beyond it
@@ -25,10 +24,10 @@ class SphereCover:
         part: (S,) position in ``capsules.parts`` of the capsule that it helps to cover.
     """
 
-    link: NDArray[np.int64]
+    link: IndexArray
     center: FloatArray
     radius: FloatArray
-    part: NDArray[np.int64]
+    part: IndexArray
 
 
 def make_sphere_cover(capsules: Capsules, excess_fraction: float = SPHERE_EXCESS_FRACTION) -> SphereCover:

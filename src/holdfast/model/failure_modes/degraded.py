@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files import output
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 
 if TYPE_CHECKING:
@@ -65,10 +65,8 @@ class Degraded:
         """
         stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
         left = {name: _check_range(arm, name, ends) for name, ends in _values_by_name(arm, ranges or {}, "ranges").items()}
-        slow = {
-            name: _check_speed_fraction(arm, name, value)
-            for name, value in _values_by_name(arm, speeds or {}, "speeds").items()
-        }
+        speeds_by_name = _values_by_name(arm, speeds or {}, "speeds")
+        slow = {name: _check_speed_fraction(arm, name, value) for name, value in speeds_by_name.items()}
         if not (stands or left or slow):
             raise InputError(f"nothing of '{arm.name}' is degraded; give locked, ranges or speeds")
         for name in [*left, *slow]:
@@ -93,7 +91,7 @@ class Degraded:
         return np.array([0.0 if j.name in self.locked else j.velocity for j in self.limited.joints], dtype=np.float64)
 
     @property
-    def moves(self) -> NDArray[np.bool_]:
+    def moves(self) -> BoolArray:
         """(n,) True for joints that are not locked."""
         return np.array([name not in self.locked for name in self.arm.joint_names])
 
@@ -289,9 +287,7 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
 
 
 def locks_at(arm: Arm, locked: Locked, at: FloatArray) -> dict[int, float]:
-    """Return the locks that :func:`read_locks` reads in the arm's order, with the values of ``at`` (n,) for joints without a
-    value.
-    """
+    """Return the locks of :func:`read_locks` in the arm's order, with the values of ``at`` (n,) for joints without one."""
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import ArmError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.tree import LinkTree, LockedJoints
 
@@ -47,7 +46,7 @@ class Piece:
     size: tuple[float, ...]
     pose: FloatArray
     vertices: FloatArray
-    faces: NDArray[np.int64]
+    faces: IndexArray
     rgba: tuple[float, ...] | None = None
     label: str = ""
 
@@ -95,9 +94,7 @@ class LinkCarriers:
                 raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
 
     def locate_link(self, link: str) -> tuple[int, FloatArray] | None:
-        """Return the joint that moves a link (-1 for none) and the link's pose (4, 4) there; None if it is not attached to the
-        base.
-        """
+        """Return the joint that moves a link (-1: none) and its pose (4, 4) there; None if not attached to the base."""
         pose = np.eye(4)
         while link != self.base:
             if link not in self.tree.joint_above:

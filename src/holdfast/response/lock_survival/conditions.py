@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.status import Status
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.paths.timed_path import TimedPath
 from holdfast.kinematics.solvers.clear_parts import CurveConstraint
 from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
@@ -140,12 +139,10 @@ class MotionConditions:
         if self.manifold is None:
             return q
 
-        def evaluate_path_rows(trial: FloatArray, pose_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
-            current_poses, jacobian, target_poses = (
-                self.arm.forward_kinematics(trial),
-                self.arm.jacobian(trial),
-                poses[pose_indices],
-            )
+        def evaluate_path_rows(trial: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, FloatArray]:
+            current_poses = self.arm.forward_kinematics(trial)
+            jacobian = self.arm.jacobian(trial)
+            target_poses = poses[pose_indices]
             orientation_errors = rotation_vectors(target_poses[:, :3, :3] @ current_poses[:, :3, :3].transpose(0, 2, 1))
             error = np.concatenate([target_poses[:, :3, 3] - current_poses[:, :3, 3], orientation_errors], axis=1)
             rows = _world_task_rows(self.task, current_poses)

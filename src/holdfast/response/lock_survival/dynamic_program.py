@@ -1,4 +1,4 @@
-"""Dynamic program that selects the motion over the nodes of a path with the greatest total gain, and smoothing of it."""
+"""Moves between the nodes of a path for the search of the motion with the greatest total gain, and smoothing of it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,14 @@ import numpy as np
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.best_paths import BestPathTable, NodeMoves, bound_move_length
 from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
 from holdfast.model.arm.model import Arm
 from holdfast.response.lock_survival.grid import CurveNodes, compute_squared_distances
 from holdfast.response.lock_survival.tables import LockTable
 
-_RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
-_MAX_DENSE_MOVES = (
-    1 << 20
-)  # moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree
+# Moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree.
+_MAX_DENSE_MOVES = 1 << 20
 _MAX_CURVE_SHIFT_RAD = 0.15  # rad along its curve is the most that a configuration is moved
 _SMOOTHING_ROUNDS = 3
 
@@ -51,74 +50,6 @@ class SearchBounds:
     held: dict[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, eq=False)
-class NodeMoves:
-    """The M moves from the nodes of a pose to those of the next that are short enough, ordered by their targets.
-
-    Attributes:
-        targets, sources: (M,) nodes.
-        squared_distances: (M,) squared distances.
-        excesses: (M,) how much farther than allowed a joint goes, rad and m; below 0 where none does.
-    """
-
-    targets: IndexArray
-    sources: IndexArray
-    squared_distances: FloatArray
-    excesses: FloatArray
-
-
-class BestPathTable:
-    """Best motions up to a pose, one to each of its nodes; among equals the shortest, by its squared steps.
-
-    Attributes:
-        gains: (P,) what each node of each pose is worth.
-        allowed_excess: How much farther than allowed a joint may go from pose to pose, rad and m.
-        last_pose: The last pose to which any motion leads, if it is not the last of all.
-    """
-
-    def __init__(self, gains: list[FloatArray], extra: float = 0.0) -> None:
-        self.gains, self.allowed_excess = gains, extra
-        self.last_pose: int | None = None
-        self._tie_tolerance = _RELATIVE_TIE_TOLERANCE * sum(float(gain.max()) for gain in gains)
-        self._totals, self._path_lengths = gains[0], np.zeros(len(gains[0]))
-        self._predecessors: list[IndexArray] = []
-
-    def advance_to_next_pose(self, moves: NodeMoves) -> None:
-        """Advance the best motions to the next pose."""
-        if self.last_pose is not None:
-            return
-        node_gains = self.gains[len(self._predecessors) + 1]
-        is_allowed = (moves.excesses <= self.allowed_excess) & np.isfinite(self._totals[moves.sources])
-        targets, sources = moves.targets[is_allowed], moves.sources[is_allowed]
-        if not targets.size:
-            self.last_pose = len(self._predecessors)
-            return
-        source_totals = self._totals[sources]
-        best_totals = _max_by_group(source_totals, targets, len(node_gains))
-        is_best = source_totals >= best_totals[targets] - self._tie_tolerance
-        targets, sources = targets[is_best], sources[is_best]
-        lengths = self._path_lengths[sources] + moves.squared_distances[is_allowed][is_best]
-        shortest = -_max_by_group(-lengths, targets, len(node_gains))
-        predecessors = np.zeros(len(node_gains), dtype=np.int64)
-        cheapest = np.flatnonzero(lengths == shortest[targets])[::-1]
-        predecessors[targets[cheapest]] = sources[cheapest]  # what is written last stays: the first
-        self._totals, self._path_lengths = best_totals + node_gains, shortest
-        self._predecessors.append(predecessors)
-
-    @property
-    def best_total(self) -> float:
-        """Total gain of the best motion; NaN if none leads to the last pose."""
-        return float(self._totals.max()) if self.last_pose is None else float("nan")
-
-    def trace_best_motion(self) -> IndexArray:
-        """Return the node of every pose (T,) along the best motion."""
-        best = np.flatnonzero(self._totals >= self._totals.max() - self._tie_tolerance)
-        chosen = [int(best[self._path_lengths[best].argmin()])]
-        for source in reversed(self._predecessors):
-            chosen.append(int(source[chosen[-1]]))
-        return np.array(chosen[::-1])
-
-
 def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, path_tables: Sequence[BestPathTable]) -> None:
     """Advance tables of best motions from the first pose to the last.
 
@@ -135,52 +66,29 @@ def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, pat
             path_table.advance_to_next_pose(moves)
 
 
-def _max_by_group(values: FloatArray, group_indices: IndexArray, group_count: int) -> FloatArray:
-    """Return (G,) the largest value of each group (M,), in sorted order; -inf for an empty group."""
-    maxima = np.full(group_count, -np.inf)
-    if group_indices.size:
-        group_starts = np.flatnonzero(np.diff(group_indices, prepend=-1))
-        maxima[group_indices[group_starts]] = np.maximum.reduceat(values, group_starts)
-    return maxima
-
-
 def _find_moves(
     arm: Arm, nodes_after: CurveNodes, nodes_before: CurveNodes, max_steps: FloatArray, allowed_excess: float
 ) -> NodeMoves:
-    """Return the moves from ``nodes_before`` to ``nodes_after`` within the limits plus ``allowed_excess``, or short ones
-    without a limit.
-    """
+    """Return the moves between the nodes within the limits plus ``allowed_excess``, or short ones without a limit."""
+    is_limited = np.isfinite(max_steps)
     if len(nodes_before.q) * len(nodes_after.q) <= _MAX_DENSE_MOVES:
         node_distances = compute_squared_distances(nodes_after.embedded, nodes_before.embedded)
-        max_length = _bound_move_length(nodes_before, np.sqrt(node_distances.min(axis=0)), max_steps)
+        nearest = np.sqrt(node_distances.min(axis=0))
+        max_length = np.inf if is_limited.all() else bound_move_length(nodes_before.spacing, nearest)
         targets, sources = (indices.ravel() for indices in np.indices(node_distances.shape))
-        move_distances, excesses = (
-            node_distances.ravel(),
-            _measure_excess(arm, nodes_after.q[:, None], nodes_before.q[None], max_steps).ravel(),
-        )
+        move_distances = node_distances.ravel()
+        excesses = _measure_excess(arm, nodes_after.q[:, None], nodes_before.q[None], max_steps).ravel()
     else:
         from scipy.spatial import KDTree
 
-        max_length = _bound_move_length(
-            nodes_before, np.asarray(KDTree(nodes_after.embedded).query(nodes_before.embedded)[0]), max_steps
-        )
-        targets, sources = _find_close_pairs(
-            arm,
-            nodes_after.q,
-            nodes_before.q,
-            np.where(np.isfinite(max_steps), max_steps + allowed_excess, np.pi / 2 * max_length),
-        )
-        move_distances, excesses = (
-            ((nodes_after.embedded[targets] - nodes_before.embedded[sources]) ** 2).sum(axis=1),
-            _measure_excess(arm, nodes_after.q[targets], nodes_before.q[sources], max_steps),
-        )
+        nearest = np.asarray(KDTree(nodes_after.embedded).query(nodes_before.embedded)[0])
+        max_length = np.inf if is_limited.all() else bound_move_length(nodes_before.spacing, nearest)
+        max_differences = np.where(is_limited, max_steps + allowed_excess, np.pi / 2 * max_length)
+        targets, sources = _find_close_pairs(arm, nodes_after.q, nodes_before.q, max_differences)
+        move_distances = ((nodes_after.embedded[targets] - nodes_before.embedded[sources]) ** 2).sum(axis=1)
+        excesses = _measure_excess(arm, nodes_after.q[targets], nodes_before.q[sources], max_steps)
     is_selected = (excesses <= allowed_excess) & (move_distances <= max_length**2)
     return NodeMoves(targets[is_selected], sources[is_selected], move_distances[is_selected], excesses[is_selected])
-
-
-def _bound_move_length(nodes_before: CurveNodes, nearest: FloatArray, max_steps: FloatArray) -> float:
-    """Return the greatest length of a move of joints without a limit; ``nearest`` (P,) are the distances to the next pose."""
-    return np.inf if np.isfinite(max_steps).all() else 3 * nodes_before.spacing + 2 * float(np.median(nearest))
 
 
 def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: FloatArray) -> FloatArray:
@@ -197,9 +105,7 @@ def _measure_excess(arm: Arm, q: FloatArray, before: FloatArray, max_steps: Floa
 def _find_close_pairs(
     arm: Arm, first_q: FloatArray, second_q: FloatArray, max_differences: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Return the indices of rows of b (Q, n) and a (P, n) that differ by no more than ``max_differences`` (n,) in any joint, in
-    order.
-    """
+    """Return the ordered pairs of rows (Q, n) and (P, n) that differ by at most ``max_differences`` (n,) in every joint."""
     from scipy.spatial import KDTree
 
     padded_reach = max_differences * (1 + 1e-9)

@@ -108,9 +108,8 @@ def evaluate_motion(
     off_path = is_off_path(problem, q)
     if off_path.any():
         raise InputError(
-            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off_path.argmax()]:.4g} "
-            f"s; give one "
-            "along this path"
+            f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off_path.argmax()]:.4g} s; give "
+            "one along this path"
         )
     broken = problem.conditions.find_violation(q)
     if broken is not None:

@@ -125,9 +125,8 @@ def _reaches_last_pose(
     problem: SurvivalProblem, q: FloatArray, lock_times: FloatArray, locked_joints: IndexArray, fixed_joints: tuple[int, ...]
 ) -> BoolArray:
     """Return (N,) True where the branch through (joints, time) leads to the last pose."""
-    end_configurations, has_arrived = _follow_branch(
-        problem, q, lock_times, (locked_joints, fixed_joints), problem.path.duration
-    )
+    locks = locked_joints, fixed_joints
+    end_configurations, has_arrived = _follow_branch(problem, q, lock_times, locks, problem.path.duration)
     has_arrived[has_arrived] = _are_on_last_pose(problem, end_configurations[has_arrived])
     return has_arrived
 

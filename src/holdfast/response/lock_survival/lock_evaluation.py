@@ -77,9 +77,8 @@ def find_path_survived_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArr
         is_undecided = ~survives
         is_undecided[:, list(fixed_set)] = False
         if is_undecided.any():
-            survives |= tables.follow_motion_locks(
-                problem.with_fixed_joints(dict.fromkeys(fixed_set, 0.0)).lock, q, is_undecided
-            )
+            fixed = problem.with_fixed_joints(dict.fromkeys(fixed_set, 0.0))
+            survives |= tables.follow_motion_locks(fixed.lock, q, is_undecided)
     narrower = problem.with_axis_at(q[0]) if np.isfinite(q[0]).all() else None
     if narrower is not None:
         survives |= find_path_survived_locks(narrower, np.where(is_off_path(narrower, q)[:, None], np.nan, q))

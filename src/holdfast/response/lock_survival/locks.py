@@ -76,14 +76,11 @@ class LockedFollower:
 
     def solve_poses(self, q: FloatArray, locked_joints: IndexArray, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Solve poses (N, 4, 4) near configurations (N, n) without moving joint (N,); return the result and its success."""
-        return self._solve_newton(
-            q, locked_joints, poses, self.tracer.newton_step_and_error(q, *_positions_and_rotations(poses))
-        )
+        residuals = self.tracer.newton_step_and_error(q, *_positions_and_rotations(poses))
+        return self._solve_newton(q, locked_joints, poses, residuals)
 
     def step_with_each_lock(self, q: FloatArray, pose_indices: IndexArray) -> tuple[FloatArray, BoolArray]:
-        """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), the locked joint second, and success (N,
-        n).
-        """
+        """Step with every joint locked from every q (N, n) on pose t (N,): (N, n, n), that joint second, and success (N, n)."""
         n = self.arm.n
         next_poses = self.poses[pose_indices + 1]
         evaluation = self.tracer.newton_step_and_error(q, *_positions_and_rotations(next_poses))
@@ -162,9 +159,8 @@ class LockedFollower:
         cosines = np.einsum("ij,ij->i", null_vectors, final_null_vectors)
         first_entries, last_entries = null_vectors[rows, locked_joints], final_null_vectors[rows, locked_joints]
         same_branch = (first_entries * last_entries * cosines > 0) & (np.abs(cosines) >= _MIN_NULL_COSINE)
-        is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (
-            np.abs(last_entries) <= _ZERO_NULL_ENTRY
-        )  # the self-motion does not move this joint anywhere
+        # The self-motion does not move this joint anywhere.
+        is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (np.abs(last_entries) <= _ZERO_NULL_ENTRY)
         return next_q, np.asarray(
             is_on_pose & (same_branch | is_unaffected) & (np.abs(next_q - q).max(axis=1) <= _MAX_JOINT_STEP)
         )

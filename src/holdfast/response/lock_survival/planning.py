@@ -29,9 +29,8 @@ from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
 from holdfast.response.lock_survival.rates import FailureRates
 from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
 
-# _SMALL_MOTION and _STANDSTILL_TOLERANCE: rad and m along a whole curve
-_SMALL_MOTION = 0.3
-_STANDSTILL_TOLERANCE = 1e-6
+_SMALL_MOTION = 0.3  # rad and m along a whole curve
+_STANDSTILL_TOLERANCE = 1e-6  # rad and m along a whole curve
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 
@@ -224,9 +223,7 @@ class LockSurvival(Result):
 
     @cached_property
     def motion(self) -> Trajectory:
-        """Motion for a controller, at five times as many samples, each on its pose, with a local measure of fault tolerance as
-        objective.
-        """
+        """Motion for a controller, at five times as many samples, with a local measure of fault tolerance as objective."""
         return make_trajectory(self._problem, self.q)
 
     @check_arguments
@@ -289,9 +286,8 @@ class LockSurvival(Result):
         ):
             range_text = f" by more than {motion_range:.3g} {joint.unit}" if motion_range > _STANDSTILL_TOLERANCE else ""
             lines.append(
-                f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical "
-                f"shoulder and wrist "
-                "their distance does), so that its lock is survived only while that hardly changes"
+                f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical shoulder and "
+                "wrist their distance does), so that its lock is survived only while that hardly changes"
             )
         return lines
 
@@ -351,10 +347,9 @@ class LockSurvival(Result):
         if self.injected is not None:
             lock_count, probability_interval = len(self.injected.time), self.injected.interval
             lines.append(
-                f"of {lock_count} locks injected at random times {format_percent(probability_interval.value)} were "
-                f"survived ({format_percent(probability_interval.low)} to "
-                f"{format_percent(probability_interval.high)}, 95 %), {format_percent(self.injected.agreement)} of them "
-                f"as the motion says"
+                f"of {lock_count} locks injected at random times {format_percent(probability_interval.value)} were survived "
+                f"({format_percent(probability_interval.low)} to {format_percent(probability_interval.high)}, 95 %), "
+                f"{format_percent(self.injected.agreement)} of them as the motion says"
             )
         if self.never is not None:
             worst_time, name = self.never

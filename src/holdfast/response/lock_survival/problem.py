@@ -1,6 +1,4 @@
-"""Problem of finding the locks that a motion along a path survives; :mod:`holdfast.response.lock_survival.lock_evaluation`
-judges them.
-"""
+"""The problem of finding the locks that a motion along a path survives, which ``lock_evaluation`` judges."""
 
 from __future__ import annotations
 
@@ -32,9 +30,8 @@ Kind = Literal["exact", "upper bound", "lower bound"]
 
 _IMMOBILE_RANGE = 1e-9  # rad and m between the limits of a joint that does not move
 _MAX_FIXED_SETS = 24  # of joints that a failed arm may hold
-# _COARSE_SPACING_RAD and _MIN_COARSE_POSES: rad between nodes, and poses, of what is only tried
-_COARSE_SPACING_RAD = 0.15
-_MIN_COARSE_POSES = 11
+_COARSE_SPACING_RAD = 0.15  # between nodes of a problem that is only tried
+_MIN_COARSE_POSES = 11  # poses of a problem that is only tried
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -197,16 +194,14 @@ def make_problem(
         immobile_text = f", {len(problem.immobile_joints)} of which cannot move," if problem.immobile_joints else ""
         raise TaskError(
             f"'{arm.name}' has {arm.n} joints{immobile_text} and the task '{task_rows.name}' {task_rows.m} rows: without "
-            f"redundancy almost every "
-            "lock loses the path; choose a task with fewer rows"
+            "redundancy almost every lock loses the path; choose a task with fewer rows"
         )
     if problem.redundancy == 1:
         return problem.with_fixed_joints({}) if problem.immobile_joints else problem
     if mode == "detour" and conditions.is_restrictive:
         raise TaskError(
             f"'{arm.name}' has {problem.redundancy} degrees of redundancy for the task '{task_rows.name}'; detours among "
-            f"obstacles or "
-            "with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
+            "obstacles or with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
         )
     return problem
 

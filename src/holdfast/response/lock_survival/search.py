@@ -14,6 +14,7 @@ from holdfast.core.validation import check_arguments
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.paths.timed_path import TimedPath
 from holdfast.kinematics.solvers import joint_space
+from holdfast.kinematics.solvers.best_paths import BestPathTable
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.kinematics.solvers.self_motions import TRACING_STARTS
 from holdfast.kinematics.tool_constraints.labels import KeepLike
@@ -23,7 +24,7 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike
 from holdfast.response.lock_survival import tables
 from holdfast.response.lock_survival.conditions import compute_task_jacobian
-from holdfast.response.lock_survival.dynamic_program import BestPathTable, SearchBounds, advance_tables, smooth_motion
+from holdfast.response.lock_survival.dynamic_program import SearchBounds, advance_tables, smooth_motion
 from holdfast.response.lock_survival.given_motion import with_baselines
 from holdfast.response.lock_survival.grid import CurveNodes, make_nodes
 from holdfast.response.lock_survival.lock_evaluation import PATH_TOLERANCE, find_survived_locks, is_off_path
@@ -33,9 +34,8 @@ from holdfast.response.lock_survival.rates import FailureRates, RatesLike
 
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
 _MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
-# _FIRST_CONFIGURATIONS and _FIRST_POSE_STARTS: configurations of the first pose that are tried, and the starts of their search
-_FIRST_CONFIGURATIONS = 3
-_FIRST_POSE_STARTS = 64
+_FIRST_CONFIGURATIONS = 3  # configurations of the first pose that are tried
+_FIRST_POSE_STARTS = 64  # random starts of the search for them
 _RANK_TOLERANCE = 1e-6  # of the largest singular value
 _MAX_CONE_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
 
@@ -131,11 +131,10 @@ def plan_motion(
         starts=starts,
     )
     q_start = None if start is None else _project_start_to_path(problem, start)
-    best = (
-        _CurveSearch(problem, q_start).find_best_motion(problem)
-        if problem.redundancy == 1
-        else _search_fixed_joints(problem, q_start)
-    )
+    if problem.redundancy == 1:
+        best = _CurveSearch(problem, q_start).find_best_motion(problem)
+    else:
+        best = _search_fixed_joints(problem, q_start)
     return best if not compare else with_baselines(problem, best, compare, seed)
 
 
@@ -170,8 +169,7 @@ class _CurveSearch:
         )
         weights = problem.rates.weights(problem.time)
         self._gains = [
-            weight * lock_table.survives @ problem.rates.each
-            for weight, lock_table in zip(weights, self._lock_tables, strict=True)
+            weight * table.survives @ problem.rates.each for weight, table in zip(weights, self._lock_tables, strict=True)
         ]
         max_steps = np.array([joint.velocity for joint in arm.joints]) * float(np.diff(problem.time).max())
         self._total_weight = float(weights.sum()) * problem.rates.total
@@ -179,22 +177,17 @@ class _CurveSearch:
             weight * lock_table.maximize_survived_rates(pose_nodes, problem.rates.each)
             for weight, lock_table, pose_nodes in zip(weights, self._lock_tables, self._nodes, strict=True)
         ]
-        self._path_tables, bound_table = (
-            (BestPathTable(self._gains), BestPathTable(self._gains, problem.spacing)),
-            BestPathTable(nearby_gains, problem.spacing),
-        )
+        self._path_tables = BestPathTable(self._gains), BestPathTable(self._gains, problem.spacing)
+        bound_table = BestPathTable(nearby_gains, problem.spacing)
         advance_tables(arm, self._nodes, max_steps, (*self._path_tables, bound_table))
         if bound_table.last_pose is not None:
             raise HoldfastError(
                 f"no continuous motion along the path was found: it ends at {problem.time[bound_table.last_pose]:.4g} s; "
-                f"slow the path "
-                "down, take more samples, or prescribe fewer rows"
+                "slow the path down, take more samples, or prescribe fewer rows"
             )
         self._bound = bound_table.best_total / self._total_weight
-        self.survival_interval = (
-            self._path_tables[0].best_total / self._total_weight,
-            self._path_tables[1].best_total / self._total_weight,
-        )
+        within_limits, relaxed = (path_table.best_total / self._total_weight for path_table in self._path_tables)
+        self.survival_interval = within_limits, relaxed
 
     def find_best_motion(self, requested: SurvivalProblem) -> LockSurvival:
         """Return the best motion, smoothed and evaluated for the requested problem."""
@@ -222,7 +215,9 @@ class _CurveSearch:
             if path_table.last_pose is not None:
                 continue
             chosen = path_table.trace_best_motion()
-            q = _unwind_motion(arm, np.array([entry.q[index] for entry, index in zip(nodes, chosen, strict=True)]))
+            q = np.array([entry.q[index] for entry, index in zip(nodes, chosen, strict=True)])
+            # Unlimited revolute joints take the shorter direction from pose to pose.
+            q = np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])
             smooth = smooth_motion(
                 follower.tracer, nodes, lock_tables, self._gains, chosen, q, follower.poses, start_is_fixed=self._start_is_fixed
             )
@@ -258,8 +253,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     if not attempts:
         raise HoldfastError(
             f"no continuous motion along the path was found that holds {problem.redundancy - 1} joints: slow the path "
-            f"down, or give "
-            "another start"
+            "down, or give another start"
         )
     attempts.sort(key=lambda attempt: attempt[:2], reverse=True)
     results, last_error = [], None
@@ -274,15 +268,12 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     best = max(results, key=_rank_result)
     if not problem.conditions.left_to_arm:
         return best
-    return LockSurvival.for_motion(
-        problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found
-    )  # maybe a narrower one's
+    # Maybe a narrower one's.
+    return LockSurvival.for_motion(problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found)
 
 
 def _list_starts(problem: SurvivalProblem, q_start: FloatArray | None) -> Iterator[tuple[SurvivalProblem, FloatArray]]:
-    """Yield the problem, and narrower ones with the axis of a cone fixed, with the first configurations (n,) of
-    their motions.
-    """
+    """Yield the problem, and narrower ones with a cone's axis fixed, each with the first q (n,) of its motions."""
     if q_start is not None:
         narrower = problem.with_axis_at(q_start)
         yield from ((variant, q_start) for variant in (problem, narrower) if variant is not None)
@@ -306,9 +297,7 @@ def _find_first_configurations(problem: SurvivalProblem) -> FloatArray:
     q = q[~is_off_path(problem, q, problem.lock.poses[:1]) & problem.conditions.are_met(q)]
     chosen = [0] * bool(len(q))
     while 0 < len(chosen) < min(_FIRST_CONFIGURATIONS, len(q)):
-        distances = np.min(
-            [np.linalg.norm(joint_space.joint_difference(problem.arm, q, q[index]), axis=1) for index in chosen], axis=0
-        )
+        distances = np.min([np.linalg.norm(joint_space.joint_difference(problem.arm, q, q[k]), axis=1) for k in chosen], axis=0)
         chosen.append(int(distances.argmax()))
     return np.asarray(q[chosen])
 
@@ -343,8 +332,3 @@ def _project_start_to_path(problem: SurvivalProblem, start: ArrayLike) -> FloatA
         raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
     on_pose: FloatArray = problem.lock.tracer.project_onto_poses(q[None], first_pose)[0][0]
     return on_pose
-
-
-def _unwind_motion(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return the motion in which unlimited revolute joints take the shorter direction from pose to pose."""
-    return np.concatenate([q[:1], q[0] + np.cumsum(joint_space.joint_difference(arm, q[1:], q[:-1]), axis=0)])

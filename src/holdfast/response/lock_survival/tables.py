@@ -85,7 +85,8 @@ def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> li
     all_q = np.concatenate([pose_nodes.q for pose_nodes in nodes[:-1]])
     landed, reached = follower.step_with_each_lock(all_q, np.repeat(np.arange(len(sizes)), sizes))
     offsets = np.cumsum([0, *sizes])
-    table = [_make_final_table(nodes[-1], n)]
+    shape = (len(nodes[-1].q), n)  # of the last pose, at which every lock is survived
+    table = [LockTable(np.ones(shape, dtype=bool), np.ones(shape))]
     for pose in track("poses", range(len(nodes) - 2, -1, -1)):
         rows = slice(offsets[pose], offsets[pose + 1])
         node_indices, joints = np.nonzero(reached[rows])
@@ -95,12 +96,6 @@ def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> li
         )
         table.append(LockTable(survives, _locate_survival_changes(follower, nodes, table, pose, survives)))
     return table[::-1]
-
-
-def _make_final_table(nodes: CurveNodes, n: int) -> LockTable:
-    """Return the table of the last pose, at which every lock is survived."""
-    shape = (len(nodes.q), n)
-    return LockTable(np.ones(shape, dtype=bool), np.ones(shape))
 
 
 def _locate_survival_changes(
@@ -114,10 +109,8 @@ def _locate_survival_changes(
     lower = np.zeros(node_indices.size)
     for part_length in (1 / _PARTS_PER_SEGMENT, 1 / _PARTS_PER_SEGMENT**2):
         fractions = lower[:, None] + part_length * np.arange(1, _PARTS_PER_SEGMENT)
-        repeated_nodes, repeated_joints = (
-            np.repeat(node_indices, _PARTS_PER_SEGMENT - 1),
-            np.repeat(joints, _PARTS_PER_SEGMENT - 1),
-        )
+        repeated_nodes = np.repeat(node_indices, _PARTS_PER_SEGMENT - 1)
+        repeated_joints = np.repeat(joints, _PARTS_PER_SEGMENT - 1)
         q = pose_nodes.q[repeated_nodes] + fractions.reshape(-1, 1) * pose_nodes.pieces[repeated_nodes]
         q, is_on_pose, _ = follower.tracer.project_onto_poses(q, np.broadcast_to(follower.poses[pose], (len(q), 4, 4)))
         q, has_arrived = follower.step(q, repeated_joints, pose)

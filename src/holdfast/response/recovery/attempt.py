@@ -6,9 +6,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.collision.exact.certainty import describe_unknown_shape
 from holdfast.response.recovery.completion import verify_and_time_recovery
 from holdfast.response.recovery.continuation import (
@@ -19,14 +18,9 @@ from holdfast.response.recovery.continuation import (
     follow_with_relaxed_rows,
     refine_waypoints,
 )
-from holdfast.response.recovery.goals import find_goal_configurations, find_relaxed_goals, name_blocking_pair
+from holdfast.response.recovery.goals import PoseSearch, find_goal_configurations, find_relaxed_goals, name_blocking_pair
 from holdfast.response.recovery.ladder_graph import shorten_along_poses
-from holdfast.response.recovery.problem import (
-    LOCK_TOLERANCE,
-    RecoveryGoal,
-    describe_doubtful_contact,
-    describe_goal_violation,
-)
+from holdfast.response.recovery.problem import LOCK_TOLERANCE, RecoveryGoal, describe_doubtful_contact, describe_goal_violation
 from holdfast.response.recovery.proofs.path_proof import prove_path_infeasible
 from holdfast.response.recovery.proofs.reach import (
     ANY_ORIENTATION,
@@ -37,8 +31,6 @@ from holdfast.response.recovery.proofs.reach import (
 from holdfast.response.recovery.proofs.separation import prove_goal_disconnected
 from holdfast.response.recovery.recovery import Leg, ProofKind, Recovery, RecoveryOutcome
 from holdfast.response.recovery.routes import Route, find_route
-from holdfast.response.recovery.space import FreeSpace, JointMetric
-from holdfast.response.recovery.task_rows import RowSolver
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -63,7 +55,7 @@ class UndecidedGoal:
     q_start: FloatArray
     target: RecoveryGoal
     configurations: FloatArray
-    pose_indices: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    pose_indices: IndexArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
     box_proofs: tuple[str | None, ...] = ()
     reasons: tuple[str, ...] = ()
     is_proved_unreachable: bool = False
@@ -82,18 +74,14 @@ class RecoveryAttempt:
 
     Attributes:
         recovery: Request, and the findings along the tool path.
-        solver: Solver for the rows of the task.
-        space: Valid configurations and motions.
-        metric: Length of motions.
+        search: Search for configurations that meet the rows of the task, and valid motions.
         search_count: Number of searches for a route where straight lines are blocked.
         rng: Random number generator.
         timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s; None: no timed motion.
     """
 
     recovery: Recovery
-    solver: RowSolver
-    space: FreeSpace
-    metric: JointMetric
+    search: PoseSearch
     search_count: int
     rng: np.random.Generator
     timing_limits: tuple[FloatArray, float] | None
@@ -127,15 +115,15 @@ class RecoveryAttempt:
         recovery = replace(recovery, q=q, legs=tuple(self._legs), stopped=self._stopped_at)
         if not len(q):
             return recovery
-        return verify_and_time_recovery(recovery, self.space, self.solver.rows, target, path, self.timing_limits)
+        return verify_and_time_recovery(recovery, self.search.space, self.search.solver.rows, target, path, self.timing_limits)
 
     def _record_timeout_step(self, step_name: str) -> None:
         """Record the step during which the time limit was reached."""
-        if self.space.is_time_over and not self._stopped_at:
+        if self.search.space.is_time_over and not self._stopped_at:
             self._stopped_at = step_name
 
     def _add_leg(self, name: str, q: FloatArray, lower_bound: float, straight: bool) -> None:
-        length = float(self.metric.cumulative_length(q)[-1])
+        length = float(self.search.metric.cumulative_length(q)[-1])
         first = max(sum(len(motion) for motion in self._motions) - 1, 0)
         self._legs.append(
             Leg(name=name, first=first, last=first + len(q) - 1, length=length, lower_bound=lower_bound, straight=straight)
@@ -144,21 +132,19 @@ class RecoveryAttempt:
 
     def _plan_rest_of_path(self, q_current: FloatArray, path: Path) -> RestOfPath:
         """Follow the path if possible; return the first motion that can be reached, the shortest first."""
-        rest, motions = follow_rest_of_path(
-            self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
-        )
+        rest, motions = follow_rest_of_path(self.search, path, q_current, self.recovery.starts, self.rng)
         self._record_timeout_step("following the tool path")
         if not rest.finished:
             rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
-            self.recovery = prove_path_infeasible(self.recovery, rest, path, solver=self.solver, space=self.space)
-            shape_doubt, first_lost = describe_unknown_shape(self.space.clearance), rest.first_lost
+            self.recovery = prove_path_infeasible(self.recovery, rest, path, solver=self.search.solver, space=self.search.space)
+            shape_doubt, first_lost = describe_unknown_shape(self.search.space.clearance), rest.first_lost
             first_poses = path.pose(rest.share[:1] if first_lost is None else np.array([first_lost]))
             if shape_doubt and (
-                first_lost is None or name_blocking_pair(self.solver, self.space, first_poses, q_current, self.recovery.seed)
+                first_lost is None or name_blocking_pair(self.search, first_poses, q_current, self.recovery.seed)
             ):
                 self.recovery = replace(self.recovery, unknown=f"{rest.why}; {shape_doubt}")
-            rest, motions = follow_with_relaxed_rows(rest, self.solver, self.space, path, q_current, self.rng)
+            rest, motions = follow_with_relaxed_rows(rest, self.search, path, q_current, self.rng)
             self._record_timeout_step("looking for rows of the tool path to give up")
         if not motions:
             return rest
@@ -170,9 +156,7 @@ class RecoveryAttempt:
 
     def _extend_path(self, rest: RestOfPath, path: Path, q_current: FloatArray) -> tuple[RestOfPath, list[FloatArray]]:
         """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
-        return follow_to_furthest_point(
-            rest, self.solver, self.space, self.metric, path, q_current, self.recovery.starts, self.rng
-        )
+        return follow_to_furthest_point(rest, self.search, path, q_current, self.recovery.starts, self.rng)
 
     def _connect_start_to_path(
         self, q_current: FloatArray, path: Path, rest: RestOfPath, motions: list[FloatArray]
@@ -189,39 +173,45 @@ class RecoveryAttempt:
             return replace(rest, q=np.zeros((0, self.recovery.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         if rest.graph:
-            motion = shorten_along_poses(self.solver, self.space, self.metric, path.pose(rest.share), motion)
+            motion = shorten_along_poses(self.search, path.pose(rest.share), motion)
         if rest.given_up is None:
-            refinement = refine_waypoints(rest, self.solver, self.space, path, motion)
-            if refinement is None and len(motions) > 1 and not self.space.is_time_over:
+            refinement = refine_waypoints(rest, self.search, path, motion)
+            if refinement is None and len(motions) > 1 and not self.search.space.is_time_over:
                 return self._connect_start_to_path(q_current, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
-            rest, motion = refinement or (add_motion_with_deviation(rest, self.solver, path, motion), motion)
+            rest, motion = refinement or (add_motion_with_deviation(rest, self.search.solver, path, motion), motion)
         motion = motion + (route.q[-1] - motion[0])  # whole turns
         if route.length > LOCK_TOLERANCE:
             self._add_leg("to the path", route.q, route.lower_bound, route.straight)
         else:
             motion[0] = q_current
-        self._add_leg("along the path", motion, float(self.metric.measure_length(motion[-1] - motion[0])), False)
+        self._add_leg("along the path", motion, float(self.search.metric.measure_length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
     def _search_route(self, q_current: FloatArray, goals: FloatArray, repeat_count: int = 0) -> Route | None:
         search_count, max_failures = (
             (repeat_count, None) if repeat_count else (self.search_count, self._search_count_before_proof)
         )
-        return find_route(self.space, self.metric, q_current, goals, search_count, self.rng, max_failures=max_failures)
+        return find_route(
+            self.search.space, self.search.metric, q_current, goals, search_count, self.rng, max_failures=max_failures
+        )
 
     def _find_route_or_proof(
         self, q_current: FloatArray, goals: FloatArray, poses: FloatArray, q_goal: FloatArray | None = None
     ) -> tuple[Route | None, tuple[str, bool] | None]:
-        """Find a route, or a proof that there is none; the proof is tried after the first failed searches, before
-        the others.
-        """
+        """Find a route, or a proof that there is none; the proof is tried after the first failed searches."""
         route = self._search_route(q_current, goals)
         if route is not None:
             return route, None
         proof = prove_goal_disconnected(
-            self.recovery, self.solver.rows, self.space, start=q_current, known_goals=goals, poses=poses, q_goal=q_goal
+            self.recovery,
+            self.search.solver.rows,
+            self.search.space,
+            start=q_current,
+            known_goals=goals,
+            poses=poses,
+            q_goal=q_goal,
         )
-        if proof is None and self.space.manifold is None and self.search_count > self._search_count_before_proof:
+        if proof is None and self.search.space.manifold is None and self.search_count > self._search_count_before_proof:
             route = self._search_route(q_current, goals, self.search_count - self._search_count_before_proof)
         return route, proof
 
@@ -238,16 +228,15 @@ class RecoveryAttempt:
 
     def _find_goal_configurations(self, goal: UndecidedGoal) -> Recovery | UndecidedGoal:
         """Find configurations of the goal; decide a goal that violates a tool constraint, or that may be in contact."""
-        recovery, target, space = goal.recovery, goal.target, self.space
-        rows = self.solver.rows if target.q is None else None
+        recovery, target, space = goal.recovery, goal.target, self.search.space
+        rows = self.search.solver.rows if target.q is None else None
         violations = [describe_goal_violation(recovery.keep, rows, pose) for pose in target.poses]
         if all(violations):
             decided = replace(recovery, proof=violations[0], proof_kind="rows kept", reason=violations[0])
             return replace(decided, ending=RecoveryOutcome.PROVED_UNREACHABLE)
         if target.q is None:
             pose_configurations = [
-                find_goal_configurations(self.solver, space, self.metric, pose, goal.q_start, recovery.starts, self.rng)
-                for pose in target.poses
+                find_goal_configurations(self.search, pose, goal.q_start, recovery.starts, self.rng) for pose in target.poses
             ]
             pose_indices = np.repeat(np.arange(len(target.poses)), [len(q) for q in pose_configurations])
             goal = replace(goal, configurations=np.concatenate(pose_configurations), pose_indices=pose_indices)
@@ -255,7 +244,7 @@ class RecoveryAttempt:
             reason = f"at the goal {describe_doubtful_contact(space.clearance, target.q, recovery.margin)}"
             return replace(recovery, ending=RecoveryOutcome.NOTHING_FOUND, reason=reason, unknown=reason)
         if not len(goal.configurations):
-            q, pose_indices, proofs = enumerate_collision_free(recovery, self.solver, space, target.poses)
+            q, pose_indices, proofs = enumerate_collision_free(recovery, self.search.solver, space, target.poses)
             goal = replace(goal, configurations=q, pose_indices=pose_indices, box_proofs=tuple(proofs))
         self._record_timeout_step("looking for configurations of the goal")
         recovery = replace(recovery, found=len(goal.configurations))
@@ -267,7 +256,7 @@ class RecoveryAttempt:
 
     def _find_route_to_goals(self, goal: UndecidedGoal) -> Recovery | UndecidedGoal:
         """Decide a goal with configurations by a route to one of them, a proof that there is none, or failed searches."""
-        recovery, target, space, configurations = goal.recovery, goal.target, self.space, goal.configurations
+        recovery, target, space, configurations = goal.recovery, goal.target, self.search.space, goal.configurations
         if not len(configurations):
             return goal
         route, separation = self._find_route_or_proof(goal.q_start, configurations, target.poses, target.q)
@@ -295,8 +284,8 @@ class RecoveryAttempt:
 
     def _prove_unreachable(self, goal: UndecidedGoal) -> UndecidedGoal:
         """Add the proof that no configuration meets the goal, or what is unknown where there is no proof."""
-        recovery, target, space = goal.recovery, goal.target, self.space
-        reach_proofs = [prove_unreachable(self.solver, space.free, goal.q_start, pose) for pose in target.poses]
+        recovery, target, space = goal.recovery, goal.target, self.search.space
+        reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
         proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(reach_proofs, goal.box_proofs, strict=True)]
         if None not in proofs:
             proof = f"{proofs[0]}{'' if recovery.within is None else ANY_ORIENTATION}"
@@ -306,7 +295,7 @@ class RecoveryAttempt:
             )
             recovery = replace(recovery, proof=proof, proof_kind=kind, proved_within=within)
             return replace(goal, recovery=recovery, reasons=(*goal.reasons, proof), is_proved_unreachable=True)
-        pair = name_blocking_pair(self.solver, space, target.poses, goal.q_start, recovery.seed)
+        pair = name_blocking_pair(self.search, target.poses, goal.q_start, recovery.seed)
         finding_text = "no clear configuration" if pair else "no configuration"
         blocking_text = f"; what is most often in the way where it is met: {pair}" if pair else ""
         reason = f"{finding_text} of the goal was found in {recovery.starts} starts, which proves nothing{blocking_text}"
@@ -319,11 +308,8 @@ class RecoveryAttempt:
     def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:
         """Find a motion to the goal with the fewest relaxed rows; without one, report that the goal is not reached."""
         recovery, locks = goal.recovery, goal.target.mismatched_locks
-        offers = [
-            (choice, pose)
-            for pose in goal.target.poses
-            for choice in find_relaxed_goals(self.solver, self.space, self.metric, pose, goal.q_start, self.rng)
-        ]
+        relaxed_goals = [(find_relaxed_goals(self.search, pose, goal.q_start, self.rng), pose) for pose in goal.target.poses]
+        offers = [(choice, pose) for choices, pose in relaxed_goals for choice in choices]
         offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = tuple(choice.relaxed_rows for choice, _ in offers)
         self._record_timeout_step("looking for rows to give up")

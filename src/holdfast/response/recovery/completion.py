@@ -86,8 +86,6 @@ def verify_and_time_recovery(
 
 
 def _locate_tool_path_samples(timed: TimedMotion) -> tuple[FloatArray, slice] | None:
-    """Return the fractions of the tool path of the samples that lie on it, and their slice; None if there are fewer
-    than two.
-    """
+    """Return the fractions of the tool path of the samples that lie on it, and their slice; None for fewer than two."""
     indices = np.flatnonzero(np.isfinite(timed.place))
     return (timed.place[indices], slice(int(indices[0]), int(indices[-1]) + 1)) if len(indices) > 1 else None

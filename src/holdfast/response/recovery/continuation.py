@@ -6,15 +6,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.poses import rotation_vectors
-from holdfast.response.recovery.goals import RelaxedRows, find_goal_configurations, project_onto_constraints, solve_pose
+from holdfast.response.recovery.goals import PoseSearch, RelaxedRows, find_goal_configurations
 from holdfast.response.recovery.ladder_graph import MAX_JOINT_STEP, follow_path_furthest, search_ladder_graph
 from holdfast.response.recovery.routes import find_reachable_goals
-from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
 from holdfast.response.recovery.timing.motion import PATH_TOLERANCE
 
@@ -23,9 +21,8 @@ if TYPE_CHECKING:
 
 
 _SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
-# _MIN_SAMPLES and _MAX_SAMPLES: samples
-_MIN_SAMPLES = 20
-_MAX_SAMPLES = 400
+_MIN_SAMPLES = 20  # samples of a path
+_MAX_SAMPLES = 400  # samples of a path
 _STARTS_PER_SET = 12
 _REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
 _INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
@@ -100,53 +97,40 @@ class RestOfPath:
 
 
 def follow_rest_of_path(
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
-    path: Path,
-    q_start: FloatArray,
-    start_count: int,
-    rng: np.random.Generator,
+    search: PoseSearch, path: Path, q_start: FloatArray, start_count: int, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow a path from configurations of its first pose; also return every motion (S, n) found, the shortest first."""
     fractions = _sample_fractions(path)
     poses = path.pose(fractions)
     is_reached = np.array(
         [
-            not space.is_time_over and _is_reachable(solver, space, pose, q_start, rng)
+            not search.space.is_time_over and _is_reachable(search, pose, q_start, rng)
             for pose in track("poses of the path", poses)
         ]
     )
-    first_configurations = find_goal_configurations(solver, space, metric, poses[0], q_start, start_count, rng)
+    first_configurations = find_goal_configurations(search, poses[0], q_start, start_count, rng)
     rest = RestOfPath(
         furthest=0.0,
         share=fractions,
         found=is_reached,
-        q=np.zeros((0, solver.arm.n)),
+        q=np.zeros((0, search.solver.arm.n)),
         deviation=0.0,
         given_up=None,
         starts=len(first_configurations),
     )
-    rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations)
-    if not motions and _all_reached_on_retry(solver, space, poses, rest.found, q_start, start_count, rng):
-        if space.free.sum() > solver.rows.m:
-            graph = search_ladder_graph(solver, space, metric, poses, first_configurations, q_start, start_count, rng)
+    rest, motions = _follow_samples(rest, search, path, first_configurations)
+    if not motions and _all_reached_on_retry(search, poses, rest.found, q_start, start_count, rng):
+        if search.space.free.sum() > search.solver.rows.m:
+            graph = search_ladder_graph(search, poses, first_configurations, q_start, start_count, rng)
             furthest = max(rest.furthest, float(fractions[graph.last_sample]))
             rest, motions = replace(rest, furthest=furthest, graph=graph.configuration_count), graph.motions
         if not motions:
-            rest, motions = _follow_samples(rest, solver, space, metric, path, first_configurations, _REFINEMENT_FACTOR)
-    return (add_motion_with_deviation(rest, solver, path, motions[0]) if motions else rest), motions
+            rest, motions = _follow_samples(rest, search, path, first_configurations, _REFINEMENT_FACTOR)
+    return (add_motion_with_deviation(rest, search.solver, path, motions[0]) if motions else rest), motions
 
 
 def follow_to_furthest_point(
-    rest: RestOfPath,
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
-    path: Path,
-    q_start: FloatArray,
-    start_count: int,
-    rng: np.random.Generator,
+    rest: RestOfPath, search: PoseSearch, path: Path, q_start: FloatArray, start_count: int, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[FloatArray]]:
     """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
 
@@ -156,70 +140,67 @@ def follow_to_furthest_point(
     pose = path.pose(rest.share[:1])[0]
     first_configurations = np.concatenate(
         [
-            find_goal_configurations(solver, space, metric, pose, q_start, start_count, rng),
-            solve_pose(solver, space, pose, solver.sample_configurations(start_count, q_start, space.free, rng)),
+            find_goal_configurations(search, pose, q_start, start_count, rng),
+            search.solve_pose(pose, search.solver.sample_configurations(start_count, q_start, search.space.free, rng)),
         ]
     )
-    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
+    first_configurations = q_start + search.space.shortest_difference(first_configurations, q_start)
     if not len(first_configurations):
         return rest, []
-    first_configurations = first_configurations[find_reachable_goals(space, metric, q_start, first_configurations, rng)]
+    first_configurations = first_configurations[
+        find_reachable_goals(search.space, search.metric, q_start, first_configurations, rng)
+    ]
     if not len(first_configurations):
         return replace(rest, cut_off=True), []
     stride = float(np.diff(rest.share).max())
-    continuation = follow_path_furthest(solver, space, metric, path, first_configurations, max_path_step=stride, rng=rng)
+    continuation = follow_path_furthest(search, path, first_configurations, max_path_step=stride, rng=rng)
     furthest, graph_size = float(continuation.fractions[-1]), max(rest.graph, continuation.configuration_count)
     rest = replace(rest, furthest=furthest, begin=continuation.q[0], graph=graph_size, cut_off=False)
     rest = replace(rest, found=rest.found | (rest.share <= furthest))
     if furthest < 1:
         return rest, []
     rest = replace(rest, share=continuation.fractions, found=np.ones(len(continuation.fractions), dtype=bool))
-    return add_motion_with_deviation(rest, solver, path, continuation.q), [continuation.q]
+    return add_motion_with_deviation(rest, search.solver, path, continuation.q), [continuation.q]
 
 
 def _follow_samples(
-    rest: RestOfPath,
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
-    path: Path,
-    first_configurations: FloatArray,
-    refinement: int = 1,
+    rest: RestOfPath, search: PoseSearch, path: Path, first_configurations: FloatArray, refinement: int = 1
 ) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow the path from configurations (R, n) of its first pose, with ``refinement`` times as many samples."""
     positions = np.arange((len(rest.share) - 1) * refinement + 1) / refinement
     fractions = np.interp(positions, np.arange(len(rest.share)), rest.share)
-    q, last_samples = _track_poses(
-        solver, space, path.pose(fractions), first_configurations, np.ones((len(first_configurations), solver.rows.m))
-    )
+    row_masks = search.make_row_masks(len(first_configurations))
+    q, last_samples = _track_poses(search, path.pose(fractions), first_configurations, row_masks)
     furthest = max(rest.furthest, float(fractions[last_samples.max(initial=0)]))
     complete = np.flatnonzero(last_samples == len(fractions) - 1)
     if complete.size:
         rest = replace(rest, share=fractions, found=np.ones(len(fractions), dtype=bool))
     # A pose on the way is found where a motion passes it.
     rest = replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest) & (last_samples.max(initial=-1) >= 0))
-    return rest, _sort_by_length(metric, [q[:, index] for index in complete])
+    motions = [q[:, index] for index in complete]
+    return rest, sorted(motions, key=lambda motion: float(search.metric.cumulative_length(motion)[-1]))
 
 
 def follow_with_relaxed_rows(
-    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q_start: FloatArray, rng: np.random.Generator
+    rest: RestOfPath, search: PoseSearch, path: Path, q_start: FloatArray, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[FloatArray]]:
     """Follow the path with as few rows relaxed as possible; also return the motion (S, n) if there is one."""
-    poses = path.pose(rest.share)
+    solver, poses = search.solver, path.pose(rest.share)
     for size in range(1, solver.rows.m):
-        row_sets = [] if space.is_time_over else list_subsets(solver.rows.m, size, [])
-        solution = _find_best_relaxation(solver, space, poses, q_start, row_sets, rng) if row_sets else None
+        row_sets = [] if search.space.is_time_over else list_subsets(solver.rows.m, size, [])
+        solution = _find_best_relaxation(search, poses, q_start, row_sets, rng) if row_sets else None
         if solution:
             relaxed_rows, motion = solution
-            row_mask = np.ones(solver.rows.m)
-            row_mask[list(relaxed_rows)] = 0.0
-            relaxed_rows = tuple(np.flatnonzero(solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
+            row_mask = search.make_row_masks(1, relaxed_rows)[0]
+            relaxed_rows = tuple(np.flatnonzero(search.solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
             if not relaxed_rows:  # a row that is met all the way is not given up
-                return add_motion_with_deviation(rest, solver, path, motion), [motion]
+                return add_motion_with_deviation(rest, search.solver, path, motion), [motion]
             row_errors = np.abs(solver.compute_errors(motion, poses)).max(axis=0)[list(relaxed_rows)]
-            names, units = ([labels[i] for i in relaxed_rows] for labels in (solver.rows.names, solver.rows.units))
+            names, units = (
+                [labels[i] for i in relaxed_rows] for labels in (search.solver.rows.names, search.solver.rows.units)
+            )
             relaxed = RelaxedRows(tuple(names), tuple(row_errors.tolist()), tuple(units))
-            return replace(add_motion_with_deviation(rest, solver, path, motion, row_mask), given_up=relaxed), [motion]
+            return replace(add_motion_with_deviation(rest, search.solver, path, motion, row_mask), given_up=relaxed), [motion]
     return rest, []
 
 
@@ -232,97 +213,75 @@ def _sample_fractions(path: Path) -> FloatArray:
 
 
 def _all_reached_on_retry(
-    solver: RowSolver,
-    space: FreeSpace,
+    search: PoseSearch,
     poses: FloatArray,
     is_reached: BoolArray,
     q_start: FloatArray,
     start_count: int,
     rng: np.random.Generator,
 ) -> bool:
-    """Search longer for each pose without a configuration, up to the first pose without success; return True if every pose has
-    one.
-    """
+    """Search longer for each pose without a configuration, up to the first failure; return True if every pose has one."""
     for sample in np.flatnonzero(~is_reached):
-        is_reached[sample] = not space.is_time_over and _is_reachable(solver, space, poses[sample], q_start, rng, start_count)
+        is_reached[sample] = not search.space.is_time_over and _is_reachable(search, poses[sample], q_start, rng, start_count)
         if not is_reached[sample]:
             return False
-    return not space.is_time_over
+    return not search.space.is_time_over
 
 
 def _is_reachable(
-    solver: RowSolver, space: FreeSpace, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator, start_count: int = 15
+    search: PoseSearch, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator, start_count: int = 15
 ) -> bool:
-    initial_configurations = np.concatenate(
-        [q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]
-    )
-    return len(solve_pose(solver, space, pose, initial_configurations)) > 0
+    return len(search.solve_pose(pose, search.sample_starts(q_start, start_count, rng))) > 0
 
 
 def _track_poses(
-    solver: RowSolver, space: FreeSpace, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
-) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of
-    each (R,).
-    """
+    search: PoseSearch, poses: FloatArray, first_configurations: FloatArray, row_masks: FloatArray
+) -> tuple[FloatArray, IndexArray]:
+    """Return motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and their last samples (R,)."""
     q = np.full((len(poses), *first_configurations.shape), np.nan)
     q[0] = first_configurations
     last_samples = np.zeros(len(first_configurations), dtype=np.int64)
     active = np.arange(len(first_configurations))
     for sample in track("waypoints", range(1, len(poses)), most=True):
-        if not active.size or space.is_time_over:
+        if not active.size or search.space.is_time_over:
             break
         before = q[sample - 1, active]
         targets = np.repeat(poses[sample][None], len(active), axis=0)
-        after = solver.solve_required_rows(before, targets, row_masks[active], space.free)
+        after = search.solver.solve_required_rows(before, targets, row_masks[active], search.space.free)
         is_jump = np.abs(after - before).max(axis=1) > MAX_JOINT_STEP
         if is_jump.any():  # rows that are given up must not pull the others onto another branch
-            after[is_jump] = solver.solve(before[is_jump], targets[is_jump], row_masks[active][is_jump], space.free)
-        after = project_onto_constraints(solver, space, after, targets, row_masks[active])
-        is_valid = solver.meets_rows(after, targets, row_masks[active], space.free) & (
-            np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
-        )
+            after[is_jump] = search.solver.solve(
+                before[is_jump], targets[is_jump], row_masks[active][is_jump], search.space.free
+            )
+        after = search.project(after, targets, row_masks[active])
+        is_valid = search.meets_rows(after, targets, row_masks[active])
+        is_valid &= np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
         indices = np.flatnonzero(is_valid)
-        is_valid[indices] = space.are_segments_valid(before[indices], after[indices])
+        is_valid[indices] = search.space.are_segments_valid(before[indices], after[indices])
         active, after = active[is_valid], after[is_valid]
         q[sample, active], last_samples[active] = after, sample
     return q, last_samples
 
 
-def _sort_by_length(metric: JointMetric, motions: list[FloatArray]) -> list[FloatArray]:
-    return sorted(motions, key=lambda q: float(metric.cumulative_length(q)[-1]))
-
-
 def _find_best_relaxation(
-    solver: RowSolver,
-    space: FreeSpace,
-    poses: FloatArray,
-    q_start: FloatArray,
-    row_sets: list[tuple[int, ...]],
-    rng: np.random.Generator,
+    search: PoseSearch, poses: FloatArray, q_start: FloatArray, row_sets: list[tuple[int, ...]], rng: np.random.Generator
 ) -> tuple[tuple[int, ...], FloatArray] | None:
     """Return the preferred set of rows without which the path is followed, and the motion with the least errors."""
-    initial_configurations = np.concatenate(
-        [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
-    )
-    set_indices = np.repeat(np.arange(len(row_sets)), len(initial_configurations))
-    row_masks = np.ones((len(set_indices), solver.rows.m))
-    for row_mask, index in zip(row_masks, set_indices, strict=True):
-        row_mask[list(row_sets[index])] = 0.0
+    starts = search.sample_starts(q_start, _STARTS_PER_SET - 1, rng)
+    set_indices = np.repeat(np.arange(len(row_sets)), len(starts))
+    row_masks = np.concatenate([search.make_row_masks(len(starts), row_set) for row_set in row_sets])
     targets = np.repeat(poses[:1], len(set_indices), axis=0)
-    first_configurations = solver.solve_required_rows(
-        np.tile(initial_configurations, (len(row_sets), 1)), targets, row_masks, space.free
-    )
-    first_configurations = project_onto_constraints(solver, space, first_configurations, targets, row_masks)
-    is_valid = solver.meets_rows(first_configurations, targets, row_masks, space.free)
-    is_valid[is_valid] = space.are_valid(first_configurations[is_valid])
-    q, last_samples = _track_poses(solver, space, poses, first_configurations[is_valid], row_masks[is_valid])
+    repeated_starts = np.tile(starts, (len(row_sets), 1))
+    first_configurations = search.solver.solve_required_rows(repeated_starts, targets, row_masks, search.space.free)
+    first_configurations = search.project(first_configurations, targets, row_masks)
+    is_valid = search.are_valid(first_configurations, targets, row_masks)
+    q, last_samples = _track_poses(search, poses, first_configurations[is_valid], row_masks[is_valid])
     complete = np.flatnonzero(last_samples == len(poses) - 1)
     if not complete.size:
         return None
-    motion_errors = [float(np.linalg.norm(solver.compute_errors(q[:, index], poses), axis=1).max()) for index in complete]
+    motion_errors = [float(np.linalg.norm(search.solver.compute_errors(q[:, k], poses), axis=1).max()) for k in complete]
     sort_keys = [
-        (*relaxed_rows_sort_key(solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
+        (*relaxed_rows_sort_key(search.solver.rows, row_sets[set_indices[is_valid][index]]), motion_error)
         for index, motion_error in zip(complete, motion_errors, strict=True)
     ]
     best = complete[min(range(len(sort_keys)), key=sort_keys.__getitem__)]
@@ -338,44 +297,41 @@ def add_motion_with_deviation(
     return replace(rest, q=q, deviation=float(deviation))
 
 
-def refine_waypoints(
-    rest: RestOfPath, solver: RowSolver, space: FreeSpace, path: Path, q: FloatArray
-) -> tuple[RestOfPath, FloatArray] | None:
+def refine_waypoints(rest: RestOfPath, search: PoseSearch, path: Path, q: FloatArray) -> tuple[RestOfPath, FloatArray] | None:
     """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
 
     Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
     """
     tolerances = np.where(
-        np.array(solver.rows.units) == "m", PATH_TOLERANCE[0] * max(solver.arm.length_unit, 1.0), PATH_TOLERANCE[1]
+        np.array(search.solver.rows.units) == "m",
+        PATH_TOLERANCE[0] * max(search.solver.arm.length_unit, 1.0),
+        PATH_TOLERANCE[1],
     )
     fractions, is_reached = rest.share, rest.found
     for _ in range(_MAX_WAYPOINT_BISECTIONS):
         inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
         inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
         path_errors = np.abs(
-            solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
+            search.solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
         ).reshape(*inner_fractions.shape, -1)
         segments = np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
         if not segments.size:
-            return replace(add_motion_with_deviation(replace(rest, share=fractions, found=is_reached), solver, path, q), q=q), q
+            return replace(
+                add_motion_with_deviation(replace(rest, share=fractions, found=is_reached), search.solver, path, q), q=q
+            ), q
         middle_fractions, midpoints = (fractions[segments] + fractions[segments + 1]) / 2, (q[segments] + q[segments + 1]) / 2
-        poses, row_masks = path.pose(middle_fractions), np.ones((len(segments), solver.rows.m))
-        new_waypoints = project_onto_constraints(
-            solver, space, solver.solve(midpoints, poses, row_masks, space.free), poses, row_masks
-        )
-        is_valid = solver.meets_rows(new_waypoints, poses, row_masks, space.free)
-        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(
-            axis=1
-        )  # else on another branch
+        poses, row_masks = path.pose(middle_fractions), search.make_row_masks(len(segments))
+        new_waypoints = search.solve(midpoints, poses, row_masks)
+        is_valid = search.meets_rows(new_waypoints, poses, row_masks)
+        # Else on another branch.
+        is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(axis=1)
         if not (
             is_valid.all()
-            and space.are_segments_valid(q[segments], new_waypoints).all()
-            and space.are_segments_valid(new_waypoints, q[segments + 1]).all()
+            and search.space.are_segments_valid(q[segments], new_waypoints).all()
+            and search.space.are_segments_valid(new_waypoints, q[segments + 1]).all()
         ):
             return None
-        q, fractions, is_reached = (
-            np.insert(q, segments + 1, new_waypoints, axis=0),
-            np.insert(fractions, segments + 1, middle_fractions),
-            np.insert(is_reached, segments + 1, True),
-        )
+        q = np.insert(q, segments + 1, new_waypoints, axis=0)
+        fractions = np.insert(fractions, segments + 1, middle_fractions)
+        is_reached = np.insert(is_reached, segments + 1, True)
     return None

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers.descent import minimise_constrained
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
@@ -53,97 +52,102 @@ class RelaxedGoal:
     q: FloatArray
 
 
+@dataclass(frozen=True)
+class PoseSearch:
+    """Search for valid configurations that meet rows of poses.
+
+    Attributes:
+        solver: Solver of the rows.
+        space: Valid configurations and motions.
+        metric: Length of motions.
+    """
+
+    solver: RowSolver
+    space: FreeSpace
+    metric: JointMetric
+
+    def make_row_masks(self, count: int, dropped_rows: tuple[int, ...] = ()) -> FloatArray:
+        """Return masks (N, m) of all rows but those that are dropped."""
+        row_masks = np.ones((count, self.solver.rows.m))
+        row_masks[:, dropped_rows] = 0.0
+        return row_masks
+
+    def sample_starts(self, q_start: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
+        """Return ``q_start`` (n,) and random configurations, (count + 1, n), with its values of joints that do not move."""
+        return np.concatenate([q_start[None], self.solver.sample_configurations(count, q_start, self.space.free, rng)])
+
+    def solve(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, **options: int) -> FloatArray:
+        """Solve rows of poses (N, 4, 4) whose mask (N, m) is above 0 from q (N, n), and satisfy the tool constraints."""
+        return self.project(self.solver.solve(q, poses, row_masks, self.space.free, **options), poses, row_masks)
+
+    def project(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray) -> FloatArray:
+        """Project q (N, n) so that the rows whose mask (N, m) is above 0 and the tool constraints are met together."""
+        manifold = self.space.manifold
+        indices = np.zeros(0, dtype=np.intp) if manifold is None else np.flatnonzero(~manifold.is_satisfied(q))
+        if manifold is None or not indices.size:
+            return q
+
+        def goal_rows(trial: FloatArray, trial_indices: IndexArray) -> tuple[FloatArray, FloatArray]:
+            is_active, pose = row_masks[indices[trial_indices]] > 0, poses[indices[trial_indices]]
+            jacobian = self.solver.compute_jacobian(trial, pose)
+            return self.solver.compute_errors(trial, pose) * is_active, -jacobian * is_active[:, :, None]
+
+        q = q.copy()
+        q[indices] = manifold.project(q[indices], goal_rows)
+        return q
+
+    def meets_rows(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray) -> BoolArray:
+        """Return (N,) True where q (N, n) meets the rows whose mask (N, m) is above 0, within limits."""
+        return self.solver.meets_rows(q, poses, row_masks, self.space.free)
+
+    def are_valid(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray) -> BoolArray:
+        """Return (N,) True where q (N, n) meets the rows whose mask (N, m) is above 0, and is valid."""
+        is_valid = self.meets_rows(q, poses, row_masks)
+        is_valid[is_valid] = self.space.are_valid(q[is_valid])
+        return is_valid
+
+    def solve_pose(self, pose: FloatArray, starts: FloatArray) -> FloatArray:
+        """Return valid configurations (K, n) that meet every row of a pose (4, 4), from starts (N, n)."""
+        poses, row_masks = np.repeat(pose[None], len(starts), axis=0), self.make_row_masks(len(starts))
+        q = self.solve(starts, poses, row_masks)
+        return np.asarray(q[self.are_valid(q, poses, row_masks)])
+
+
 def find_goal_configurations(
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
-    pose: FloatArray,
-    q_start: FloatArray,
-    start_count: int,
-    rng: np.random.Generator,
+    search: PoseSearch, pose: FloatArray, q_start: FloatArray, start_count: int, rng: np.random.Generator
 ) -> FloatArray:
     """Return configurations (K, n) that meet every row of a pose (4, 4), the nearest to ``q_start`` first; maybe none.
 
     From random starts and from ``q_start``; each is then moved along the self-motion of the pose towards ``q_start``.
     """
-    q = solve_pose(
-        solver,
-        space,
-        pose,
-        np.concatenate([q_start[None], solver.sample_configurations(start_count, q_start, space.free, rng)]),
-    )
-    q = q_start + space.shortest_difference(q, q_start)
-    poses, row_masks = np.repeat(pose[None], len(q), axis=0), np.ones((len(q), solver.rows.m))
+    q = search.solve_pose(pose, search.sample_starts(q_start, start_count, rng))
+    q = q_start + search.space.shortest_difference(q, q_start)
+    poses, row_masks = np.repeat(pose[None], len(q), axis=0), search.make_row_masks(len(q))
     moving = np.arange(len(q))
     for _ in range(_SELF_MOTION_STEPS):
         current = q[moving]
-        trial = solver.solve(
-            current + 0.3 * space.shortest_difference(q_start, current), poses[moving], row_masks[moving], space.free, 20
-        )
-        trial = project_onto_constraints(solver, space, trial, poses[moving], row_masks[moving])
-        nearer = metric.measure_length(trial - q_start) < metric.measure_length(current - q_start) * (1 - 1e-6)
-        nearer &= _are_valid(solver, space, trial, poses[moving], row_masks[moving])
+        target = current + 0.3 * search.space.shortest_difference(q_start, current)
+        trial = search.solve(target, poses[moving], row_masks[moving], max_steps=20)
+        nearer = search.metric.measure_length(trial - q_start) < search.metric.measure_length(current - q_start) * (1 - 1e-6)
+        nearer &= search.are_valid(trial, poses[moving], row_masks[moving])
         q[moving[nearer]] = trial[nearer]
         moving = moving[nearer]
         if not moving.size:
             break
-    return _remove_duplicates(q[np.argsort(metric.measure_length(q - q_start), kind="stable")])
+    return _remove_duplicates(q[np.argsort(search.metric.measure_length(q - q_start), kind="stable")])
 
 
-def solve_pose(solver: RowSolver, space: FreeSpace, pose: FloatArray, initial_configurations: FloatArray) -> FloatArray:
-    """Return valid configurations (K, n) that meet every row of a pose (4, 4), from initial configurations (N, n)."""
-    poses, row_masks = (
-        np.repeat(pose[None], len(initial_configurations), axis=0),
-        np.ones((len(initial_configurations), solver.rows.m)),
-    )
-    q = project_onto_constraints(
-        solver, space, solver.solve(initial_configurations, poses, row_masks, space.free), poses, row_masks
-    )
-    return np.asarray(q[_are_valid(solver, space, q, poses, row_masks)])
-
-
-def project_onto_constraints(
-    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray
-) -> FloatArray:
-    """Project q (N, n) so that the rows whose mask (N, m) is above 0 and the tool constraints are met together."""
-    indices = np.zeros(0, dtype=np.intp) if space.manifold is None else np.flatnonzero(~space.manifold.is_satisfied(q))
-    if space.manifold is None or not indices.size:
-        return q
-
-    def goal_rows(trial: FloatArray, trial_indices: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
-        is_active, pose = row_masks[indices[trial_indices]] > 0, poses[indices[trial_indices]]
-        return solver.compute_errors(trial, pose) * is_active, -solver.compute_jacobian(trial, pose) * is_active[:, :, None]
-
-    q = q.copy()
-    q[indices] = space.manifold.project(q[indices], goal_rows)
-    return q
-
-
-def name_blocking_pair(solver: RowSolver, space: FreeSpace, poses: FloatArray, q_start: FloatArray, seed: int) -> str:
+def name_blocking_pair(search: PoseSearch, poses: FloatArray, q_start: FloatArray, seed: int) -> str:
     """Return the pair that most often is too close where one of poses (G, 4, 4) is met; empty if there is none."""
     rng = np.random.default_rng(seed)
     for pose in poses:
-        initial_configurations = np.concatenate(
-            [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
-        )
-        repeated_poses, row_masks = (
-            np.repeat(pose[None], len(initial_configurations), axis=0),
-            np.ones((len(initial_configurations), solver.rows.m)),
-        )
-        q = solver.solve(initial_configurations, repeated_poses, row_masks, space.free)
-        pair = space.name_closest_pair(q[solver.meets_rows(q, repeated_poses, row_masks, space.free)])
+        starts = search.sample_starts(q_start, _STARTS_PER_SET - 1, rng)
+        repeated_poses, row_masks = np.repeat(pose[None], len(starts), axis=0), search.make_row_masks(len(starts))
+        q = search.solver.solve(starts, repeated_poses, row_masks, search.space.free)
+        pair = search.space.name_closest_pair(q[search.meets_rows(q, repeated_poses, row_masks)])
         if pair:
             return pair
     return ""
-
-
-def _are_valid(
-    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, row_masks: FloatArray
-) -> NDArray[np.bool_]:
-    is_valid = solver.meets_rows(q, poses, row_masks, space.free)
-    indices = np.flatnonzero(is_valid)
-    is_valid[indices] = space.are_valid(q[indices])
-    return is_valid
 
 
 def _remove_duplicates(q: FloatArray) -> FloatArray:
@@ -158,46 +162,37 @@ def _remove_duplicates(q: FloatArray) -> FloatArray:
 
 
 def find_relaxed_goals(
-    solver: RowSolver, space: FreeSpace, metric: JointMetric, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator
+    search: PoseSearch, pose: FloatArray, q_start: FloatArray, rng: np.random.Generator
 ) -> list[RelaxedGoal]:
     """Return every minimal set found of rows to relax so that a pose is met: fewest rows first, orientations before positions.
 
     A row that is met all the same is not given up; of a set without any row left the configurations meet the whole pose.
     """
-    rows, configurations = solver.rows, dict[tuple[int, ...], FloatArray]()
+    rows, configurations = search.solver.rows, dict[tuple[int, ...], FloatArray]()
     for size in range(1, rows.m):
         row_sets = list_subsets(rows.m, size, list(configurations))
-        if not row_sets or space.is_time_over:
+        if not row_sets or search.space.is_time_over:
             break
-        initial_configurations = np.concatenate(
-            [q_start[None], solver.sample_configurations(_STARTS_PER_SET - 1, q_start, space.free, rng)]
-        )
-        set_indices = np.repeat(np.arange(len(row_sets)), len(initial_configurations))
-        row_masks = np.ones((len(row_sets), rows.m))
-        for row_set, dropped_rows in zip(row_masks, row_sets, strict=True):
-            row_set[list(dropped_rows)] = 0.0
+        starts = search.sample_starts(q_start, _STARTS_PER_SET - 1, rng)
+        set_indices = np.repeat(np.arange(len(row_sets)), len(starts))
+        row_masks = np.concatenate([search.make_row_masks(len(starts), dropped_rows) for dropped_rows in row_sets])
         poses = np.repeat(pose[None], len(set_indices), axis=0)
-        q = solver.solve_required_rows(
-            np.tile(initial_configurations, (len(row_sets), 1)), poses, row_masks[set_indices], space.free
-        )
-        q = project_onto_constraints(solver, space, q, poses, row_masks[set_indices])
-        is_valid = _are_valid(solver, space, q, poses, row_masks[set_indices])
-        pose_errors = np.linalg.norm(solver.compute_errors(q, poses), axis=1)
+        q = search.solver.solve_required_rows(np.tile(starts, (len(row_sets), 1)), poses, row_masks, search.space.free)
+        q = search.project(q, poses, row_masks)
+        is_valid = search.are_valid(q, poses, row_masks)
+        pose_errors = np.linalg.norm(search.solver.compute_errors(q, poses), axis=1)
         for set_index, dropped_rows in enumerate(track("sets of rows", row_sets)):
             indices = np.flatnonzero(is_valid & (set_indices == set_index))
             indices = indices[np.argsort(pose_errors[indices], kind="stable")]
             if indices.size:
-                for fewer_rows, solutions in _reduce_relaxed_rows(solver, space, pose, q[indices], dropped_rows).items():
+                for fewer_rows, solutions in _reduce_relaxed_rows(search, pose, q[indices], dropped_rows).items():
                     configurations[fewer_rows] = np.concatenate([configurations.get(fewer_rows, solutions[:0]), solutions])
         configurations = {
             row_set: q
             for row_set, q in configurations.items()
             if not any(set(other_set) < set(row_set) for other_set in configurations)
         }
-    relaxed_goals = [
-        (dropped_rows, _select_least_error(solver, metric, space, pose, q_start, dropped_rows, q))
-        for dropped_rows, q in configurations.items()
-    ]
+    relaxed_goals = [(dropped, _select_least_error(search, pose, q_start, dropped, q)) for dropped, q in configurations.items()]
     relaxed_goals.sort(
         key=lambda entry: (*relaxed_rows_sort_key(rows, entry[0]), float(np.linalg.norm(entry[1].relaxed_rows.misses)))
     )
@@ -205,7 +200,7 @@ def find_relaxed_goals(
 
 
 def _reduce_relaxed_rows(
-    solver: RowSolver, space: FreeSpace, pose: FloatArray, q: FloatArray, dropped_rows: tuple[int, ...]
+    search: PoseSearch, pose: FloatArray, q: FloatArray, dropped_rows: tuple[int, ...]
 ) -> dict[tuple[int, ...], FloatArray]:
     """Return configurations by the rows that they violate, from some (N, n) that meet all rows except the relaxed ones.
 
@@ -215,74 +210,63 @@ def _reduce_relaxed_rows(
     while open_sets:
         lost_rows, initial_configurations = open_sets.pop()
         polished = [
-            _minimize_row_errors(solver, space, pose, start, list(lost_rows))
+            _minimize_row_errors(search, pose, start, list(lost_rows))
             for start in _remove_duplicates(initial_configurations)[:_POLISHED_CONFIGURATIONS]
         ]
         candidates = np.concatenate([np.stack(polished), initial_configurations])
-        is_missed = solver.find_violated_rows(candidates, np.repeat(pose[None], len(candidates), axis=0))
+        is_missed = search.solver.find_violated_rows(candidates, np.repeat(pose[None], len(candidates), axis=0))
         for missed_rows in {tuple(np.flatnonzero(row).tolist()) for row in is_missed}:
-            matching = candidates[(is_missed == np.isin(np.arange(solver.rows.m), missed_rows)).all(axis=1)]
+            matching = candidates[(is_missed == np.isin(np.arange(search.solver.rows.m), missed_rows)).all(axis=1)]
             configurations[missed_rows] = np.concatenate([configurations.get(missed_rows, matching[:0]), matching])
         for row in lost_rows if len(lost_rows) > 1 else ():
             fewer_rows = tuple(index for index in lost_rows if index != row)
-            row_masks = np.ones((len(polished), solver.rows.m))
-            row_masks[:, fewer_rows] = 0.0
+            row_masks = search.make_row_masks(len(polished), fewer_rows)
             poses = np.repeat(pose[None], len(polished), axis=0)
-            nearer = project_onto_constraints(
-                solver, space, solver.solve(np.stack(polished), poses, row_masks, space.free), poses, row_masks
-            )
-            is_valid = _are_valid(solver, space, nearer, poses, row_masks)
+            nearer = search.solve(np.stack(polished), poses, row_masks)
+            is_valid = search.are_valid(nearer, poses, row_masks)
             if is_valid.any() and not any(set(known_set) <= set(fewer_rows) for known_set in configurations):
                 open_sets.append((fewer_rows, nearer[is_valid]))
     return configurations
 
 
 def _select_least_error(
-    solver: RowSolver,
-    metric: JointMetric,
-    space: FreeSpace,
-    pose: FloatArray,
-    q_start: FloatArray,
-    dropped_rows: tuple[int, ...],
-    q: FloatArray,
+    search: PoseSearch, pose: FloatArray, q_start: FloatArray, dropped_rows: tuple[int, ...], q: FloatArray
 ) -> RelaxedGoal:
     """Select the configurations (N, n) with the least error of the relaxed rows, the nearest first."""
-    row_errors = np.abs(solver.compute_errors(q, np.repeat(pose[None], len(q), axis=0))[:, dropped_rows])
+    rows = search.solver.rows
+    row_errors = np.abs(search.solver.compute_errors(q, np.repeat(pose[None], len(q), axis=0))[:, dropped_rows])
     error_norms = np.linalg.norm(row_errors, axis=1)
     is_least = error_norms <= error_norms.min() * (1 + 1e-3) + 1e-6
-    selected = q_start + space.shortest_difference(q[is_least], q_start)
-    selected = _remove_duplicates(selected[np.argsort(metric.measure_length(selected - q_start), kind="stable")])
-    names, units = ([labels[index] for index in dropped_rows] for labels in (solver.rows.names, solver.rows.units))
+    selected = q_start + search.space.shortest_difference(q[is_least], q_start)
+    selected = _remove_duplicates(selected[np.argsort(search.metric.measure_length(selected - q_start), kind="stable")])
+    names, units = ([labels[index] for index in dropped_rows] for labels in (rows.names, rows.units))
     return RelaxedGoal(RelaxedRows(tuple(names), tuple(row_errors[error_norms.argmin()].tolist()), tuple(units)), selected)
 
 
-def _minimize_row_errors(
-    solver: RowSolver, space: FreeSpace, pose: FloatArray, q: FloatArray, lost_rows: list[int]
-) -> FloatArray:
+def _minimize_row_errors(search: PoseSearch, pose: FloatArray, q: FloatArray, lost_rows: list[int]) -> FloatArray:
     """Minimize the errors of the lost rows from q (n,), where the other rows are met."""
-    arm, clearance = solver.arm, space.clearance
-    met_rows = [index for index in range(solver.rows.m) if index not in lost_rows]
+    arm, clearance = search.solver.arm, search.space.clearance
+    met_rows = [index for index in range(search.solver.rows.m) if index not in lost_rows]
 
     def errors(x: FloatArray) -> FloatArray:
-        return np.asarray(solver.compute_errors(x[None], pose[None])[0])
+        return np.asarray(search.solver.compute_errors(x[None], pose[None])[0])
 
     def evaluate_objective(x: FloatArray) -> tuple[float, FloatArray, FloatArray, FloatArray]:
-        error, jacobian = errors(x), solver.compute_jacobian(x, pose)
+        error, jacobian = errors(x), search.solver.compute_jacobian(x, pose)
         values, gradients = error[met_rows], jacobian[met_rows]
         if clearance is not None:
-            values, gradients = (
-                np.append(values, clearance.margin_left(x) - space.margin),
-                np.vstack([gradients, clearance.gradient(x)]),
-            )
+            values = np.append(values, clearance.margin_left(x) - search.space.margin)
+            gradients = np.vstack([gradients, clearance.gradient(x)])
         return float(error[lost_rows] @ error[lost_rows]), 2 * error[lost_rows] @ jacobian[lost_rows], values, gradients
 
-    lower, upper = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
+    lower, upper = np.where(search.space.free, arm.lower, q), np.where(search.space.free, arm.upper, q)
     with np.errstate(all="ignore"):
         minimum = minimise_constrained(evaluate_objective, q, lower, upper, len(met_rows))
     if not np.isfinite(minimum).all():
         return q
-    row_mask = np.ones((1, solver.rows.m))
-    row_mask[0, lost_rows] = 0.0
-    projected = solver.solve(np.where(space.free, np.clip(minimum, lower, upper), q)[None], pose[None], row_mask, space.free)
+    row_mask = search.make_row_masks(1, tuple(lost_rows))
+    projected = search.solver.solve(
+        np.where(search.space.free, np.clip(minimum, lower, upper), q)[None], pose[None], row_mask, search.space.free
+    )
     is_better = np.linalg.norm(errors(projected[0])[lost_rows]) < np.linalg.norm(errors(q)[lost_rows])
-    return np.asarray(projected[0] if is_better and _are_valid(solver, space, projected, pose[None], row_mask)[0] else q)
+    return np.asarray(projected[0] if is_better and search.are_valid(projected, pose[None], row_mask)[0] else q)

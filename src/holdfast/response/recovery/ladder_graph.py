@@ -9,9 +9,8 @@ import numpy as np
 
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-from holdfast.response.recovery.goals import project_onto_constraints, solve_pose
-from holdfast.response.recovery.space import FreeSpace, JointMetric
-from holdfast.response.recovery.task_rows import RowSolver
+from holdfast.kinematics.solvers.best_paths import trace_back
+from holdfast.response.recovery.goals import PoseSearch
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -48,9 +47,7 @@ class LadderGraph:
 
 
 def search_ladder_graph(
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
+    search: PoseSearch,
     poses: FloatArray,
     first_configurations: FloatArray,
     q_start: FloatArray,
@@ -63,47 +60,29 @@ def search_ladder_graph(
     Of the many of a pose those are kept that are spread widest: a motion through a passage that is narrower than their
     distance may be missed.
     """
-    first_configurations = np.concatenate(
-        [
-            first_configurations,
-            solve_pose(solver, space, poses[0], solver.sample_configurations(start_count, q_start, space.free, rng)),
-        ]
-    )
-    first_configurations = q_start + space.shortest_difference(first_configurations, q_start)
-    selected = _select_farthest_points(first_configurations, metric.measure_length(first_configurations - q_start))
-    layers, sources = [first_configurations[selected]], [np.arange(len(selected))]
-    costs = metric.measure_length(layers[0] - q_start)
+    sampled = search.solver.sample_configurations(start_count, q_start, search.space.free, rng)
+    first_configurations = np.concatenate([first_configurations, search.solve_pose(poses[0], sampled)])
+    first_configurations = q_start + search.space.shortest_difference(first_configurations, q_start)
+    costs = search.metric.measure_length(first_configurations - q_start)
+    selected = _select_farthest_points(first_configurations, costs, _MAX_LAYER_CONFIGURATIONS)
+    layers, sources, costs = [first_configurations[selected]], [np.arange(len(selected))], costs[selected]
     for pose in track("layers", list(poses[1:])):
-        before = layers[-1]
-        source = np.tile(np.arange(len(before)), 1 + _COPIES_PER_CONFIGURATION)
-        perturbed = before[source]
-        perturbed[len(before) :] += (
-            rng.normal(0.0, _PERTURBATION_STD, (_COPIES_PER_CONFIGURATION * len(before), before.shape[1])) * space.free
+        after, source, costs_after = _compute_next_layer(
+            search, layers[-1], costs, pose, _COPIES_PER_CONFIGURATION, rng, _MAX_LAYER_CONFIGURATIONS
         )
-        after, is_valid = _step_to_poses(solver, space, perturbed, np.repeat(pose[None], len(source), axis=0), before[source])
-        source, after = source[is_valid], after[is_valid]
-        total_costs = costs[source] + metric.measure_length(after - before[source])
-        selected = _select_farthest_points(
-            after, total_costs, 2 * _MAX_LAYER_CONFIGURATIONS
-        )  # what is not kept anyway need not be proved clear
-        selected = selected[space.are_segments_valid(before[source[selected]], after[selected])]
-        selected = selected[_select_farthest_points(after[selected], total_costs[selected])]
-        source, after, total_costs = source[selected], after[selected], total_costs[selected]
-        if not len(after) or space.is_time_over:
+        if not len(after) or search.space.is_time_over:
             break
         layers.append(after)
         sources.append(source)
-        costs = total_costs
+        costs = costs_after
     configuration_count = sum(map(len, layers))
     if len(layers) < len(poses):
         return LadderGraph([], len(layers) - 1, configuration_count)
     motions: dict[int, FloatArray] = {}
     for last_index in np.argsort(costs, kind="stable"):
-        indices = [int(last_index)]
-        for source in sources[:0:-1]:
-            indices.append(int(source[indices[-1]]))
-        if indices[-1] not in motions:
-            motions[indices[-1]] = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+        indices = trace_back(sources[1:], int(last_index))
+        if int(indices[0]) not in motions:
+            motions[int(indices[0])] = np.stack([layer[index] for layer, index in zip(layers, indices, strict=True)])
     return LadderGraph(list(motions.values()), len(poses) - 1, configuration_count)
 
 
@@ -123,14 +102,7 @@ class PathContinuation:
 
 
 def follow_path_furthest(
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
-    path: Path,
-    first_configurations: FloatArray,
-    *,
-    max_path_step: float,
-    rng: np.random.Generator,
+    search: PoseSearch, path: Path, first_configurations: FloatArray, *, max_path_step: float, rng: np.random.Generator
 ) -> PathContinuation:
     """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
 
@@ -138,22 +110,21 @@ def follow_path_furthest(
     last place are then spread along it, and the path is tried again from there.
 
     Args:
-        solver: Of the rows that count.
-        space: Where the arm may be.
-        metric: By which motions are short.
+        search: Of the rows that count.
         path: The path.
         first_configurations: (R, n) configurations of its beginning, at least one, rad and m.
         max_path_step: Largest step, a share of the path.
         rng: For the spreading.
     """
-    copies = _COPIES_PER_CONFIGURATION if space.free.sum() > solver.rows.m else 0
+    copies = _COPIES_PER_CONFIGURATION if search.space.free.sum() > search.solver.rows.m else 0
     selected = _select_farthest_points(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
     layers, sources, fractions = [first_configurations[selected]], [selected], [0.0]
     costs, step, spread_count, last_spread = np.zeros(len(selected)), max_path_step, 0, 0.0
-    while fractions[-1] < 1 and not space.is_time_over and len(layers) < _MAX_LAYERS:
+    while fractions[-1] < 1 and not search.space.is_time_over and len(layers) < _MAX_LAYERS:
         fraction = min(fractions[-1] + step, 1.0)
+        pose = path.pose(np.array([fraction]))[0]
         after, source, total_costs = _compute_next_layer(
-            solver, space, metric, layers[-1], costs, path.pose(np.array([fraction]))[0], copies, rng
+            search, layers[-1], costs, pose, copies, rng, _MAX_CONTINUED_CONFIGURATIONS, checks_middle=True
         )
         if len(after):
             layers, sources, fractions, costs = [*layers, after], [*sources, source], [*fractions, fraction], total_costs
@@ -169,57 +140,56 @@ def follow_path_furthest(
             spread_count, step = spread_count + 1, _SELF_MOTION_PATH_STEP
         else:
             break
-    indices = [int(costs.argmin())]
-    for source in sources[:0:-1]:
-        indices.append(int(source[indices[-1]]))
-    motion = np.stack([layer[index] for layer, index in zip(layers, reversed(indices), strict=True)])
+    indices = trace_back(sources[1:], int(costs.argmin()))
+    motion = np.stack([layer[index] for layer, index in zip(layers, indices, strict=True)])
     return PathContinuation(np.array(fractions), motion, sum(map(len, layers)) if copies else 0)
 
 
 def _compute_next_layer(
-    solver: RowSolver,
-    space: FreeSpace,
-    metric: JointMetric,
+    search: PoseSearch,
     before: FloatArray,
     costs: FloatArray,
     pose: FloatArray,
     copies: int,
     rng: np.random.Generator,
+    max_count: int,
+    *,
+    checks_middle: bool = False,
 ) -> tuple[FloatArray, IndexArray, FloatArray]:
-    """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far."""
+    """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far.
+
+    With ``checks_middle``, the middle of each step must also be near the straight line: on another branch it is not.
+    """
     source = np.tile(np.arange(len(before)), 1 + copies)
     perturbed = before[source]
-    perturbed[len(before) :] += rng.normal(0.0, _PERTURBATION_STD, (copies * len(before), before.shape[1])) * space.free
+    perturbed[len(before) :] += rng.normal(0.0, _PERTURBATION_STD, (copies * len(before), before.shape[1])) * search.space.free
     poses = np.repeat(pose[None], len(source), axis=0)
-    after, is_valid = _step_to_poses(solver, space, perturbed, poses, before[source])
+    after, is_valid = _step_to_poses(search, perturbed, poses, before[source])
     source, after = source[is_valid], after[is_valid]
-    selected = _select_farthest_points(
-        after, costs[source] + metric.measure_length(after - before[source]), 2 * _MAX_CONTINUED_CONFIGURATIONS
-    )
-    source, after = source[selected], after[selected]
-    # On another branch the middle is not where the straight line has it.
-    middle, is_near = _step_to_poses(solver, space, (before[source] + after) / 2, poses[: len(source)], before[source])
-    midpoint_errors = np.abs(middle - (before[source] + after) / 2).max(axis=1)
-    is_near &= midpoint_errors <= _MIDPOINT_TOLERANCE * np.abs(after - before[source]).max(axis=1) + 10 * _DUPLICATE_TOLERANCE
-    is_near[is_near] = space.are_segments_valid(before[source[is_near]], after[is_near])
-    source, after = source[is_near], after[is_near]
-    total_costs = costs[source] + metric.measure_length(after - before[source])
-    selected = _select_farthest_points(after, total_costs, _MAX_CONTINUED_CONFIGURATIONS)
+    total_costs = costs[source] + search.metric.measure_length(after - before[source])
+    selected = _select_farthest_points(after, total_costs, 2 * max_count)  # what is not kept anyway need not be proved clear
+    source, after, total_costs = source[selected], after[selected], total_costs[selected]
+    is_near = np.ones(len(after), dtype=bool)
+    if checks_middle:
+        straight_middle = (before[source] + after) / 2
+        middle, is_near = _step_to_poses(search, straight_middle, poses[: len(source)], before[source])
+        max_error = _MIDPOINT_TOLERANCE * np.abs(after - before[source]).max(axis=1) + 10 * _DUPLICATE_TOLERANCE
+        is_near &= np.abs(middle - straight_middle).max(axis=1) <= max_error
+    is_near[is_near] = search.space.are_segments_valid(before[source[is_near]], after[is_near])
+    source, after, total_costs = source[is_near], after[is_near], total_costs[is_near]
+    selected = _select_farthest_points(after, total_costs, max_count)
     return after[selected], source[selected], total_costs[selected]
 
 
-def _step_to_poses(
-    solver: RowSolver, space: FreeSpace, q: FloatArray, poses: FloatArray, before: FloatArray
-) -> tuple[FloatArray, BoolArray]:
+def _step_to_poses(search: PoseSearch, q: FloatArray, poses: FloatArray, before: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Solve poses (N, 4, 4) from q (N, n); also return which solutions meet their pose and are one step from ``before``."""
-    row_masks = np.ones((len(q), solver.rows.m))
-    after = project_onto_constraints(solver, space, solver.solve(q, poses, row_masks, space.free), poses, row_masks)
-    return after, solver.meets_rows(after, poses, row_masks, space.free) & (
-        np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
-    )
+    row_masks = search.make_row_masks(len(q))
+    after = search.solve(q, poses, row_masks)
+    is_near = np.abs(after - before).max(axis=1) <= MAX_JOINT_STEP
+    return after, search.meets_rows(after, poses, row_masks) & is_near
 
 
-def _select_farthest_points(q: FloatArray, costs: FloatArray, max_count: int = _MAX_LAYER_CONFIGURATIONS) -> IndexArray:
+def _select_farthest_points(q: FloatArray, costs: FloatArray, max_count: int) -> IndexArray:
     """Return the indices of the cheapest of configurations (N, n), then repeatedly of the one farthest from all selected."""
     if not len(q):
         return np.zeros(0, dtype=np.int64)
@@ -233,10 +203,9 @@ def _select_farthest_points(q: FloatArray, costs: FloatArray, max_count: int = _
     return np.array(selected[:max_count])
 
 
-def shorten_along_poses(
-    solver: RowSolver, space: FreeSpace, metric: JointMetric, poses: FloatArray, q: FloatArray
-) -> FloatArray:
+def shorten_along_poses(search: PoseSearch, poses: FloatArray, q: FloatArray) -> FloatArray:
     """Shorten the motion (S, n) along self-motions: each configuration moves towards the middle of its neighbors."""
+    space, metric = search.space, search.metric
     q = q.copy()
     for _ in range(_SHORTENING_SWEEPS):
         old_length = float(metric.cumulative_length(q)[-1])
@@ -244,7 +213,7 @@ def shorten_along_poses(
             indices = np.arange(parity, len(q), 2)
             next_indices = np.minimum(indices + 1, len(q) - 1)
             targets = np.where((indices < len(q) - 1)[:, None], (q[indices - 1] + q[next_indices]) / 2, q[indices - 1])
-            trial, is_better = _step_to_poses(solver, space, targets, poses[indices], q[indices - 1])
+            trial, is_better = _step_to_poses(search, targets, poses[indices], q[indices - 1])
             is_better &= np.abs(trial - q[next_indices]).max(axis=1) <= MAX_JOINT_STEP
             old_lengths = metric.measure_length(q[indices] - q[indices - 1]) + metric.measure_length(
                 q[next_indices] - q[indices]

@@ -90,9 +90,7 @@ class StartProblem(NamedTuple):
 
 
 def find_home(arm: Arm) -> tuple[FloatArray, str]:
-    """Return the home configuration (n,), rad and m, and its description: the state "home", or all joints as near to 0 as
-    possible.
-    """
+    """Return the home configuration (n,), rad and m, and its description: the state "home", or all joints nearest to 0."""
     if "home" in arm.states:
         return arm.states["home"], "home"
     q = np.clip(np.zeros(arm.n), arm.lower, arm.upper)
@@ -249,8 +247,7 @@ def find_start_problem(
         return StartProblem(
             RecoveryOutcome.LOCK_MISMATCH,
             f"{arm.joint_names[joint_index]} is said to be locked at {lock_values[joint_index]:.6g} and is at "
-            f"{q_start[joint_index]:.6g} {arm.joints[joint_index].unit}; "
-            "give the angle at which it is, or leave the angle out",
+            f"{q_start[joint_index]:.6g} {arm.joints[joint_index].unit}; give the angle at which it is, or leave the angle out",
         )
     for joint, position in zip(degraded.limited.joints, q_start, strict=True):
         if not joint.lower <= position <= joint.upper:

@@ -99,16 +99,13 @@ _OUTCOME_SENTENCES = {
     "configuration that gives rows up",
     RecoveryOutcome.PATH_UNFINISHED: "the rest of the tool path is NOT finished; if a goal was given too, it is met",
     RecoveryOutcome.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not "
-    "prove that "
-    "there is none: give more tries",
+    "prove that there is none: give more tries",
     RecoveryOutcome.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not "
-    "prove that there "
-    "is none: give more starts",
+    "prove that there is none: give more starts",
     RecoveryOutcome.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
     RecoveryOutcome.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
     RecoveryOutcome.START_TOO_CLOSE: "no motion: the arm, or what covers it, is already closer to itself or its cell than "
-    "the clearance "
-    "that must be kept",
+    "the clearance that must be kept",
     RecoveryOutcome.LOCK_MISMATCH: "no motion: a joint is not where it is said to be locked",
     RecoveryOutcome.START_VIOLATES_CONSTRAINTS: "no motion: where the arm is breaks a row that must be kept all the way",
     RecoveryOutcome.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, "
@@ -274,11 +271,7 @@ class Recovery(Result):
         if self.tolerance is None:
             return ""
         tolerance_values = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
-        return (
-            f"; so is what misses it by {tolerance_values}"
-            if self.proved_within
-            else f"; not proved of what misses it by {tolerance_values}"
-        )
+        return f"; {'so is' if self.proved_within else 'not proved of'} what misses it by {tolerance_values}"
 
     def require_ok(self) -> Recovery:
         """Return the recovery, or raise :class:`holdfast.HoldfastError` with the reason if anything was dropped."""

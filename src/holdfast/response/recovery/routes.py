@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.progress import track
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.response.recovery.space import FreeSpace, JointMetric
-
-Indices = NDArray[np.intp]
 
 _BATCH_SAMPLES = 48  # samples a round
 _MAX_ROUNDS = 200
@@ -140,15 +137,13 @@ class _RouteTree:
         self._embedded_nodes = self._embed_configurations(roots)
 
     def _embed_configurations(self, q: FloatArray) -> FloatArray:
-        """Return points (N, e) whose distances approximately order configurations as the metric does: a revolute joint is a
-        circle.
-        """
+        """Return points (N, e) whose distances order configurations about as the metric does: a revolute joint is a circle."""
         linear_part = (q * self._metric.scale)[:, self._space.free & ~self._is_unlimited]
         scales = self._metric.scale[self._is_unlimited]
         angles = q[:, self._is_unlimited]
         return np.concatenate([linear_part, scales * np.cos(angles), scales * np.sin(angles)], axis=1)
 
-    def add_paths(self, extensions: list[FloatArray], parents: Indices) -> Indices:
+    def add_paths(self, extensions: list[FloatArray], parents: IndexArray) -> IndexArray:
         """Add paths (k, n) from parents, except empty ones, and return the last nodes of the others."""
         nodes, parent_nodes, last_nodes = list[FloatArray](), list[int](), list[int]()
         for extension, parent in zip(extensions, parents.tolist(), strict=True):
@@ -168,7 +163,7 @@ class _RouteTree:
             self._embedded_nodes = np.concatenate([self._embedded_nodes, self._embed_configurations(np.stack(nodes))])
         return np.array(last_nodes, dtype=np.intp)
 
-    def find_nearest(self, q: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    def find_nearest(self, q: FloatArray) -> tuple[IndexArray, FloatArray]:
         """Return the node nearest to each q (N, n), and ``q`` minus that node (N, n)."""
         points, node_points = self._embed_configurations(q), self._embedded_nodes
         indices = ((node_points**2).sum(axis=1) - 2 * points @ node_points.T).argmin(axis=1)
@@ -216,11 +211,8 @@ def _search_bidirectional_trees(
 def _count_new_ends(metric: JointMetric, tree: _RouteTree, extensions: list[FloatArray], max_step: float) -> int:
     """Count the extensions that end far from every node of the tree."""
     ends = [extension[-1] for extension in extensions if len(extension)]
-    return (
-        int((metric.measure_length(tree.find_nearest(np.stack(ends))[1]) > _NEW_REGION_FRACTION * max_step).sum())
-        if ends
-        else 0
-    )
+    lengths = metric.measure_length(tree.find_nearest(np.stack(ends))[1]) if ends else np.zeros(0)
+    return int((lengths > _NEW_REGION_FRACTION * max_step).sum())
 
 
 def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -> FloatArray:
@@ -229,7 +221,12 @@ def _limit_step(metric: JointMetric, differences: FloatArray, max_step: float) -
 
 
 def _grow_tree_to_nodes(
-    space: FreeSpace, metric: JointMetric, growing_tree: _RouteTree, other_tree: _RouteTree, new_nodes: Indices, max_step: float
+    space: FreeSpace,
+    metric: JointMetric,
+    growing_tree: _RouteTree,
+    other_tree: _RouteTree,
+    new_nodes: IndexArray,
+    max_step: float,
 ) -> tuple[int, int] | None:
     """Grow the other tree towards new nodes step by step, and return the two nodes where the trees meet."""
     targets, is_constrained = new_nodes, space.manifold is not None
@@ -253,10 +250,8 @@ def _grow_tree_to_nodes(
 def _join_branches(
     space: FreeSpace, start_tree: _RouteTree, goal_tree: _RouteTree, meeting_nodes: tuple[int, int]
 ) -> tuple[FloatArray, int]:
-    (start_branch, _), (goal_branch, root) = (
-        start_tree.trace_to_root(meeting_nodes[0]),
-        goal_tree.trace_to_root(meeting_nodes[1]),
-    )
+    (start_branch, _) = start_tree.trace_to_root(meeting_nodes[0])
+    (goal_branch, root) = goal_tree.trace_to_root(meeting_nodes[1])
     # The trees may meet a turn apart: the rest of the way is moved by whole turns.
     shift = start_branch[0] + space.shortest_difference(goal_branch[0], start_branch[0]) - goal_branch[0]
     return np.concatenate([start_branch[::-1], goal_branch + shift]), root
@@ -272,7 +267,7 @@ def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.r
         ends = np.sort(rng.uniform(0, lengths[-1], (_SHORTCUTS_PER_ROUND, 2)), axis=1)
         # Some whole pieces too: from waypoint to waypoint.
         ends[: _SHORTCUTS_PER_ROUND // 4] = np.sort(rng.choice(lengths, (_SHORTCUTS_PER_ROUND // 4, 2)), axis=1)
-        cut_starts, cut_ends = (_interpolate(q, lengths, cut_lengths) for cut_lengths in ends.T)
+        cut_starts, cut_ends = (np.stack([np.interp(cuts, lengths, column) for column in q.T], axis=1) for cuts in ends.T)
         gains = ends[:, 1] - ends[:, 0] - metric.measure_length(cut_ends - cut_starts)
         useful = np.flatnonzero(gains > 1e-6 * lengths[-1])
         useful = useful[space.are_segments_valid(cut_starts[useful], cut_ends[useful])]
@@ -306,11 +301,6 @@ def _shorten_on_constraints(space: FreeSpace, metric: JointMetric, q: FloatArray
         if gains[index] > 1e-6 * lengths[-1]:
             q = np.concatenate([q[: first_points[index] + 1], extensions[index], q[last_points[index] + 1 :]])
     return q
-
-
-def _interpolate(q: FloatArray, lengths: FloatArray, sample_lengths: FloatArray) -> FloatArray:
-    """Return points (N, n) of the path q (K, n) with cumulative lengths (K,) at lengths s (N,)."""
-    return np.stack([np.interp(sample_lengths, lengths, column) for column in q.T], axis=1)
 
 
 def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:

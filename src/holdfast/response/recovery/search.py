@@ -23,6 +23,7 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 from holdfast.model.collision.exact.exact_clearance import with_exact_distances
 from holdfast.model.failure_modes import Locked, degraded_at
 from holdfast.response.recovery.attempt import RecoveryAttempt
+from holdfast.response.recovery.goals import PoseSearch
 from holdfast.response.recovery.problem import check_recovery_options, choose_task, find_start_problem, parse_goal
 from holdfast.response.recovery.proofs.reach import Tolerance
 from holdfast.response.recovery.recovery import Recovery, RecoveryOutcome
@@ -177,9 +178,8 @@ def recover(
         goal_pose=None if target is None else target.poses[0],
     )
     if samples:
-        recovery = replace(
-            recovery, left=estimate_remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed)
-        )
+        left = estimate_remaining_workspace(solver, degraded, clearance_model, margin, region, samples, seed)
+        recovery = replace(recovery, left=left)
 
     def run_attempt(attempt_clearance: Clearance | None) -> Recovery:
         request = replace(recovery, clearance=attempt_clearance)
@@ -195,9 +195,7 @@ def recover(
         timing_limits = None if max_accelerations is None else (max_accelerations, period)
         attempt = RecoveryAttempt(
             recovery=request,
-            solver=solver,
-            space=space,
-            metric=length,
+            search=PoseSearch(solver, space, length),
             search_count=tries,
             rng=rng,
             timing_limits=timing_limits,

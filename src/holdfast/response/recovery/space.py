@@ -20,9 +20,8 @@ from holdfast.model.collision.clearance import Clearance
 
 MetricName = Literal["travel", "time"]
 
-MIN_RESOLVED_MOTION_M = (
-    5e-4  # m of possible motion between what could collide: what cannot be told clear at this is taken as blocked
-)
+# Possible motion in m between what could collide: what cannot be told clear at this is taken as blocked.
+MIN_RESOLVED_MOTION_M = 5e-4
 _MAX_EXTENSION_STEPS = 400  # pieces of one walk at most
 _MIN_PROGRESS_FRACTION = 0.1  # of a piece, by which it must come nearer to where it goes
 
@@ -169,10 +168,8 @@ class FreeSpace:
         deviation_changes = 0 * max_changes if deviations is None else deviations @ self._lipschitz_bounds.T
         segments = np.arange(len(a))
         start_fractions, end_fractions = np.zeros(len(a)), np.ones(len(a))
-        first_margins, last_margins = (
-            self._clearance_margins(a) - deviation_changes,
-            self._clearance_margins(b) - deviation_changes,
-        )
+        first_margins = self._clearance_margins(a) - deviation_changes
+        last_margins = self._clearance_margins(b) - deviation_changes
         is_valid &= (first_margins.min(axis=1) >= 0) & (last_margins.min(axis=1) >= 0)
         while True:
             changes = max_changes[segments] * (end_fractions - start_fractions)[:, None]
@@ -192,10 +189,8 @@ class FreeSpace:
             is_valid[segments[middle_margins.min(axis=1) < 0]] = False
             segments = np.concatenate([segments, segments])
             start_fractions, end_fractions = np.concatenate([start_fractions, middle]), np.concatenate([middle, end_fractions])
-            first_margins, last_margins = (
-                np.concatenate([first_margins, middle_margins]),
-                np.concatenate([middle_margins, last_margins]),
-            )
+            first_margins = np.concatenate([first_margins, middle_margins])
+            last_margins = np.concatenate([middle_margins, last_margins])
 
     def extend_paths(
         self, metric: JointMetric, start: FloatArray, directions: FloatArray
@@ -250,9 +245,7 @@ class FreeSpace:
         return self.clearance.pair_names[int(np.bincount(pairs).argmax())] if len(pairs) else ""
 
     def describe_obstruction(self, start: FloatArray, goal: FloatArray) -> str:
-        """Name the pair that a straight line from a start (n,) to a goal (n,) collides with, a clause; empty if
-        there is none.
-        """
+        """Name the pair that collides between a start (n,) and a goal (n,), a clause; empty if there is none."""
         pair = self.name_closest_pair(start + np.linspace(0, 1, 201)[:, None] * self.shortest_difference(goal, start))
         return f"; in the way of the straight line: {pair}" if pair else ""
 

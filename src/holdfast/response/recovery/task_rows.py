@@ -28,9 +28,8 @@ ROW_TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is 
 _MAX_STEPS = 60
 TILT_ROW = "tilt of tool z"
 _UNLIMITED = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
-_RELAXED_ROW_WEIGHT = (
-    1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
-)
+# Weight of a row that is given up while its error is made small: the kept rows yield to it by its square only.
+_RELAXED_ROW_WEIGHT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -152,10 +151,7 @@ class _TaskRowKernels:
         inverse_rotation = chain.rotation.T
         errors, jacobians = [position_error], [linear_jacobian]
         if rows.linear == "tool":
-            columns = [
-                linear_jacobian[:, joint_index] + ca.cross(angular_jacobian[:, joint_index], position_error)
-                for joint_index in range(self.arm.n)
-            ]
+            columns = [linear_jacobian[:, k] + ca.cross(angular_jacobian[:, k], position_error) for k in range(self.arm.n)]
             errors, jacobians = [inverse_rotation @ position_error], [inverse_rotation @ ca.horzcat(*columns)]
         if np.abs(rows.matrix[:, 3:]).max() > 0:
             orientation_error = pose_error(chain.position, chain.rotation, position, rotation)[3:]
@@ -203,9 +199,7 @@ class RowSolver:
         return self._kernels.error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
     def is_inside_cone(self, q: FloatArray, pose: FloatArray) -> BoolArray:
-        """Return (N,) True where the tool's z axis at q (N, n) is within the angle of that of a pose (4, 4), or
-        none is given.
-        """
+        """Return (N,) True where the tool's z axis at q (N, n) is within the angle of a pose's (4, 4), or none is given."""
         if self.rows.within is None:
             return np.ones(len(q), dtype=bool)
         return ~self.find_violated_rows(q, np.repeat(pose[None], len(q), axis=0))[:, -1]
@@ -275,17 +269,13 @@ def make_row_solver(arm: Arm, task: Task, within: float | None = None) -> RowSol
 
 def list_subsets(m: int, size: int, excluded_subsets: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
     """Return the sets of ``size`` of m rows that contain none of the sets ``excluded_subsets``."""
-    return [
-        subset
-        for subset in combinations(range(m), size)
-        if not any(set(excluded) <= set(subset) for excluded in excluded_subsets)
-    ]
+    excluded_sets = [set(excluded) for excluded in excluded_subsets]
+    subsets = combinations(range(m), size)
+    return [subset for subset in subsets if not any(excluded <= set(subset) for excluded in excluded_sets)]
 
 
 def relaxed_rows_sort_key(rows: TaskRows, dropped_rows: tuple[int, ...]) -> tuple[int, int, int]:
-    """Return the sort key of a set of relaxed rows: few first, then rotations, of these the rotation about the
-    tool's z axis.
-    """
+    """Return the sort key of a set of relaxed rows: few first, then rotations, of these that about the tool's z axis."""
     translation_count = sum(rows.units[index] == "m" for index in dropped_rows)
     is_tool_spin = any(rows.names[index] in ("about tool z", "about z") for index in dropped_rows)
     return len(dropped_rows), translation_count, 0 if is_tool_spin else 1

@@ -184,14 +184,10 @@ def verify_waypoints(
 
 
 def compute_row_errors(arm: Arm, rows: TaskRows, q: FloatArray, poses: FloatArray) -> FloatArray:
-    """Return the signed errors (N, m) of rows at q (N, n) and poses (N, 4, 4), m and rad, by chains of matrices in
-    NumPy alone.
-    """
+    """Return the signed errors (N, m) of rows at q (N, n) and poses (N, 4, 4), m and rad, by matrices in NumPy alone."""
     actual_poses = compute_tool_poses(arm, q)
-    position_errors, orientation_errors = (
-        poses[:, :3, 3] - actual_poses[:, :3, 3],
-        rotation_vectors(poses[:, :3, :3] @ actual_poses[:, :3, :3].transpose(0, 2, 1)),
-    )
+    position_errors = poses[:, :3, 3] - actual_poses[:, :3, 3]
+    orientation_errors = rotation_vectors(poses[:, :3, :3] @ actual_poses[:, :3, :3].transpose(0, 2, 1))
     inverse_rotations = actual_poses[:, :3, :3].transpose(0, 2, 1)
     parts = [
         (inverse_rotations @ part[:, :, None])[:, :, 0] if frame == "tool" else part

@@ -8,7 +8,6 @@ accelerations (:class:`holdfast.response.recovery.TimedMotion`) the rates and ac
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -17,12 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
-from holdfast.core.files.output import open_replacement
-from holdfast.core.files.spreadsheet import escape_formula
+from holdfast.core.files.csv_table import CsvTable, write_rows
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import require_real_numbers
-from holdfast.kinematics.paths.joint_table import JointTable, joint_columns, motion_column_names, read_joint_table
+from holdfast.kinematics.paths.joint_table import joint_columns, motion_column_names, read_joint_table
 from holdfast.kinematics.tool_constraints.labels import KeepLike, anchor_constraints
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
@@ -53,13 +51,8 @@ def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
     Raises:
         StoreError: The file cannot be written.
     """
-    file = Path(path)
     column_name, values = time_or_length_column(arm, q)
-    with open_replacement(file, "waypoints") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(map(escape_formula, [column_name, *joint_columns(arm)]))
-        writer.writerows([[repr(float(value)) for value in row] for row in np.column_stack([values, q])])
-    return file
+    return write_rows(path, [column_name, *joint_columns(arm)], np.column_stack([values, q]).tolist(), "waypoints")
 
 
 def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
@@ -81,7 +74,7 @@ def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
     return table.select_columns(FIRST_COLUMNS[:1])[:, 0] if FIRST_COLUMNS[0] in table.header else None
 
 
-def _read_table(arm: Arm, path: str | Path) -> JointTable:
+def _read_table(arm: Arm, path: str | Path) -> CsvTable:
     table, known_columns = read_joint_table(arm, Path(path), "waypoints", FIRST_COLUMNS[0]), motion_column_names(arm)
     unknown_columns = [
         name for name in table.header if name not in FIRST_COLUMNS and not any(name in names for names in known_columns)
@@ -265,9 +258,7 @@ def _joints_exceeding_limits(
         arm, accelerations, np.ones(arm.n, dtype=bool) if degraded is None else degraded.moves
     )
     is_exceeded = peak_accelerations > np.where(max_accelerations > 0, max_accelerations * (1 + 1e-9), np.inf)
-    return too_fast, {
-        arm.joint_names[joint_index]: float(peak_accelerations[joint_index]) for joint_index in np.flatnonzero(is_exceeded)
-    }
+    return too_fast, {arm.joint_names[index]: float(peak_accelerations[index]) for index in np.flatnonzero(is_exceeded)}
 
 
 def _find_least_clearance(clearance: Clearance, q: FloatArray) -> tuple[float, float, str]:

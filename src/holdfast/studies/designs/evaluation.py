@@ -10,15 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.compiled import expect_row_count
 from holdfast.kinematics.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAST_STEPS, default_starts, largest_per_group
 from holdfast.model.arm.configurations import replace_infinite_limits
 from holdfast.studies.designs.family import Family
-
-Index = NDArray[np.intp]
 
 POSE_TOLERANCE = 1e-6  # of the pose, m and rad; of an arm that is shorter than 1 m as much less
 _IK_STEPS = 40
@@ -51,7 +48,7 @@ class Evaluated:
     values: FloatArray
     q: FloatArray
     value: FloatArray
-    reached: NDArray[np.bool_]
+    reached: BoolArray
     miss: FloatArray
     kept: FloatArray
 
@@ -195,7 +192,7 @@ class Evaluator:
             kept=kept_q.reshape(*shape, _KEPT_CONFIGURATIONS, n),
         )
 
-    def _sample_starts(self, values: FloatArray, owner: Index, start_number: Index) -> FloatArray:
+    def _sample_starts(self, values: FloatArray, owner: IndexArray, start_number: IndexArray) -> FloatArray:
         """Return start ``start_number`` of each design and pose: a fraction of the joint ranges that depends on the
         pose alone.
         """
@@ -209,8 +206,8 @@ class Evaluator:
         return replace_infinite_limits(*self.family.limits(values), self.family.prismatic)
 
     def _solve_inverse_kinematics(
-        self, values: FloatArray, owner: Index, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
-    ) -> tuple[Index, FloatArray]:
+        self, values: FloatArray, owner: IndexArray, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
+    ) -> tuple[IndexArray, FloatArray]:
         """Solve inverse kinematics from starts q (R, n) and return the converged ones; the nearest end of the others is
         recorded.
         """
@@ -224,7 +221,9 @@ class Evaluator:
         nearest[owner[best_rows]], pose_errors[owner[best_rows]] = run.state[best_rows], error_sizes[best_rows]
         return owner[run.done], run.state[run.done]
 
-    def _maximise_index(self, values: FloatArray, owner: Index, q: FloatArray) -> tuple[Index, FloatArray, FloatArray]:
+    def _maximise_index(
+        self, values: FloatArray, owner: IndexArray, q: FloatArray
+    ) -> tuple[IndexArray, FloatArray, FloatArray]:
         """Move q along the poses to the best configurations; return the owners, configurations, and values of those still on
         their pose.
         """
@@ -242,7 +241,7 @@ class Evaluator:
         return owner[is_valid], q[is_valid], self.value(values, owner[is_valid], q[is_valid])
 
     def _ascend_index(
-        self, values: FloatArray, owner: Index, q: FloatArray, steps: int, radius: FloatArray
+        self, values: FloatArray, owner: IndexArray, q: FloatArray, steps: int, radius: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         n = self.family.arm.n
         design, pose = np.divmod(owner, len(self.poses))
@@ -259,12 +258,12 @@ class Evaluator:
 
     # ---- facts -------------------------------------------------------------------------------------------------------
 
-    def value(self, values: FloatArray, owner: Index, q: FloatArray) -> FloatArray:
+    def value(self, values: FloatArray, owner: IndexArray, q: FloatArray) -> FloatArray:
         """Return the index (R,) of rows ``owner`` (design times P plus pose) at q (R, n); 0 where the arm is singular."""
         index_values = self.family.value.rows(q, values[owner // len(self.poses)])
         return np.asarray(np.nan_to_num(index_values.min(axis=1), nan=0.0, posinf=0.0, neginf=0.0))
 
-    def on_pose(self, values: FloatArray, owner: Index, q: FloatArray) -> NDArray[np.bool_]:
+    def on_pose(self, values: FloatArray, owner: IndexArray, q: FloatArray) -> BoolArray:
         """Return (R,) True where q is on its pose and within the limits of its design."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.family.limits(values)
@@ -273,7 +272,7 @@ class Evaluator:
         inside = ((q >= lower[design]) & (q <= upper[design])).all(axis=1)
         return np.asarray(inside & (errors <= self._tolerance).all(axis=1))
 
-    def rows(self, owner: Index, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def rows(self, owner: IndexArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return position (R, 3), rotation (R, 3, 3), and design (R, k) of rows."""
         design, pose = np.divmod(owner, len(self.poses))
         return self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]

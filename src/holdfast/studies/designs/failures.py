@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.control.equilibria.solutions import SolutionSearch
 from holdfast.control.simulation.closed_loop import simulate
+from holdfast.control.simulation.residual import SolutionSearch
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.control.simulation.system import scale_errors
 from holdfast.core.typing import FloatArray

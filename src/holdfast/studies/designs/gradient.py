@@ -18,12 +18,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.studies.designs.evaluation import Evaluated, Evaluator
-
-Index = NDArray[np.intp]
 
 _DESIGN_NEWTON_STEPS = 10
 _DIFFERENCE_STEP = 1e-5  # rad or m: for second derivatives, which only say how fast Newton's method converges, not where to
@@ -47,10 +44,10 @@ class Sensitivity:
     q: FloatArray
     value: FloatArray
     gradient: FloatArray
-    exact: NDArray[np.bool_]
+    exact: BoolArray
 
 
-def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensitivity:
+def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: IndexArray) -> Sensitivity:
     """Return values and gradients of some rows of an evaluation.
 
     Args:
@@ -86,8 +83,8 @@ def _compute_limit_gradient(evaluator: Evaluator, force: FloatArray) -> FloatArr
 
 
 def _differentiate_missed_poses(
-    evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
+    evaluator: Evaluator, values: FloatArray, owner: IndexArray, q: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
     """Return minus the pose error and its gradient, at the nearest configuration, by Newton's method within the limits."""
     family = evaluator.family
     position, rotation, design_values = evaluator.rows(owner, values)
@@ -139,8 +136,8 @@ def _differentiate_missed_poses(
 
 
 def _differentiate_reached_poses(
-    evaluator: Evaluator, values: FloatArray, owner: Index, q: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
+    evaluator: Evaluator, values: FloatArray, owner: IndexArray, q: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
     family = evaluator.family
     position, rotation, design_values = evaluator.rows(owner, values)
     lower, upper = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
@@ -168,7 +165,7 @@ class _OptimumPoint:
     pose: FloatArray
     force: FloatArray
 
-    def replace_rows(self, is_chosen: NDArray[np.bool_], other: _OptimumPoint) -> _OptimumPoint:
+    def replace_rows(self, is_chosen: BoolArray, other: _OptimumPoint) -> _OptimumPoint:
         """Return the point with the rows of another point where ``is_chosen`` is true."""
         columns = is_chosen[:, None]
         return _OptimumPoint(
@@ -244,7 +241,7 @@ class _OptimumConditions:
         inverse = np.linalg.pinv(np.nan_to_num(jacobian))
         return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
-    def solve_newton(self, start: _OptimumPoint) -> tuple[_OptimumPoint, NDArray[np.bool_]]:
+    def solve_newton(self, start: _OptimumPoint) -> tuple[_OptimumPoint, BoolArray]:
         """Solve the conditions by Newton's method from a nearby point, updating the active set; return the end point and (R,)
         whether it is exact.
         """

@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
 from holdfast.interface.cli.measure_options import OBJECTIVES_HELP
 from holdfast.interface.cli.options import ArmArgument, FailuresOption, JsonOption, OutOption, TaskOption
@@ -24,12 +25,8 @@ from holdfast.interface.cli.values import (
 from holdfast.interface.presentation.results import print_result, write_outputs
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
-
-    Array = NDArray[np.float64]
 
 
 def command(
@@ -100,7 +97,7 @@ def command(
     print_result(optima, json_, files, asked=" ".join(option_and_text).removeprefix("--"))
 
 
-def _read_target_poses(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> Array:
+def _read_target_poses(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> FloatArray:
     if file is None:
         option, given_poses = "--pose", [read_pose(arm, "--pose", text) for text in texts]
     else:

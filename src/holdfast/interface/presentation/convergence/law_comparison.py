@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -13,8 +12,8 @@ import numpy as np
 from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
-from holdfast.core.files.output import make_folder, open_replacement
-from holdfast.core.files.spreadsheet import escape_formula
+from holdfast.core.files.csv_table import write_rows
+from holdfast.core.files.output import make_folder
 from holdfast.core.formatting import capitalise_first, format_count, format_decimals, format_number, format_percent
 from holdfast.core.progress import reports_progress
 from holdfast.interface.presentation.collision.shape import describe_shape
@@ -154,10 +153,7 @@ def save(comparison: LawComparison, folder: Path, command: str = "") -> list[Pat
         tables["gains"] = tabulate_gains(comparison)
     files = [make_folder(folder) / f"{name}.csv" for name in tables]
     for file, rows in zip(files, tables.values(), strict=True):
-        with open_replacement(file) as stream:
-            writer = csv.writer(stream)
-            writer.writerow(map(escape_formula, rows[0]))
-            writer.writerows([escape_formula(row[name]) for name in rows[0]] for row in rows)
+        write_rows(file, rows[0], ([row[name] for name in rows[0]] for row in rows))
     return [*files, comparison.report(folder / "report.html", command=command)]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -10,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.files.output import open_replacement
-from holdfast.core.files.spreadsheet import escape_formula
+from holdfast.core.files.csv_table import write_rows
 from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
@@ -377,12 +375,15 @@ def to_csv(optima: Optima, path: Path) -> Path:
         optima_rows.rotation_error,
     )
     rows = np.column_stack([*facts, optima_rows.q])
-    with open_replacement(path, "configurations") as file:
-        table = csv.writer(file)
-        table.writerow(map(escape_formula, columns + names))
-        for index, row in enumerate(rows):
-            table.writerow([index + 1, _status_name(optima_rows.status[index]), *[f"{entry:.12g}" for entry in row]])
-    return path
+    return write_rows(
+        path,
+        columns + names,
+        (
+            [index, _status_name(status), *(f"{entry:.12g}" for entry in row)]
+            for index, status, row in zip(range(1, len(rows) + 1), optima_rows.status, rows, strict=True)
+        ),
+        "configurations",
+    )
 
 
 def _format_failures(optima: Optima) -> str | None:

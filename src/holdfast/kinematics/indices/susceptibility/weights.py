@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
 from holdfast.core.probability.sobol_sequence import sobol_points
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm import statics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_masses
@@ -118,7 +118,7 @@ def largest_static_torque(arm: Arm) -> FloatArray:
 
 
 def _maximise_static_torque(
-    arm: Arm, q: FloatArray, joint: NDArray[np.int64], sign: FloatArray, low: FloatArray, high: FloatArray, still: FloatArray
+    arm: Arm, q: FloatArray, joint: IndexArray, sign: FloatArray, low: FloatArray, high: FloatArray, still: FloatArray
 ) -> FloatArray:
     """Return ``sign * tau[joint]`` (R,) at the end of a coordinate ascent from every row of q (R, n)."""
     rows = np.arange(len(q))

@@ -93,7 +93,8 @@ class CollisionBody:
         if self.kind == "mesh":
             return _empty_points(), np.zeros(0)
         if self.kind in ("box", "convex"):
-            spheres = np.array(_fit_inner_spheres(*self.face_planes, self._corner_points())).reshape(-1, 4)
+            corners = np.array(list(product((-0.5, 0.5), repeat=3))) * self.size if self.kind == "box" else self.vertices
+            spheres = np.array(_fit_inner_spheres(*self.face_planes, corners)).reshape(-1, 4)
             return (spheres[:, :3], spheres[:, 3]) if self.filled is None else self.filled.shrink_spheres(spheres)
         if self.kind == "ellipsoid":
             return np.zeros((1, 3)), np.array([min(self.size)])
@@ -110,11 +111,6 @@ class CollisionBody:
         first, second, third = (self.vertices[self.faces[:, corner]] for corner in range(3))
         distances = np.array([_distance_to_triangles(sphere[:3], first, second, third) for sphere in enclosed])
         return enclosed[:, :3], np.minimum(enclosed[:, 3], distances)
-
-    def _corner_points(self) -> FloatArray:
-        if self.kind == "box":
-            return np.array(list(product((-0.5, 0.5), repeat=3))) * self.size
-        return self.vertices
 
     @cached_property
     def bounding_sphere(self) -> tuple[FloatArray, float]:
@@ -138,10 +134,8 @@ class CollisionBody:
             return False
         first, second, third = (self.vertices[self.faces[:, corner]] - point for corner in range(3))
         first_length, second_length, third_length = (np.linalg.norm(left_edge, axis=1) for left_edge in (first, second, third))
-        numerator, denominator = (
-            np.einsum("ij,ij->i", first, np.cross(second, third)),
-            first_length * second_length * third_length,
-        )
+        numerator = np.einsum("ij,ij->i", first, np.cross(second, third))
+        denominator = first_length * second_length * third_length
         for left_edge, right_edge, opposite_length in (
             (first, second, third_length),
             (second, third, first_length),
@@ -182,9 +176,7 @@ def body_from_solid(solid: solids.Solid) -> CollisionBody:
 
 
 def bounding_primitive(solid: solids.Solid) -> solids.PrimitiveSolid:
-    """Return an object with a formula that contains a given one: the object itself if it has a formula, else a box in its
-    frame.
-    """
+    """Return an object with a formula that contains a given one: itself if it has a formula, else a box in its frame."""
     if isinstance(solid, solids.PrimitiveSolid):
         return solid
     assert isinstance(solid, Mesh | Points)

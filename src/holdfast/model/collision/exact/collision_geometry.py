@@ -130,9 +130,7 @@ class PointCloudGeometry:
         return distance if distance >= CONTACT_DISTANCE_M else 0.0
 
     def _nearest_ball_distance(self, part: PlacedBody, max_distance: float, *, sign_only: bool = False) -> float:
-        """Return the distance of the nearest ball, m, if it is less than ``max_distance``; with ``sign_only`` only whether it
-        is 0 or more.
-        """
+        """Return the distance of the nearest ball, m, below ``max_distance``; with ``sign_only`` only whether it is >= 0."""
         middle, part_radius = part.body.bounding_sphere
         candidates = self._tree.query_ball_point(
             part.position + part.rotation @ middle, part_radius + self._radius + max_distance

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
@@ -101,6 +101,6 @@ class ExactClearance(Clearance):
             values[is_near] = np.maximum(values[is_near], exact_distance[:, None])
         return values[0] if single else values
 
-    def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
+    def closest_pair(self, q: ArrayLike) -> IndexArray:
         """See :meth:`holdfast.Clearance.closest_pair`; by the bound."""
         return self._bound.closest_pair(q)

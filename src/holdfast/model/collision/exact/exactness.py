@@ -221,20 +221,15 @@ class ExactQueries:
     # ---- bounds --------------------------------------------------------------------------------------------------
 
     def _distance_bounds(self, q: FloatArray, *, near: bool) -> FloatArray:
-        """Return bounds (N, P) as :class:`NarrowPhase` takes them; sharper for hulls that may touch, or with ``near`` be
-        nearest.
-        """
+        """Return bounds (N, P) for :class:`NarrowPhase`; sharper for hulls that may touch or, if ``near``, be nearest."""
         capsule_distances = self._self_bounds[1](q)
         own_bounds = [
             capsule_distances[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf)
             for columns in self._columns_by_link_pair.values()
         ]
         object_distances = self._outer_objects.link_distances(q)
-        limit = (
-            object_distances.min(axis=(1, 2), initial=np.inf) + SEARCH_DISTANCE_M
-            if near
-            else np.full(len(q), CONTACT_DISTANCE_M)
-        )
+        object_limit = object_distances.min(axis=(1, 2), initial=np.inf) + SEARCH_DISTANCE_M
+        limit = object_limit if near else np.full(len(q), CONTACT_DISTANCE_M)
         obstacles, frames = self.obstacles, self.arm.frames(q)
         for object_index, (normals, offsets) in self._hull_planes.items():
             assert obstacles is not None

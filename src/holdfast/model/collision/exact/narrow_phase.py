@@ -113,9 +113,7 @@ class NarrowPhase:
         ]
         if obstacles is not None:
             objects = [(geometry_of_object(engine, solid), bounding_primitive(solid)) for solid in obstacles.cell]
-            by_link = {
-                link: [part_index for part_index, part in enumerate(parts) if part.link == link] for link in range(arm.n)
-            }
+            by_link = {link: [index for index, part in enumerate(parts) if part.link == link] for link in range(arm.n)}
             for pair, (link, object_index) in enumerate(obstacles.pairs.tolist(), start=len(body_pairs)):
                 self._candidates += [
                     CandidatePair(pair, part_index, objects[object_index][0], part_index, objects[object_index][1])
@@ -184,9 +182,7 @@ class NarrowPhase:
         return distances
 
     def _lower_bounds(self, frames: list[tuple[FloatArray, FloatArray]], bounds: FloatArray, limit: FloatArray) -> FloatArray:
-        """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also from balls around the
-        bodies.
-        """
+        """Return lower bounds (N, M) of the distances of all candidates, m; below a limit (N,) also by balls."""
         lower_bounds = bounds[:, self._pair_of]
         for index, candidate in enumerate(self._candidates):
             (rows,) = np.nonzero(lower_bounds[:, index] < limit)

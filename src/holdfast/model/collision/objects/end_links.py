@@ -8,9 +8,8 @@ too close to an object by more than that, it is so at all of these angles.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.machine import ArmData, Joint
 from holdfast.model.cell.solids import PrimitiveSolid
@@ -20,12 +19,10 @@ from holdfast.model.collision.sphere_cover import SphereCover
 
 _STAGE_ANGLES = (1, 3, 20)  # angles of the last joint; what they leave open is looked at in the next
 _GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are all round the circle, however few they are
-# _LAST_JOINT and _PREVIOUS_JOINT: the joints that move the two links here
-_LAST_JOINT = 5
-_PREVIOUS_JOINT = 6
-_POSE_TOLERANCE_M = (
-    1e-5  # m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it
-)
+_LAST_JOINT = 5  # the joint that moves the last link here
+_PREVIOUS_JOINT = 6  # the joint that moves the link before it
+# In m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it.
+_POSE_TOLERANCE_M = 1e-5
 
 
 class EndLinks:
@@ -50,9 +47,8 @@ class EndLinks:
         self._from_tool, from_last_joint = np.linalg.inv(arm.tool), np.linalg.inv(last_joint.origin)
         end_spheres = np.flatnonzero((spheres.link >= arm.n - 2) & (spheres.link > BASE_LINK))[::-1]  # the last link's first
         center, on_previous = spheres.center[end_spheres], spheres.link[end_spheres] == arm.n - 2
-        center[on_previous] = (
-            center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
-        )  # seen from the last link, and moved the other way
+        # Seen from the last link, and moved the other way.
+        center[on_previous] = center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
         axis_distance = (
             np.ones(len(end_spheres)) if last_joint.prismatic else np.linalg.norm(np.cross(center, last_joint.axis), axis=1)
         )
@@ -62,7 +58,7 @@ class EndLinks:
         offsets = offsets[np.unique(spheres.link[end_spheres])[::-1]]
         self._objects, self._margins = FormulaObjects(_last_link_machine(last_joint), end_cover, objects, offsets), margins
 
-    def are_poses_too_close(self, poses: FloatArray, margin: float) -> NDArray[np.bool_]:
+    def are_poses_too_close(self, poses: FloatArray, margin: float) -> BoolArray:
         """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
         m.
 

@@ -127,9 +127,7 @@ class GriddedObjects:
         self, centers: FloatArray, offsets: FloatArray, selected: BoolArray, distances: FloatArray
     ) -> None:
         places = [np.nonzero(selected[:, :, index]) for index in range(len(self.objects))]
-        local_points = [
-            solid.to_object_frame(centers[object_place]) for solid, object_place in zip(self.objects, places, strict=True)
-        ]
+        local_points = [solid.to_object_frame(centers[place]) for solid, place in zip(self.objects, places, strict=True)]
         counts = [len(rows) for rows in local_points]
         value = interpolate_bounds(np.concatenate(local_points), self._distance_tables, counts)[:, 0]
         ends = np.cumsum(counts)

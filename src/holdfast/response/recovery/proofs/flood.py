@@ -18,7 +18,6 @@ from itertools import islice, product
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
@@ -36,7 +35,6 @@ from holdfast.response.recovery.task_rows import TaskRows
 if TYPE_CHECKING:
     from holdfast.model.collision.exact.narrow_phase import ArmBody
 
-Indices = NDArray[np.intp]
 CellTest = Callable[[FloatArray, FloatArray], BoolArray]
 """Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
 
@@ -50,9 +48,8 @@ _CHUNK_ROWS = 4096
 _SAMPLED_CONFIGURATIONS = 64  # configurations
 _MAX_CONFINED_CELLS = 25_000  # the same of some of more joints
 _MAX_PENETRATION_M = 0.15  # m: deeper in an object hardly a ball is
-# _MAX_CONFINED_JOINTS and _MAX_CONFINED_FLOODS: of more joints: over how many of them a flood goes, and how often it is tried
-_MAX_CONFINED_JOINTS = 2
-_MAX_CONFINED_FLOODS = 2
+_MAX_CONFINED_JOINTS = 2  # joints of a flood that leaves other joints anywhere
+_MAX_CONFINED_FLOODS = 2  # such floods over the same joints
 
 
 def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:
@@ -79,7 +76,7 @@ def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: Floa
         return
     blocked, joints = _BlockedCells(space), np.flatnonzero(space.free)
     self_blocked, first_joints = blocked.self_blocked, joints[:_MAX_CONFINED_JOINTS]
-    attempts: list[tuple[Indices, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
+    attempts: list[tuple[IndexArray, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
     if self_blocked is not None:
         attempts = [
             (flood_joints, self_blocked.are_boxes_self_colliding)
@@ -93,7 +90,7 @@ def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: Floa
         )
 
 
-def _joint_sets_between_links(clearance: Clearance, joints: Indices) -> list[Indices]:
+def _joint_sets_between_links(clearance: Clearance, joints: IndexArray) -> list[IndexArray]:
     """Return the sets of one or two joints between two links that may touch each other, the smallest first."""
     link_pairs = {tuple(sorted(clearance.capsules.parts[part].link for part in pair)) for pair in clearance.pairs}
     joint_sets = {
@@ -108,7 +105,7 @@ def _joint_sets_between_links(clearance: Clearance, joints: Indices) -> list[Ind
 
 @dataclass(frozen=True, eq=False)
 class ConnectedCells:
-    """IndexArray that may be connected to the start.
+    """Cells of a flood that may be connected to the start.
 
     Attributes:
         names: Of the joints of which they are cells.
@@ -121,7 +118,7 @@ class ConnectedCells:
     """
 
     names: list[str]
-    joints: Indices
+    joints: IndexArray
     lower: FloatArray
     cell_widths: FloatArray
     is_unlimited: BoolArray
@@ -140,7 +137,7 @@ class ConnectedCells:
         )
 
     @cached_property
-    def _cumulative_counts(self) -> NDArray[np.int64]:
+    def _cumulative_counts(self) -> IndexArray:
         """Number of connected cells whose indices are below each corner of the grid."""
         counts = np.zeros((self.cells_per_joint + 1,) * self.cells.shape[1], dtype=np.int64)
         counts[tuple(self.cells.T + 1)] = 1
@@ -154,9 +151,8 @@ class ConnectedCells:
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
         first_cells = np.floor((positions - widths - self.lower - _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
         last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64) + 1
-        wraps_around = self.is_unlimited & (
-            (first_cells < 0) | (last_cells > self.cells_per_joint)
-        )  # past where a turn ends: anywhere
+        # Past where a turn ends: anywhere.
+        wraps_around = self.is_unlimited & ((first_cells < 0) | (last_cells > self.cells_per_joint))
         first_cells = np.clip(np.where(wraps_around, 0, first_cells), 0, self.cells_per_joint)
         last_cells = np.clip(np.where(wraps_around, self.cells_per_joint, last_cells), 0, self.cells_per_joint)
         cell_counts = np.zeros(len(q), dtype=np.int64)
@@ -167,11 +163,9 @@ class ConnectedCells:
 
 
 def _generate_connected_regions(
-    space: FreeSpace, start: FloatArray, joints: Indices, blocked: Blocked, max_cells: int | None = None
+    space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int | None = None
 ) -> Iterator[ConnectedCells]:
-    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere within their
-    limits.
-    """
+    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere in their limits."""
     box = _bound_joints(space, joints)
     if box is None:
         return
@@ -226,9 +220,7 @@ def make_configuration_test(space: FreeSpace, q: FloatArray) -> CellTest:
 def make_pose_test(
     space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)
 ) -> CellTest:
-    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows that mix translation and rotation
-    are ignored.
-    """
+    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows of translation and rotation are ignored."""
     arm = space.arm
     is_rotation = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
     is_translation = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0
@@ -259,7 +251,7 @@ def make_pose_test(
     return may_hold_pose
 
 
-def _bound_joints(space: FreeSpace, free: Indices) -> tuple[FloatArray, FloatArray, BoolArray] | None:
+def _bound_joints(space: FreeSpace, free: IndexArray) -> tuple[FloatArray, FloatArray, BoolArray] | None:
     """Return the bounds of the free joints and which of them are unlimited; None if the bounds are not known."""
     lower, upper = space.arm.lower[free], space.arm.upper[free]
     is_unlimited = joint_space.is_unlimited(space.arm)[free]
@@ -302,7 +294,7 @@ class _LinkPoints:
         local_positions: (P, 3) in its frame, m.
     """
 
-    link: NDArray[np.int64]
+    link: IndexArray
     local_positions: FloatArray
 
     def world_positions(self, frames: FloatArray) -> FloatArray:
@@ -320,10 +312,8 @@ class _LinkPoints:
 
         From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
         """
-        positions, motion_bounds = (
-            self.world_positions(frames) if positions is None else positions,
-            np.zeros((len(frames), len(self.link))),
-        )
+        positions = self.world_positions(frames) if positions is None else positions
+        motion_bounds = np.zeros((len(frames), len(self.link)))
         for joint_index in range(arm.n - 1, -1, -1):
             moved_points = np.flatnonzero(self.link >= joint_index)
             if half_widths[joint_index] == 0 or not moved_points.size:
@@ -364,17 +354,15 @@ class _BlockedCells:
         clearance = space.clearance
         self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
 
-    def restrict_to_joints(self, joints: Indices) -> _BlockedCells:
+    def restrict_to_joints(self, joints: IndexArray) -> _BlockedCells:
         """Return the same test without the balls that the other joints always move too far for a proof."""
         space, half_widths = self._space, (self._space.high - self._space.low) / 2
         half_widths[joints] = 0.0
         frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))
         is_useful = self._points.bound_motion(space.arm, frames, half_widths).min(axis=0) < self._radii + _MAX_PENETRATION_M
         restricted = copy(self)
-        restricted._points, restricted._radii = (
-            _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful]),
-            self._radii[is_useful],
-        )
+        restricted._points = _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful])
+        restricted._radii = self._radii[is_useful]
         restricted._objects = [(solid, margin, is_ignored[is_useful]) for solid, margin, is_ignored in self._objects]
         return restricted
 

@@ -54,8 +54,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
     )
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
     box_proofs = (
-        (sample, enumerate_collision_free(recovery, solver, space, poses[sample : sample + 1])[2][0])
-        for sample in hardest_samples
+        (sample, enumerate_collision_free(recovery, solver, space, poses[[sample]])[2][0]) for sample in hardest_samples
     )
     sample_proof = next(
         ((sample, proof) for sample, proof in chain(constraint_proofs, reach_proofs, box_proofs) if proof is not None), None
@@ -123,7 +122,6 @@ def _prove_leg_impossible(
             start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
             return (
                 f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
-                f"poses: {box_count:,} "
-                "boxes of joints that may hold a configuration do not join its ends, up to floating point"
+                f"poses: {box_count:,} boxes of joints that may hold a configuration do not join its ends, up to floating point"
             )
     return None

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import TaskError
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.interval_search import Configurations, SearchOutcome, all_configurations
 from holdfast.kinematics.interval_search.box_bounds import BoundedTask, is_last_joint_idle
 from holdfast.kinematics.interval_search.boxes import Blocked
@@ -49,7 +48,7 @@ def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, 
 
 def enumerate_collision_free(
     recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: FloatArray
-) -> tuple[FloatArray, NDArray[np.int64], list[str | None]]:
+) -> tuple[FloatArray, IndexArray, list[str | None]]:
     """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
 
     Returns:
@@ -67,10 +66,8 @@ def enumerate_collision_free(
             if len(configurations)
             else configurations
         )
-        goals, pose_indices = (
-            np.concatenate([goals, configurations]),
-            np.append(pose_indices, np.full(len(configurations), pose_index)),
-        )
+        goals = np.concatenate([goals, configurations])
+        pose_indices = np.append(pose_indices, np.full(len(configurations), pose_index))
     return goals, pose_indices, proofs
 
 
@@ -110,9 +107,8 @@ def enumerate_configurations(
         tolerance: m and rad by which the pose may be missed.
     """
     limits = degraded.lo, degraded.hi
-    is_enumerable = np.isfinite(limits).all(axis=0) | (
-        np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic
-    )  # or it turns once
+    # Or it turns once.
+    is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)
     if not is_enumerable.all() or not time_limit > 0:
         return None
     time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}
@@ -146,9 +142,8 @@ def prove_no_configuration(
         return None
     if not len(solutions.q) and solutions.blocked:
         return (
-            f"every configuration within the limits that meets it touches something ({blocker_names}), by "
-            f"{solutions.boxes:,} boxes of "
-            "joints, up to floating point"
+            f"every configuration within the limits that meets it touches something ({blocker_names}), by {solutions.boxes:,} "
+            "boxes of joints, up to floating point"
         )
     if not len(solutions.q):
         return f"no configuration within the limits meets it, by {solutions.boxes:,} boxes of joints, up to floating point"
@@ -199,16 +194,10 @@ def prove_by_reach_bound(
     tool_offset = frame @ arm.tool  # from the last moving joint to the tool
     center = offsets[0]
     lengths = [
-        _bound_distance_from_joint(arm, index, offset, is_planar)
-        for index, offset in zip(moving[:-1], offsets[1:], strict=True)
+        _bound_distance_from_joint(arm, k, offset, is_planar) for k, offset in zip(moving[:-1], offsets[1:], strict=True)
     ]
-    proofs = [
-        (
-            "the end effector",
-            pose[:3, 3],
-            [*lengths, _bound_distance_from_joint(arm, moving[-1], tool_offset[:3, 3], is_planar)],
-        )
-    ]
+    tool_distance = _bound_distance_from_joint(arm, moving[-1], tool_offset[:3, 3], is_planar)
+    proofs = [("the end effector", pose[:3, 3], [*lengths, tool_distance])]
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tool_offset)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
@@ -223,23 +212,19 @@ def prove_by_reach_bound(
         min_distance = longest[0] - (max_distance - longest[1])
         if distance > max_distance + slack:
             return (
-                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
-                f"with these "
-                f"joints locked it is at most {max_distance:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with "
+                f"these joints locked it is at most {max_distance:.4g} m away"
             )
         if (planar is None or is_planar) and distance < min_distance - slack:
             return (
-                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and "
-                f"with these "
-                f"joints locked it is at least {min_distance:.4g} m away"
+                f"proved out of reach: {target_name} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with "
+                f"these joints locked it is at least {min_distance:.4g} m away"
             )
     return None
 
 
 def _bound_distance_from_joint(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
-    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar:
-    across its axis.
-    """
+    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar: across it."""
     joint = arm.joints[k]
     axial_component = float(joint.axis @ offset)
     axis_distance = float(np.linalg.norm(offset - axial_component * joint.axis))

@@ -55,9 +55,7 @@ def prove_goal_disconnected(
 def _is_goal_outside_region(
     flood: ConnectedCells, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
 ) -> bool:
-    """Return True if it is proved that no collision-free configuration of a pose (4, 4) is in a flood, in half of the time
-    left.
-    """
+    """Return True if no collision-free configuration of a pose (4, 4) is proved to be in a flood, in half the time left."""
     blocked_boxes = make_blocked_boxes(space)
 
     def is_excluded(middle: FloatArray, half_widths: FloatArray) -> BoolArray:

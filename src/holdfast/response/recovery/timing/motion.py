@@ -152,9 +152,7 @@ def time_motion(
 
 
 def _are_chords_valid(space: FreeSpace, on_path: BoolArray, chords: CornerChords) -> BoolArray:
-    """Return (E,) True for chords that are valid and, where waypoints are on a tool path (K,), within the tolerance of the
-    path.
-    """
+    """Return (E,) True for chords that are valid and, where waypoints are on a tool path (K,), within its tolerance."""
     is_valid = space.are_segments_valid(chords.first, chords.last, chords.deviations)
     indices = np.flatnonzero(is_valid & on_path[chords.corner])
     if indices.size:
@@ -187,11 +185,9 @@ def _merge_close_waypoints(
                 waypoints = np.insert(
                     np.delete(waypoints, [index, index + 1], axis=0), index, candidates[is_valid.argmax()], axis=0
                 )
-                is_fixed, must_stop, path_fractions = (
-                    np.delete(is_fixed, index),
-                    np.delete(must_stop, index),
-                    np.delete(path_fractions, index),
-                )
+                is_fixed = np.delete(is_fixed, index)
+                must_stop = np.delete(must_stop, index)
+                path_fractions = np.delete(path_fractions, index)
                 continue
         index += 1
     return waypoints, must_stop, path_fractions
@@ -205,9 +201,7 @@ def _sample_profile(
     accelerations: FloatArray,
     period: float,
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-    """Return joints and path fraction (N, n + 1), rates and accelerations (N, n) every period, and the duration of the motion,
-    s.
-    """
+    """Return joints and path fraction (N, n + 1), rates and accelerations (N, n) every period, and the duration, s."""
     n = waypoints.shape[1]
     if len(waypoints) == 1:
         return np.column_stack([waypoints, path_fractions]), 0 * waypoints, 0 * waypoints, 0.0

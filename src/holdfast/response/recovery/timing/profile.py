@@ -11,18 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.response.recovery.timing.rounding import PathPieces
 
-Indices = NDArray[np.intp]
-
-# _MAX_INTERVALS_PER_PARABOLA, _MIN_INTERVALS_PER_PARABOLA and _MAX_PARABOLA_INTERVALS: intervals of a parabola, at least, and
-# of all of them
-_MAX_INTERVALS_PER_PARABOLA = 32
-_MIN_INTERVALS_PER_PARABOLA = 4
-_MAX_PARABOLA_INTERVALS = 1600
+_MAX_INTERVALS_PER_PARABOLA = 32  # intervals of each parabola
+_MIN_INTERVALS_PER_PARABOLA = 4  # intervals of each parabola
+_MAX_PARABOLA_INTERVALS = 1600  # intervals of all parabolas
 _POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the polygon of what is allowed
 
 
@@ -37,7 +32,7 @@ class SpeedProfile:
         time: (G + 1,) s, when they begin, and the end.
     """
 
-    pieces: Indices
+    pieces: IndexArray
     offsets: FloatArray
     speed: FloatArray
     acceleration: FloatArray
@@ -82,10 +77,8 @@ class _PathGrid:
         self.offsets = interval_index * self.lengths
         self.is_straight = ~is_curved[self.pieces]
         _, first_directions, self._curvatures = (columns[:, :n] for columns in pieces.evaluate(self.pieces, self.offsets))
-        self._first_directions, self._last_directions = (
-            first_directions,
-            first_directions + self.lengths[:, None] * self._curvatures,
-        )
+        self._first_directions = first_directions
+        self._last_directions = first_directions + self.lengths[:, None] * self._curvatures
         with np.errstate(divide="ignore"):
             max_directions = np.maximum(np.abs(self._first_directions), np.abs(self._last_directions))
             self.squared_speed_limits = (
@@ -103,10 +96,8 @@ class _PathGrid:
     def _constraint_rows(self, interval: int) -> FloatArray:
         """Return the constraints (R, 2) on squared speeds x and y at the ends of a curved interval: ``rows @ (x, y) <= 1``."""
         curvature, step = self._curvatures[interval] / self._accelerations, 1 / (2 * self.lengths[interval])
-        first, last = (
-            step * self._first_directions[interval] / self._accelerations,
-            step * self._last_directions[interval] / self._accelerations,
-        )
+        first = step * self._first_directions[interval] / self._accelerations
+        last = step * self._last_directions[interval] / self._accelerations
         start_rows, end_rows = np.column_stack([curvature - first, first]), np.column_stack([-last, curvature + last])
         rows = np.concatenate([start_rows, -start_rows, end_rows, -end_rows])
         return np.asarray(rows[np.abs(rows).max(axis=1) > 0])
@@ -148,9 +139,7 @@ class _PathGrid:
         return squared_speeds
 
     def make_profile(self, squared_speeds: FloatArray) -> SpeedProfile:
-        """Return the profile with these squared speeds at the ends of the intervals, scaled down where rounding exceeded a
-        limit.
-        """
+        """Return the profile with these squared speeds at interval ends, scaled down where rounding exceeded a limit."""
         excesses = [
             float((self._constraint_rows(interval) @ squared_speeds[interval : interval + 2]).max(initial=0.0))
             for interval in np.flatnonzero(~self.is_straight).tolist()
@@ -185,10 +174,8 @@ def _split_trapezoid(
 ) -> list[tuple[float, float, float]]:
     """Return the parts of a straight line, each with its length, its final squared speed, and its acceleration."""
     peak_squared_speed = min((first + last) / 2 + max_acceleration * length, max_squared_speed)
-    rise_length, fall_length = (
-        (peak_squared_speed - first) / (2 * max_acceleration),
-        (peak_squared_speed - last) / (2 * max_acceleration),
-    )
+    rise_length = (peak_squared_speed - first) / (2 * max_acceleration)
+    fall_length = (peak_squared_speed - last) / (2 * max_acceleration)
     parts = [
         (rise_length, peak_squared_speed, max_acceleration),
         (length - rise_length - fall_length, peak_squared_speed, 0.0),
@@ -198,9 +185,7 @@ def _split_trapezoid(
 
 
 def _maximize_squared_speed(constraint_rows: FloatArray, max_squared_speed: float, next_limit: float) -> float:
-    """Maximize x up to ``max_squared_speed`` such that some y from 0 to ``next_limit`` has ``rows @ (x, y) <= 1``; (0, 0) is
-    allowed.
-    """
+    """Maximize x up to ``max_squared_speed`` so that ``rows @ (x, y) <= 1``, with y from 0 to ``next_limit``."""
     # In units of the bounds, so that one rounding fits all.
     units = np.array([max_squared_speed, next_limit if next_limit > 0 else 1.0])
     if not np.isfinite(max_squared_speed):

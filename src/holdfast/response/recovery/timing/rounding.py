@@ -6,11 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.typing import BoolArray, FloatArray
-
-Indices = NDArray[np.intp]
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 _MAX_BISECTIONS = 9  # times a corner is, until what is cut off it is allowed; then the way stops there
 _CHORDS_PER_PARABOLA = 12  # chords of a parabola that is looked at
@@ -32,7 +29,7 @@ class PathPieces:
     length: FloatArray
     stops: BoolArray
 
-    def evaluate(self, piece: Indices, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def evaluate(self, piece: IndexArray, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return position, slope, and bend (N, c) in pieces (N,) at s (N,)."""
         s = s[:, None]
         slope, bend = self.slope[piece], self.bend[piece]
@@ -50,7 +47,7 @@ class CornerChords:
         line_points: (E, n) the place between waypoints that ``last`` takes.
     """
 
-    corner: Indices
+    corner: IndexArray
     first: FloatArray
     last: FloatArray
     deviations: FloatArray
@@ -83,7 +80,7 @@ def find_corner_cuts(q: FloatArray, must_meet: BoolArray, is_allowed: Callable[[
     return cut_lengths
 
 
-def _make_chords(q: FloatArray, corners: Indices, cut_lengths: FloatArray) -> CornerChords:
+def _make_chords(q: FloatArray, corners: IndexArray, cut_lengths: FloatArray) -> CornerChords:
     incoming, outgoing = _arrival_and_departure_directions(q)
     u, v = incoming[corners][:, None], outgoing[corners][:, None]
     s = np.linspace(0, 2, _CHORDS_PER_PARABOLA + 1)[None, :, None] * cut_lengths[:, None, None]
@@ -110,9 +107,7 @@ def _arrival_and_departure_directions(q: FloatArray) -> tuple[FloatArray, FloatA
 
 
 def round_corners(q: FloatArray, cut_lengths: FloatArray, further_columns: FloatArray) -> PathPieces:
-    """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); further columns (K, c)
-    follow along.
-    """
+    """Return the pieces of the path through q (K, n), all distinct, with corner cuts (K,); columns (K, c) follow along."""
     all_columns, steps = np.column_stack([q, further_columns]), np.diff(q, axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     slopes = np.diff(all_columns, axis=0) / lengths[:, None]
