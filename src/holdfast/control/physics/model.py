@@ -75,9 +75,8 @@ def _require_mass(arm: Arm, free: Sequence[int]) -> None:
     for joint, next_joint in pairwise([*free, arm.n]):
         if sum(masses[joint:next_joint]) <= 0:
             raise ArmError(
-                f"arm '{arm.name}', joint '{arm.joint_names[joint]}': nothing that it carries has mass, so gravity has "
-                f"nothing to "
-                "move; give the links their masses"
+                f"arm '{arm.name}', joint '{arm.joint_names[joint]}': nothing that it carries has mass, so gravity has nothing "
+                "to move; give the links their masses"
             )
 
 

@@ -92,15 +92,12 @@ def free_swing(
     if has_stops and not failed_joint.lower <= start[joint_number] <= failed_joint.upper:
         raise InputError(
             f"q puts joint '{failed_joint.name}' at {start[joint_number]:g} {failed_joint.unit}, outside its limits "
-            f"{failed_joint.lower:g} to "
-            f"{failed_joint.upper:g}; start inside them"
+            f"{failed_joint.lower:g} to {failed_joint.upper:g}; start inside them"
         )
-    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
-    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    contact_log = ContactLog(chosen_clearance(arm, clearance or False, cell, looks=False))
     model_spec = build_mujoco_spec(arm, start, [joint_number], has_stops, step)
-    if cell_clearance is not None:
-        add_cell_objects(model_spec, cell_clearance, step)
-    contact_log = ContactLog(cell_clearance)
+    if contact_log.clearance is not None:
+        add_cell_objects(model_spec, contact_log.clearance, step)
     swing = _SwingModel(compile_model(model_spec, arm, [joint_number]), arm, joint_number, contact_log)
     contact_log.require_collision_free(swing.model)
     if failed_joint.prismatic and not swing.is_balanced:
@@ -123,7 +120,7 @@ def free_swing(
         initial_acceleration=swing.acceleration,
         outcome=outcome,
         drops=tuple(_measure_drop(brake_time, time, angle, velocity, tool_positions, arm.gravity) for brake_time in brakes),
-        cell=None if cell_clearance is None else cell_clearance.cell,
+        cell=contact_log.cell,
         contacts=contact_log.list_contacts(),
     )
 

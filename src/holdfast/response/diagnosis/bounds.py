@@ -303,9 +303,8 @@ def calibrate(
     without_error = np.flatnonzero(largest[1].max(axis=0) == 0)
     if without_error.size:
         raise InputError(
-            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what "
-            f"the servos "
-            "were to follow, not what the sensors told"
+            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what the "
+            "servos were to follow, not what the sensors told"
         )
     change = factor * np.array([log_signals.largest_residual("change") for log_signals in residual_signals]).max(axis=0)
     alarms: int | None = None

@@ -122,9 +122,8 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
     if reversed_joints.any():
         raise InputError(
-            f"tau of {_quote_names(arm, reversed_joints)} has the opposite sign of the torque that the arm's model "
-            f"needs; give the "
-            "motors' torques on the joints, positive in the direction of the joint"
+            f"tau of {_quote_names(arm, reversed_joints)} has the opposite sign of the torque that the arm's model needs; give "
+            "the motors' torques on the joints, positive in the direction of the joint"
         )
     order = _find_torque_column_order(recorded, model)
     if order is not None and significant.any():
@@ -136,9 +135,8 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     if is_unlike.any():
         first_unlike = int(np.flatnonzero(is_unlike)[0])
         raise InputError(
-            f"tau of {_quote_names(arm, is_unlike)} is {scale[first_unlike]:.3g} times the torque that the arm's model "
-            f"needs; give torques of the "
-            "joints in N m and N, not currents, motor torques or mN m"
+            f"tau of {_quote_names(arm, is_unlike)} is {scale[first_unlike]:.3g} times the torque that the arm's model needs; "
+            "give torques of the joints in N m and N, not currents, motor torques or mN m"
         )
     unexplained = (recorded_square + model_square - 2 * product)[significant].sum()
     if unexplained > _UNEXPLAINED_FRACTION * recorded_square[significant].sum() and significant.any():

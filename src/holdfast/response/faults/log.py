@@ -78,9 +78,8 @@ class Log:
         count = int(rows[-1]) + 1
         if count > _MAX_GAP_FACTOR * len(times):
             raise InputError(
-                f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at "
-                f"{count / self.duration:.4g} a second; "
-                "give its parts as records of their own"
+                f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at {count / self.duration:.4g} a "
+                "second; give its parts as records of their own"
             )
         if count > len(times):
             object.__setattr__(self, "t", np.interp(np.arange(count), rows, times))
@@ -140,10 +139,9 @@ class Log:
             ):
                 unit = joint.unit
                 raise InputError(
-                    f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and "
-                    f"the joint's "
-                    f"limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a record "
-                    f"in {unit} and s, its joints in the arm's order"
+                    f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and the "
+                    f"joint's limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a "
+                    f"record in {unit} and s, its joints in the arm's order"
                 )
 
     @classmethod

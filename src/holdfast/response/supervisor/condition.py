@@ -1,4 +1,4 @@
-"""Condition of an arm after faults: the facts that the controller keeps from one state to the next."""
+"""Condition of an arm and its joints after faults, which the controller keeps from one state to the next."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.diagnosis.bounds import Bounds
-from holdfast.response.supervisor.thresholds import MIN_CALIBRATED_SPEED, PACE_RATE_PER_S
+from holdfast.response.supervisor import thresholds
 
 
 @dataclass
@@ -30,22 +30,53 @@ class Pace:
 
     def ramp(self, dt: float) -> None:
         """Move the present fraction towards its target for dt s."""
-        self.current += min(max(self.target - self.current, -PACE_RATE_PER_S * dt), PACE_RATE_PER_S * dt)
+        self.current += min(max(self.target - self.current, -thresholds.PACE_RATE_PER_S * dt), thresholds.PACE_RATE_PER_S * dt)
 
 
-@dataclass
-class ControlCycle:
-    """Last control cycle.
+@dataclass(frozen=True)
+class JointMotion:
+    """Motion of one joint in a control cycle.
 
     Attributes:
-        time: Time of the cycle in s.
-        q: (n,) joint positions in rad and m that the controller trusted.
-        rates: (n,) commanded rates in rad/s and m/s.
+        tracking_error: Reference minus position in rad or m.
+        tracking_bound: Bound of the monitor for the tracking error in rad or m.
+        v: Measured rate in rad/s or m/s.
+        commanded_rate: Commanded rate in rad/s or m/s.
     """
 
-    time: float
-    q: FloatArray
-    rates: FloatArray
+    tracking_error: float
+    tracking_bound: float
+    v: float
+    commanded_rate: float
+
+    @property
+    def tracking_ratio(self) -> float:
+        """Size of the tracking error divided by its bound."""
+        return abs(self.tracking_error) / self.tracking_bound
+
+    def early_brake_reason(self) -> str | None:
+        """Return why the joint must be braked before its fault kind is known; None if it need not be."""
+        is_falling = self.tracking_error * self.v < 0
+        if abs(self.v) < thresholds.STILL_SPEED and self.tracking_ratio > thresholds.LAGGING_TRACKING_RATIO:
+            return "it does not move"
+        if (
+            self.tracking_ratio > (thresholds.LAGGING_TRACKING_RATIO if is_falling else thresholds.RUNAWAY_TRACKING_RATIO)
+            and abs(self.v - self.commanded_rate) > thresholds.RUNAWAY_SPEED_ERROR
+            and abs(self.v) > thresholds.MOVING_SPEED
+        ):
+            return "it runs away"
+        return None
+
+    def is_following(self) -> bool:
+        """Return whether the joint follows its command closely, in position or in rate."""
+        rate_tolerance = max(thresholds.STILL_SPEED, thresholds.REDUCED_PACE * abs(self.commanded_rate))
+        return self.tracking_ratio < thresholds.LAGGING_TRACKING_RATIO or abs(self.commanded_rate - self.v) < rate_tolerance
+
+    def lagging_speed_fraction(self) -> float | None:
+        """Return the fraction of the commanded rate that a lagging joint reaches; None if the joint does not lag or move."""
+        forward_speed = self.v * np.sign(self.commanded_rate)
+        is_slower = thresholds.MIN_CALIBRATED_SPEED < forward_speed < abs(self.commanded_rate)
+        return self.v / self.commanded_rate if self.tracking_ratio > thresholds.LAGGING_TRACKING_RATIO and is_slower else None
 
 
 class ArmCondition:
@@ -100,7 +131,7 @@ def calibrated_speeds(arm: Arm, bounds: Bounds) -> FloatArray:
     alarms.
     """
     limits = np.array([joint.velocity for joint in arm.joints])
-    return np.asarray(np.minimum(np.maximum(bounds.speed, MIN_CALIBRATED_SPEED), limits))
+    return np.asarray(np.minimum(np.maximum(bounds.speed, thresholds.MIN_CALIBRATED_SPEED), limits))
 
 
 def estimate_joint_position(arm: Arm, joint: int, samples: list[tuple[FloatArray, FloatArray]]) -> tuple[float, float]:

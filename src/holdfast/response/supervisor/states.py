@@ -14,9 +14,9 @@ import numpy as np
 
 from holdfast.core.errors import HoldfastError
 from holdfast.core.typing import FloatArray
-from holdfast.response.supervisor.joint_motion import JointMotion
+from holdfast.response.supervisor.condition import JointMotion
 from holdfast.response.supervisor.masked_law import MIN_PROGRESS
-from holdfast.response.supervisor.plan import RouteFollower
+from holdfast.response.supervisor.replanning import RouteFollower
 from holdfast.response.supervisor.thresholds import LATE_SAMPLES_WAIT_S, MIN_POSE_SAMPLES, RUNAWAY_TRACKING_RATIO
 
 Attempt = Literal["detour", "plan"]
@@ -164,14 +164,7 @@ TrialState = NoTrial | OnTrial
 
 
 class Transition(NamedTuple):
-    """Row of the transition table.
-
-    Attributes:
-        machine: State machine.
-        source: Name of the state before.
-        event: Event that causes the transition.
-        target: Name of the state after.
-    """
+    """Row of the transition table: a machine, the name of a state, an event, and the name of the state after it."""
 
     machine: Machine
     source: str

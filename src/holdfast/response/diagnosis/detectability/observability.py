@@ -78,9 +78,8 @@ class Observability(Result):
                     np.median(self.strayed[joint_detected, index]),
                 )
                 lines.append(
-                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool "
-                    f"{1e3 * median_error:.2g} mm off (medians; "
-                    f"{joint_detected.mean():.0%} of the times at which it may lock)"
+                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool {1e3 * median_error:.2g} mm "
+                    f"off (medians; {joint_detected.mean():.0%} of the times at which it may lock)"
                 )
         if self.alike:
             lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(self.alike)}")
