@@ -29,8 +29,7 @@ STOP_SPEED = 1e-4  # rad/s or m/s, against a stop
 BALANCED_TRAVEL = 1e-6  # rad or m: has not moved
 NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of what swings
 CHECK_INTERVAL_STEPS = 20  # steps
-# MIN_DURATION_S and MAX_DURATION_S: s, of the time allowed when none is given
-MIN_DURATION_S = 60.0
+MIN_DURATION_S = 60.0  # of the time allowed when none is given
 MAX_DURATION_S = 300.0
 MAX_STEP_S = 0.02  # s
 

@@ -42,10 +42,8 @@ from holdfast.kernels.program import SX
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 MIN_STEP_SIZE = 1e-12  # of 1/Ke: steps this short lead nowhere
-# SPEED_TOLERANCE_RATIO and MIN_SPEED_TOLERANCE: 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the
-# finest
-SPEED_TOLERANCE_RATIO = 1e-4
-MIN_SPEED_TOLERANCE = 1e-12
+SPEED_TOLERANCE_RATIO = 1e-4  # 1/Ke: the tolerance is at most so much of the speed
+MIN_SPEED_TOLERANCE = 1e-12  # rad (and m): the finest such tolerance
 MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would see too little of the way
 FIRST_STEP_SIZE = 0.5  # of 1/Ke
 _STAGED_OPERATIONS = 1250  # operations of one evaluation: beyond, stages are taken one at a time

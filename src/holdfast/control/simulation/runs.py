@@ -114,17 +114,11 @@ class RunPath:
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Settings with which runs were made.
+    """Settings with which runs were made."""
 
-    Attributes:
-        time_limit: s, or cycles.
-        accuracy: Tolerance of a step, or radius of the target in cycles.
-        step_size: Of the fixed-step method, s.
-    """
-
-    time_limit: float
-    accuracy: float
-    step_size: float
+    time_limit: float  # s, or cycles
+    accuracy: float  # tolerance of a step, or radius of the target in cycles
+    step_size: float  # of the fixed-step method, s
 
 
 class _Simulator(Protocol):

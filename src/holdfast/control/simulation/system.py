@@ -30,21 +30,13 @@ MAX_UNROLLED_OPERATIONS = 12_000  # operations in one call, about
 
 @dataclass(frozen=True)
 class StateRates:
-    """Rates at one configuration, in units of ``1/Ke``.
+    """Rates at one configuration, in units of ``1/Ke``."""
 
-    Attributes:
-        rates: (n,) joint rates, 0 for locked joints.
-        tool_speed: Tool speed, m.
-        speed_fraction: By how much the speed limit slows the command: 1 where it does not act.
-        squared_error: Of the task's rows, m and rad.
-        squared_error_rate: Its derivative by time.
-    """
-
-    rates: SX
-    tool_speed: SX
-    speed_fraction: SX
-    squared_error: SX
-    squared_error_rate: SX
+    rates: SX  # (n,) joint rates, 0 for locked joints
+    tool_speed: SX  # tool speed, m
+    speed_fraction: SX  # by how much the speed limit slows the command: 1 where it does not act
+    squared_error: SX  # of the task's rows, m and rad
+    squared_error_rate: SX  # its derivative by time
 
 
 class FailedArmSystem:
@@ -261,9 +253,7 @@ STATE_COLLAPSED = 2
 STATE_TIME_LIMIT = 3
 STATE_PHASE_END = 4
 STATE_ARRIVED = 5
-# END_WINDOW_FRACTION and LATE_WINDOW_FRACTION: shares of the time limit: the end of a motion is watched from the first on, in
-# two halves
-END_WINDOW_FRACTION = 0.8
+END_WINDOW_FRACTION = 0.8  # of the time limit: from then on the end of a motion is watched, in two halves
 LATE_WINDOW_FRACTION = 0.9
 
 

@@ -28,8 +28,7 @@ BOUND_FACTOR = 1.5  # on the largest healthy residual
 BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
 RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
 _SECONDS_PER_HOUR = 3600.0
-# _UNSEALED_FORMAT and _SEALED_FORMAT: the first has no digest
-_UNSEALED_FORMAT = 1
+_UNSEALED_FORMAT = 1  # without a digest
 _SEALED_FORMAT = 2
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
 _MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger

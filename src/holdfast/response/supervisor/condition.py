@@ -16,17 +16,11 @@ from holdfast.response.supervisor import thresholds
 
 @dataclass
 class Pace:
-    """Speed of the arm as fractions of the commanded speed.
+    """Speed of the arm as fractions of the commanded speed."""
 
-    Attributes:
-        target: Fraction that the arm approaches.
-        current: Present fraction.
-        allowed: Largest fraction with the failures so far.
-    """
-
-    target: float = 1.0
-    current: float = 0.0
-    allowed: float = 1.0
+    target: float = 1.0  # fraction that the arm approaches
+    current: float = 0.0  # present fraction
+    allowed: float = 1.0  # largest fraction with the failures so far
 
     def ramp(self, dt: float) -> None:
         """Move the present fraction towards its target for dt s."""
@@ -35,19 +29,12 @@ class Pace:
 
 @dataclass(frozen=True)
 class JointMotion:
-    """Motion of one joint in a control cycle.
+    """Motion of one joint in a control cycle."""
 
-    Attributes:
-        tracking_error: Reference minus position in rad or m.
-        tracking_bound: Bound of the monitor for the tracking error in rad or m.
-        v: Measured rate in rad/s or m/s.
-        commanded_rate: Commanded rate in rad/s or m/s.
-    """
-
-    tracking_error: float
-    tracking_bound: float
-    v: float
-    commanded_rate: float
+    tracking_error: float  # reference minus position in rad or m
+    tracking_bound: float  # bound of the monitor for the tracking error in rad or m
+    v: float  # measured rate in rad/s or m/s
+    commanded_rate: float  # commanded rate in rad/s or m/s
 
     @property
     def tracking_ratio(self) -> float:

@@ -126,19 +126,12 @@ def choose_intermediate_configuration(
 
 @dataclass(frozen=True)
 class TrialRoute:
-    """Route for which the brake of a joint is released.
+    """Route for which the brake of a joint is released."""
 
-    Attributes:
-        joint: Index of the joint.
-        lower: Lower end of the joint's range on the route, rad or m.
-        upper: Upper end of the joint's range on the route, rad or m.
-        route: The route.
-    """
-
-    joint: int
-    lower: float
-    upper: float
-    route: RouteFollower
+    joint: int  # index of the joint
+    lower: float  # lower end of the joint's range on the route, rad or m
+    upper: float  # upper end of the joint's range on the route, rad or m
+    route: RouteFollower  # the route
 
 
 def plan_intermediate_motion(

@@ -73,10 +73,7 @@ class Observability(Result):
                 if not joint_detected.any():
                     lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
                     continue
-                median_delay, median_error = (
-                    np.median(self.delays[joint_detected, index]),
-                    np.median(self.strayed[joint_detected, index]),
-                )
+                median_delay, median_error = (np.median(x[joint_detected, index]) for x in (self.delays, self.strayed))
                 lines.append(
                     f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool {1e3 * median_error:.2g} mm "
                     f"off (medians; {joint_detected.mean():.0%} of the times at which it may lock)"
@@ -124,10 +121,8 @@ def predict_detection(
         )
     if (stiffness is None) != (damping is None):
         raise InputError("only one of stiffness and damping is given; give both, or neither")
-    sampled, duration = (
-        resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references,
-        (len(references) - 1) / rate,
-    )
+    sampled = resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references
+    duration = (len(references) - 1) / rate
     delays = strayed = alike = None
     if bounds is not None:
         bounds.require(arm, bounds.rate)
