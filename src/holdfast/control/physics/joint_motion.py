@@ -166,11 +166,8 @@ def _make_lock_times(
                 f"{arm.joints[joint].unit}; a joint locks where it is"
             )
     times_in_order = require_real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
-    if (
-        times_in_order.shape not in ((), (len(degraded.locked),))
-        or not np.isfinite(times_in_order).all()
-        or (times_in_order < 0).any()
-    ):
+    has_right_shape = times_in_order.shape in ((), (len(degraded.locked),))
+    if not has_right_shape or not (np.isfinite(times_in_order) & (times_in_order >= 0)).all():
         raise InputError(
             f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for each "
             "joint that locks"

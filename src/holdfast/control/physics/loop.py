@@ -187,12 +187,7 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
     """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
-
-    Args:
-        q: (T, n) configurations at the control cycles.
-        rate: Control cycles per second.
-        gain: Ke, 1/s.
-        is_revolute: (n,) joints of which the values count modulo whole turns.
+    The configurations (T, n) are those at the control cycles; values of revolute joints (n,) count modulo whole turns.
     """
     undecided: tuple[Ending, Why] = ("undecided", "time_limit")
     displacement = _wrap_angles(q[-1] - q, is_revolute)
@@ -211,9 +206,8 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
         shift = -float(neighbours[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)
         last_period = np.arange(len(q) - period, len(q))
         previous = q[last_period - period - 1], q[last_period - period], q[np.minimum(last_period - period + 1, len(q) - 1)]
-        earlier = (
-            previous[1] + shift * (previous[2] - previous[0]) / 2 + shift**2 * (previous[2] - 2 * previous[1] + previous[0]) / 2
-        )
+        before, middle, after = previous
+        earlier = middle + shift * (after - before) / 2 + shift**2 * (after - 2 * middle + before) / 2
         return_error = float(np.linalg.norm(_wrap_angles(q[last_period] - earlier, is_revolute), axis=1).max())
         if return_error < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
             return "moving", "none"

@@ -177,11 +177,8 @@ class _SwingModel:
         self.prismatic = bool(arm.prismatic[joint])
         label = f"arm '{arm.name}', joint '{arm.joint_names[joint]}'"
         mass = float(model.body_subtreemass[joint + 1])
-        # What swings is no longer than this.
-        length = float(
-            np.linalg.norm(model.body_pos[joint + 2 : arm.n + 1], axis=1).sum()
-            + np.linalg.norm(model.body_ipos[joint + 1 : arm.n + 1], axis=1).sum()
-        )
+        offsets = model.body_pos[joint + 2 : arm.n + 1], model.body_ipos[joint + 1 : arm.n + 1]
+        length = float(sum(np.linalg.norm(part, axis=1).sum() for part in offsets))  # what swings is no longer than this
         start_torque = self._holding_torque(0.0)
         inertia = np.zeros(1)
         self.mujoco.mj_mulM(model, self.data, inertia, np.ones(1))
@@ -232,10 +229,8 @@ class _SwingModel:
         if friction == 0 or self.stiffness == 0:
             return MIN_DURATION_S
         frequency = np.sqrt(self.stiffness / self.inertia)
-        damping_ratio = friction / (2 * np.sqrt(self.stiffness * self.inertia))
-        slowest_rate = frequency * (
-            damping_ratio if damping_ratio <= 1 else 1 / (damping_ratio + np.sqrt(damping_ratio**2 - 1))
-        )
+        ratio = friction / (2 * np.sqrt(self.stiffness * self.inertia))  # of critical damping
+        slowest_rate = frequency * (ratio if ratio <= 1 else 1 / (ratio + np.sqrt(ratio**2 - 1)))
         return float(np.clip(15 / slowest_rate, MIN_DURATION_S, MAX_DURATION_S))
 
     def run(self, duration: float, min_duration: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Outcome]:
@@ -253,12 +248,10 @@ class _SwingModel:
                 self.contact_log.record_contacts(model, data, step_number * step)
             mujoco.mj_kinematics(model, data)
             samples.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool_site]))
-            if (
-                step_number % CHECK_INTERVAL_STEPS == 0
-                and step_number * step >= min_duration
-                and (outcome := self._classify_state()) != "moving"
-            ):
-                break
+            if step_number % CHECK_INTERVAL_STEPS == 0 and step_number * step >= min_duration:
+                outcome = self._classify_state()
+                if outcome != "moving":
+                    break
         table: FloatArray = np.array(samples, dtype=np.float64)
         if np.abs(table[:, 0]).max() < BALANCED_TRAVEL and outcome == "moving":
             outcome = "balanced"
@@ -277,10 +270,8 @@ class _SwingModel:
             return "contact" if data.ncon else "stop"
         if self.prismatic:
             return "moving"
-        deviation = angle - self.rest_angle
-        amplitude = np.hypot(
-            np.arctan2(np.sin(deviation), np.cos(deviation)), velocity * np.sqrt(self.inertia / self.stiffness)
-        )
+        deviation, swing_time = angle - self.rest_angle, np.sqrt(self.inertia / self.stiffness)
+        amplitude = np.hypot(np.arctan2(np.sin(deviation), np.cos(deviation)), velocity * swing_time)
         return "rest" if amplitude < REST_AMPLITUDE_RAD else "moving"
 
 

@@ -37,13 +37,9 @@ def error_kinds(law: Law) -> list[ErrorKind]:
 
 
 def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> list[FloatArray]:
-    """Compute the errors of configurations (N, n) in mm and degrees: one array (N,) for each of :func:`error_kinds`.
+    """Compute the errors of configurations (N, n) with error norms (N,) for a target (4, 4), in mm and degrees.
 
-    Args:
-        law: The control law.
-        q: (N, n) rad and m.
-        error: (N,) norms over the task's rows, m and rad.
-        target: (4, 4) wanted tool pose.
+    There is one array (N,) for each of :func:`error_kinds`.
     """
     errors_by_kind = dict(zip((_POSITION_KIND, _ANGLE_KIND), position_and_angle_errors(law, q, error, target), strict=True))
     return [kind.factor * errors_by_kind[kind] for kind in error_kinds(law)]

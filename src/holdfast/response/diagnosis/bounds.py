@@ -273,11 +273,8 @@ def calibrate(
     if not factor >= 1:
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     coulomb_friction = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
-    viscous_friction = (
-        np.array([joint.friction for joint in arm.joints])
-        if viscous is None
-        else np.broadcast_to(np.asarray(viscous), (arm.n,))
-    )
+    own_friction = np.array([joint.friction for joint in arm.joints])
+    viscous_friction = own_friction if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
     logs = [prepare_log(arm, log) for log in logs]
     rate = logs[0].rate
     for log in logs:
@@ -313,10 +310,7 @@ def calibrate(
             others = [factor * np.delete(residuals, index, axis=0).max(axis=0) for residuals in largest]
             alarms += signals.scale_by_bounds(*others).alarm is not None
     bounds = [factor * residuals.max(axis=0) for residuals in largest]
-    hours = (
-        sum(log.duration * float(log_signals.seen.mean()) for log, log_signals in zip(logs, residual_signals, strict=True))
-        / _SECONDS_PER_HOUR
-    )
+    seconds = sum(log.duration * float(signals.seen.mean()) for log, signals in zip(logs, residual_signals, strict=True))
     return Bounds(
         fingerprint=arm.fingerprint,
         joints=arm.joint_names,
@@ -331,7 +325,7 @@ def calibrate(
         scales=scales,
         factor=float(factor),
         speed=np.nanmax([np.nanmax(np.abs(np.diff(log.q_ref, axis=0) * rate), axis=0) for log in logs], axis=0),
-        hours=hours,
+        hours=seconds / _SECONDS_PER_HOUR,
         logs=len(logs),
         alarms=alarms,
     )

@@ -129,9 +129,7 @@ class AlarmDecision:
             self._best_joint = 0, np.inf
 
     def _isolate_joint(self, q: FloatArray) -> None:
-        """Select the joint with the largest residuals, and compare it with a force on a link as the cause of the residual
-        torques.
-        """
+        """Select the joint with the largest residuals, and compare it with a force on a link as their cause."""
         if self._has_torques:
             residual_change = self._residual_sum / self._isolation_cycles - self._residual_level
             self.force_advantage = _force_advantage(self._arm, q, residual_change, self._residual_deviations)
@@ -193,11 +191,7 @@ class AlarmDecision:
 def _force_advantage(arm: Arm, q: FloatArray, residual_change: FloatArray, scale: FloatArray) -> float:
     """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
 
-    Args:
-        arm: The arm.
-        q: (n,) where it is, rad and m.
-        residual_change: (n,) N m and N.
-        scale: (n,) its deviations.
+    The arm is at q (n,), the residual torques (n,) have changed by so much, and ``scale`` (n,) are their deviations, N m and N.
     """
     ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), residual_change / scale
     smallest_error = np.inf

@@ -80,13 +80,11 @@ class Signals:
             "tracking": accumulate_excess(scaled_tracking, self.dt),
             "tool": self._tool_excess(scaled_tool),
         }
-        is_alarmed = {
-            name: (excess_times[name].reshape(len(scaled_tool), -1) > EXCESS_LIMITS_S[name]).any(axis=1)
-            for name in excess_times
-            if name in self.levels
-        }
-        first_rows = {name: int(level_flags.argmax()) for name, level_flags in is_alarmed.items() if level_flags.any()}
-        alarm = None
+        first_rows, alarm = dict[str, int](), None
+        for name in (name for name in excess_times if name in self.levels):
+            is_alarmed = (excess_times[name].reshape(len(scaled_tool), -1) > EXCESS_LIMITS_S[name]).any(axis=1)
+            if is_alarmed.any():
+                first_rows[name] = int(is_alarmed.argmax())
         if first_rows:
             first_row = min(first_rows.values())
             alarm = first_row, tuple(name for name, row in first_rows.items() if row == first_row)
@@ -124,9 +122,7 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
     """
     period, is_complete = 1 / log.rate, complete_row_mask(log)
     levels, tracking = ["tracking"], np.where(is_complete[:, None], log.q_ref - log.q, np.nan)
-    torque_residual, rates, gravity, commanded = (
-        np.where(is_complete[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4)
-    )
+    torque_residual, rates, gravity, commanded = np.where(is_complete[:, None], np.zeros((4, *log.q.shape)), np.nan)
     observe = partial(observe_residuals, dt=period, coulomb=coulomb, viscous=viscous)
     for segment in split_at_gaps(log, is_complete):
         complete_part = is_complete[segment.rows]
@@ -163,9 +159,8 @@ def find_slow_rows(reference: FloatArray, is_complete: NDArray[np.bool_], dt: fl
     row_indices, is_calm = np.flatnonzero(is_complete), np.zeros(len(is_complete), dtype=bool)
     steps = np.abs(np.diff(reference[row_indices], axis=0, prepend=reference[row_indices[:1]]))
     is_fast = (steps >= MAX_SLOW_RATE * dt * np.diff(row_indices, prepend=row_indices[0] - 1)[:, None]).any(axis=1)
-    is_calm[row_indices] = row_indices - np.maximum.accumulate(np.where(is_fast, row_indices, -1)) >= max(
-        1, round(CALM_TIME_S / dt)
-    )
+    rows_since_fast = row_indices - np.maximum.accumulate(np.where(is_fast, row_indices, -1))
+    is_calm[row_indices] = rows_since_fast >= max(1, round(CALM_TIME_S / dt))
     return is_calm
 
 

@@ -177,9 +177,9 @@ class Fault:
                 raise InputError(f"'{self.kind}' has {len(self.weights)} weights; give one for each of its joints, by name")
             if not all(math.isfinite(weight) and weight >= 0 for weight in self.weights) or not any(self.weights):
                 raise InputError(f"weights of '{self.kind}' are {list(self.weights)}; they must be 0 or more, one above 0")
-        max_joints = (
-            sum(weight > 0 for weight in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
-        )
+        max_joints = len(self.joints) if self.joints else math.inf
+        if self.weights:
+            max_joints = sum(weight > 0 for weight in self.weights)
         if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= max_joints:
             raise InputError(f"together of '{self.kind}' is {self.together}; it is a whole number, 1 to that of its joints")
 
@@ -206,21 +206,15 @@ class Fault:
         name, minimum, maximum = parameter.name, parameter.low, parameter.high
         distribution = ParameterDistribution.from_value(value, f"{name} of '{self.kind}'")
         lower, upper = distribution.ends
-        is_inside = (
-            minimum <= lower and upper <= maximum
-            if parameter.includes_ends
-            else minimum < lower and (upper < maximum or math.isinf(maximum))
-        )
+        is_inside = minimum < lower and (upper < maximum or math.isinf(maximum))
+        if parameter.includes_ends:
+            is_inside = minimum <= lower and upper <= maximum
         if distribution.law == "exponential":
             is_inside = math.isinf(maximum)
         if not is_inside:
-            expected_text = (
-                f"between {minimum:g} and {maximum:g}"
-                if math.isfinite(maximum)
-                else "0 or more"
-                if parameter.includes_ends
-                else f"above {minimum:g}"
-            )
+            expected_text = "0 or more" if parameter.includes_ends else f"above {minimum:g}"
+            if math.isfinite(maximum):
+                expected_text = f"between {minimum:g} and {maximum:g}"
             sign_text = "; its sign is drawn" if parameter.has_random_sign else ""
             range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
             raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
@@ -245,15 +239,14 @@ class Fault:
     def to_stored(self) -> dict[str, Any]:
         """Return the entry as files store it, without default values."""
         data: dict[str, Any] = {"kind": self.kind}
+        has_onset = self.onset is not None and self.onset != ParameterDistribution("number", (0.0,))
         values = {
             "joints": self.joints and list(self.joints),
             "weights": self.weights and list(self.weights),
             "probability": None if self.probability == 1 else self.probability,
             "together": None if self.together == 1 else self.together,
             "rate_per_hour": self.rate_per_hour,
-            "onset": None
-            if self.onset is None or self.onset == ParameterDistribution("number", (0.0,))
-            else self.onset.stored(),
+            "onset": self.onset.stored() if has_onset else None,
             "duration": self.duration and self.duration.stored(),
             "on": self.on,
             "off": self.off,

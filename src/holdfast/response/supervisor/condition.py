@@ -114,9 +114,7 @@ class ArmCondition:
 
 
 def calibrated_speeds(arm: Arm, bounds: Bounds) -> FloatArray:
-    """Return the rates (n,) for which the monitor is calibrated, rad/s and m/s, within the limits; faster motion would raise
-    alarms.
-    """
+    """Return the rates (n,), rad/s and m/s, for which the monitor is calibrated; faster motion would raise alarms."""
     limits = np.array([joint.velocity for joint in arm.joints])
     return np.asarray(np.minimum(np.maximum(bounds.speed, thresholds.MIN_CALIBRATED_SPEED), limits))
 
@@ -125,12 +123,8 @@ def estimate_joint_position(arm: Arm, joint: int, samples: list[tuple[FloatArray
     """Estimate the position of a braked joint from measured tool poses, and the error of its sensor, in rad or m.
 
     Each of three iterations corrects the joint by ``b = sum J_i' c / sum J_i' J_i``, where ``c`` is the error of the tool pose
-    and ``J_i`` the joint's Jacobian column; metres and radians have equal weights.
-
-    Args:
-        arm: The arm.
-        joint: Index of the joint.
-        samples: Joint positions (n,) in rad and m with the tool pose (4, 4) measured there.
+    and ``J_i`` the joint's Jacobian column; metres and radians have equal weights. A sample is the joint positions (n,) in rad
+    and m, with the tool pose (4, 4) measured there.
     """
     rows = np.array([q for q, _ in samples])
     measured = np.array([pose for _, pose in samples])
