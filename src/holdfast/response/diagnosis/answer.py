@@ -10,7 +10,6 @@ import numpy as np
 from holdfast.core.caching import cached_property
 from holdfast.core.formatting import format_seconds
 from holdfast.core.result import Result
-from holdfast.core.typing import BoolArray
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis.bounds import Bounds
 from holdfast.response.diagnosis.gaps import MAX_BRIDGED_GAP_S
@@ -57,16 +56,15 @@ class Diagnosis(Result):
     def inconclusive(self) -> tuple[str, ...]:
         """Joints whose reference moves by less than twice their tracking bound, so that a lock could not be detected."""
         travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
-        return self._select_names(~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking))
-
-    def _select_names(self, chosen: BoolArray) -> tuple[str, ...]:
-        return tuple(name for name, is_chosen in zip(self.arm.joint_names, chosen, strict=True) if is_chosen)
+        moves_too_little = ~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking)
+        return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(moves_too_little))
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
         """Joints whose reference is more than 10 % faster than in calibration, so that the bounds are not valid for them."""
         max_speeds = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
-        return self._select_names(max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9)
+        is_too_fast = max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9
+        return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(is_too_fast))
 
     @cached_property
     def gaps(self) -> tuple[tuple[float, float], ...]:

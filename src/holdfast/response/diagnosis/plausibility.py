@@ -92,15 +92,13 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     Raises:
         InputError: The message names the joints and the probable cause.
     """
-    torque_pairs: list[tuple[FloatArray, FloatArray]] = []
-    checked_s = 0.0
+    torque_pairs: list[list[FloatArray]] = []
+    checked_s, friction = 0.0, {"coulomb": coulomb, "viscous": viscous}
     for log in logs:
         if log.tau is not None and checked_s < _CHECKED_S:
-            signal_pair = [
-                compute_signals(arm, replace(log, tau=tau), coulomb=coulomb, viscous=viscous)
-                for tau in (log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan))
-            ]
-            torque_pairs.append((signal_pair[0].torque[signal_pair[0].seen], signal_pair[1].torque[signal_pair[1].seen]))
+            torques = log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan)
+            signal_pair = [compute_signals(arm, replace(log, tau=tau), **friction) for tau in torques]
+            torque_pairs.append([signals.torque[signals.seen] for signals in signal_pair])
             checked_s += log.duration
     if not torque_pairs:
         return
@@ -108,9 +106,8 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     recorded = model - residual
     recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
     gravity = _largest_gravity_torques(arm)
-    significant = (model_square > len(model) * (_MIN_LOAD_FRACTION * gravity) ** 2) & (
-        gravity > _MIN_GRAVITY_FRACTION * gravity.max()
-    )
+    significant = gravity > _MIN_GRAVITY_FRACTION * gravity.max()
+    significant &= model_square > len(model) * (_MIN_LOAD_FRACTION * gravity) ** 2
     correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
     scale = product / np.maximum(model_square, np.finfo(np.float64).tiny)
     reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
@@ -147,7 +144,7 @@ def _largest_gravity_torques(arm: Arm) -> FloatArray:
 
 
 def _quote_names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
-    return ", ".join(f"'{name}'" for name, is_chosen in zip(arm.joint_names, chosen, strict=True) if is_chosen)
+    return ", ".join(f"'{arm.joint_names[joint]}'" for joint in np.flatnonzero(chosen))
 
 
 def _find_torque_column_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:

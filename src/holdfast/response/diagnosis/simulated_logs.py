@@ -240,12 +240,10 @@ def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.ran
     """Return sines about the middle of each range, from rest: their phase accelerates within half a second."""
     if duration is None or not 0 < duration < np.inf:
         raise InputError(f"duration is {duration}; it must be a finite number of seconds above 0")
-    lower, upper = (
-        np.where(np.isfinite(limits), limits, sign * np.pi) for limits, sign in ((arm.lower, -1.0), (arm.upper, 1.0))
-    )
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     amplitude = np.minimum(_MAX_AMPLITUDE, (upper - lower) / 4)
     angular_rates = speed / amplitude * rng.uniform(0.5, 1.0, arm.n)
     times = np.arange(int(np.ceil(duration / _CYCLE_S)), dtype=np.float64) * _CYCLE_S
-    return np.asarray(
-        (lower + upper) / 2 + amplitude * np.sin(np.where(times < 0.5, times**2, times - 0.25)[:, None] * angular_rates)
-    )
+    phases = np.where(times < 0.5, times**2, times - 0.25)[:, None]
+    return np.asarray((lower + upper) / 2 + amplitude * np.sin(phases * angular_rates))

@@ -260,10 +260,6 @@ class FaultInjector:
             self._active[event] = fault
             if kind.holds_joint and not fault.is_pending:
                 self._stop_with_impact(fault)
-        self._apply_faults()
-
-    def _apply_faults(self) -> None:
-        """Insert the currently active faults into the model, and nothing else."""
         self.insert()
         self._schedule_changes()
 
@@ -283,7 +279,8 @@ class FaultInjector:
             fault.is_pending = False
             if kind.holds_joint:
                 self._stop_with_impact(fault)
-            self._apply_faults()
+            self.insert()
+            self._schedule_changes()
 
     def _stop_with_impact(self, fault: ActiveFault) -> None:
         """Stop a joint, together with the locked joints, as in an impact: the momenta of all others are conserved."""
@@ -308,10 +305,5 @@ def _list_driven_joints(mujoco: Any, model: Any) -> list[int]:
     actuated = set(find_actuators(mujoco, model))
     body_roots = model.body_rootid[model.jnt_bodyid]
     trees = {body_roots[joint_id] for joint_id in actuated}
-    return [
-        joint_id
-        for joint_id in range(model.njnt)
-        if not actuated
-        or joint_id in actuated
-        or (body_roots[joint_id] in trees and model.jnt_bodyid[joint_id] != body_roots[joint_id])
-    ]
+    in_tree = [root in trees and body != root for root, body in zip(body_roots, model.jnt_bodyid, strict=True)]
+    return [joint_id for joint_id in range(model.njnt) if not actuated or joint_id in actuated or in_tree[joint_id]]

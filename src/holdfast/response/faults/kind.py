@@ -167,10 +167,8 @@ def fault_kinds() -> dict[str, FaultKind]:
         raise InputError(f"codes of the fault kinds are {codes_text}; each number from 0 to {len(kinds) - 1} must occur once")
     for kind in kinds:
         if len(kind.parameters_by_name) > MAX_PARAMETERS or any(len(names) > _MAX_ALTERNATIVE for names in kind.parameters):
-            raise InputError(
-                f"fault kind '{kind.name}' has {len(kind.parameters_by_name)} parameters; it can have {MAX_PARAMETERS}, "
-                f"and {_MAX_ALTERNATIVE} in each alternative"
-            )
+            limits = f"it can have {MAX_PARAMETERS}, and {_MAX_ALTERNATIVE} in each alternative"
+            raise InputError(f"fault kind '{kind.name}' has {len(kind.parameters_by_name)} parameters; {limits}")
     return {kind.name: kind for kind in kinds}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -134,22 +135,12 @@ def predict_detection(
         elif stiffness is None:
             stiffness = damping = np.zeros(arm.n)
         onsets = np.unique(np.linspace(0, 0.9 * (len(references) - 2), _ONSET_COUNT).astype(int))
-        delays = np.array(
-            [
-                expected_delays(
-                    bounds,
-                    references,
-                    stiffness=stiffness,
-                    damping=damping,  # type: ignore[arg-type]
-                    onset=onset / bounds.rate,
-                )
-                for onset in onsets
-            ]
-        )
+        gains: dict[str, Any] = {"stiffness": stiffness, "damping": damping}
+        delays = np.array([expected_delays(bounds, references, **gains, onset=onset / bounds.rate) for onset in onsets])
         strayed = _tool_errors(arm, references, onsets, np.where(np.isfinite(delays), delays, 0.0) * bounds.rate)
         if torques:
             has_small_gravity = np.abs(arm.gravity_torque(sampled)).max(axis=0) < _MOVING_FRICTION_FACTOR * bounds.coulomb
-            alike = tuple(name for name, is_ambiguous in zip(arm.joint_names, has_small_gravity, strict=True) if is_ambiguous)
+            alike = tuple(arm.joint_names[joint] for joint in np.flatnonzero(has_small_gravity))
     return Observability(
         arm=arm,
         duration=duration,

@@ -61,10 +61,8 @@ class FaultInfo(Mapping[str, Any]):
 
     def __repr__(self) -> str:
         active = self["active"]
-        parts = [
-            f"  {event.sentence()}{', active' if f'{event.joint}: {event.kind}' in active else ''}"
-            for event in self._injector.events
-        ]
+        marks = [", active" if f"{event.joint}: {event.kind}" in active else "" for event in self._injector.events]
+        parts = [f"  {event.sentence()}{mark}" for event, mark in zip(self._injector.events, marks, strict=True)]
         return "\n".join([f"FaultInfo: {len(parts)} {'fault' if len(parts) == 1 else 'faults'} in this episode", *parts])
 
 
@@ -140,9 +138,8 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         observation, info = self.env.reset(seed=seed, options=remaining_options or None)
         model, data = _find_model(self.env.unwrapped)
         if model is not self.injector.model:  # some environments load theirs anew
-            self.injector = FaultInjector(
-                model, data, self.injector.joints, faults=self.injector.faults, horizon=self.injector.horizon
-            )
+            old = self.injector
+            self.injector = FaultInjector(model, data, old.joints, faults=old.faults, horizon=old.horizon)
             self._physics = PhysicsInterceptor(self.injector)
         self.injector.reset(self._episode)
         self._prepare_episode()
@@ -188,12 +185,11 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         assert self._recorder is not None
         injector, model, data = self.injector, self.injector.model, self.injector.data
         reference = np.full(len(injector.joints), np.nan)
+        gains, stiffness = model.actuator_gainprm[:, 0], -model.actuator_biasprm[:, 1]
         for index, name in enumerate(injector.joints):
             for actuator in injector.actuators_of(name):
-                if model.actuator_biasprm[actuator, 1] < 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
-                    reference[index] = (
-                        data.ctrl[actuator] * model.actuator_gainprm[actuator, 0] / -model.actuator_biasprm[actuator, 1]
-                    )
+                if stiffness[actuator] > 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
+                    reference[index] = data.ctrl[actuator] * gains[actuator] / stiffness[actuator]
         injector.time = data.time
         q, torque = injector.read_sensors(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
         self._recorder.record_step(data.time, reference, q, torque, action, reward)
