@@ -29,6 +29,7 @@ CALLS = {
         ' react="known", plan=False, time_limit=0.2)'
     ),
 }
+FILE_LIMITS = {"An assessment": 8, "A simulated motion": 5, "A motion with a fault": 8}  # files that explain the call
 # The threads of a pool are traced only where the profile is set before they start, so each call has its own process.
 TRACE = """
 import sys, threading
@@ -69,6 +70,11 @@ def test_the_page_has_three_walks_of_eight_to_twelve_steps():
         assert numbers == list(range(1, len(numbers) + 1)), title
         assert 8 <= len(numbers) <= 12, title
         assert len(STEP.findall(text)) == len(numbers), title
+
+
+@pytest.mark.parametrize("title", CALLS)
+def test_a_call_is_understood_from_few_files(title):
+    assert len({file for _, file in STEP.findall(WALKS[title])}) <= FILE_LIMITS[title]
 
 
 @pytest.mark.parametrize("name", sorted(set(re.findall(r"`(holdfast\.[\w.]+)`", PAGE))))

@@ -7,13 +7,13 @@ import pytest
 from scipy.linalg import expm
 
 import holdfast as hf
-from holdfast.control.physics.plant import ServoPlant
+from holdfast.control.physics.robot import ServoRobot
 from holdfast.core.errors import ArmError
 from holdfast.response.diagnosis import simulated_logs
 from holdfast.response.faults import FaultEvent
 from holdfast.response.supervisor import loop
 
-mujoco = pytest.importorskip("mujoco")
+pytest.importorskip("mujoco")
 MARGIN = 0.98  # largest magnitude of an eigenvalue of one control cycle
 SILENT = {"coulomb": 0.0, "joint": 0.0, "torque": 0.0}  # a cycle without noise and dry friction is smooth
 
@@ -33,20 +33,22 @@ ARMS = [name for name in hf.arms.names() if has_inertia(name)]
 def rehearsed_cycle(arm, q, body):
     """One cycle of ``rehearse``: state (2n,) to state; the stiffness and the damping (n,)."""
 
-    def cycle(state):
-        robot = simulated_logs._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
-        robot.data.qpos[:], robot.data.qvel[:] = np.split(state, 2)
-        simulated_logs._simulate_robots(arm, [robot])
-        return np.concatenate([robot.data.qpos, robot.data.qvel])
+    recordings = [simulated_logs._Recording(q[None], np.random.default_rng(0), body, (), ())]
 
-    robot = simulated_logs._RecordedRobot(arm, q[None], np.random.default_rng(0), body, (), ())
-    return cycle, robot.stiffness, robot.damping
+    def cycle(state):
+        robots = simulated_logs._make_robots(arm, recordings)
+        (data,) = robots.data
+        data.qpos[:], data.qvel[:] = np.split(state, 2)
+        simulated_logs._simulate_robots(robots, recordings)
+        return np.concatenate([data.qpos, data.qvel])
+
+    drives = simulated_logs._make_robots(arm, recordings).drives
+    return cycle, drives.stiffness[0], drives.damping[0]
 
 
 def reacting_robot(arm, q, body, faults=()):
-    law = hf.control.damped(arm, 0.02, task="planar" if arm.n < 4 else "position")
     given = {"faults": faults, "episode": 0, "horizon": 1.0, "seed": 0, "pose": False}
-    return loop._SimulatedRobot(law, q, body, hf.Servos(rate=1000.0), **given)
+    return loop._MonitoredRobot(arm, q, body, hf.Servos(rate=1000.0), **given)
 
 
 def reacting_cycle(arm, q, body):
@@ -60,22 +62,19 @@ def reacting_cycle(arm, q, body):
         robot.advance_cycle(told, np.zeros(arm.n), np.ones(arm.n))
         return np.concatenate([robot.data.qpos, robot.data.qvel])
 
-    return cycle, robot.drives.stiffness, robot.drives.damping
+    return cycle, robot.robots.drives.stiffness[0], robot.robots.drives.damping[0]
 
 
 def physical_cycle(arm, q, body):
     """One cycle of ``simulate_physics``, likewise; it has the masses of the arm's model."""
-    servos = hf.Servos()
-    plant = ServoPlant(arm, q, np.zeros(arm.n), np.ones(arm.n, dtype=bool), servos)
-    stiffness, damping = servos.gains(arm, mujoco, plant.model, start=q)
-    plant.set_gains(stiffness, damping)
+    robot = ServoRobot(arm, q, hf.Servos())
 
     def cycle(state):
-        plant.data.qpos[:], plant.data.qvel[:] = state[: arm.n] - q, state[arm.n :]
-        plant.simulate_control_cycle(q)
-        return np.concatenate([plant.q, plant.rates])
+        robot.data.qpos[:], robot.data.qvel[:] = state[: arm.n] - q, state[arm.n :]
+        robot.simulate_cycle(q, 0.0)
+        return np.concatenate([robot.q, robot.rates])
 
-    return cycle, stiffness, damping
+    return cycle, robot.stiffness, robot.damping
 
 
 CYCLES = {"rehearse": rehearsed_cycle, "simulate_faults": reacting_cycle, "simulate_physics": physical_cycle}

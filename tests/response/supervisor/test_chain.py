@@ -12,7 +12,7 @@ from cells import placed
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.response.faults import FaultEvent
 from holdfast.response.supervisor.masked_law import MaskedLaw
-from holdfast.response.supervisor.posture_change import candidate_configurations
+from holdfast.response.supervisor.replanning import candidate_configurations
 
 pytest.importorskip("mujoco")
 BODY = hf.Body(3)

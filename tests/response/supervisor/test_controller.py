@@ -11,7 +11,7 @@ import holdfast as hf
 from holdfast.response.diagnosis import FaultVerdict
 from holdfast.response.supervisor.controller import Controller
 from holdfast.response.supervisor.masked_law import MaskedLaw
-from holdfast.response.supervisor.plan import plan_route
+from holdfast.response.supervisor.replanning import plan_route
 
 JOINTS = hf.arms.load("panda").joint_names
 BOUNDS = SimpleNamespace(tracking=np.full(7, 1e-3), speed=np.full(7, 0.5))

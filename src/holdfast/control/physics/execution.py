@@ -166,11 +166,9 @@ class Execution(Result):
             return None
         error_fraction = self.following_error / np.where(self.arm.prismatic, self.error_limit[1], self.error_limit[0])
         exceeding = np.flatnonzero((error_fraction > 1).any(axis=1))
-        return (
-            (self.arm.joint_names[int(error_fraction[exceeding[0]].argmax())], float(self.time[exceeding[0]]))
-            if exceeding.size
-            else None
-        )
+        if not exceeding.size:
+            return None
+        return self.arm.joint_names[int(error_fraction[exceeding[0]].argmax())], float(self.time[exceeding[0]])
 
     @cached_property
     def tool_error(self) -> tuple[FloatArray, FloatArray]:
@@ -202,14 +200,9 @@ class Execution(Result):
         if not self.is_at_goal:
             phrases.append(f"the tool is {self._format_goal_error()} off the goal")
         phrases += [f"the tool was {violation}" for violation in self.broken]
-        phrases += [
-            f"{joint_name} was {value:.3g} {self._joint_unit(joint_name)} outside its limits"
-            for joint_name, value in self.beyond_limits.items()
-        ]
-        phrases += [
-            f"{joint_name} moved at {value:.4g} {self._joint_unit(joint_name)}/s, too fast"
-            for joint_name, value in self.too_fast.items()
-        ]
+        units = {joint.name: joint.unit for joint in self.arm.joints}
+        phrases += [f"{name} was {value:.3g} {units[name]} outside its limits" for name, value in self.beyond_limits.items()]
+        phrases += [f"{name} moved at {value:.4g} {units[name]}/s, too fast" for name, value in self.too_fast.items()]
         if self.first_excess is not None and self.error_limit is not None:
             joint = self.arm.joints[self.arm.joint_index(self.first_excess[0])]
             factor, unit = joint.display_unit
@@ -253,9 +246,6 @@ class Execution(Result):
     def _format_goal_error(self) -> str:
         angle_text = "" if self.goal_turn is None else f" and {format_error(np.rad2deg(self.goal_turn))} deg"
         return f"{format_error(1000 * (self.goal_distance or 0.0))} mm{angle_text}"
-
-    def _joint_unit(self, name: str) -> str:
-        return self.arm.joints[self.arm.joint_index(name)].unit
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion as rows over time: the measured joints, rad and m, and the tool point, m.

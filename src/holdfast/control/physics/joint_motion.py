@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.physics.execution import Ended, Execution
-from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
-from holdfast.control.physics.servos import Servos, max_reference_offsets
-from holdfast.control.physics.surroundings import ContactLog
+from holdfast.control.physics.robot import MAX_PHYSICAL_SPEED, ServoRobot
+from holdfast.control.physics.servos import Servos
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
@@ -98,38 +97,35 @@ def execute(
         raise InputError("notice has nothing to notice: no joint locks; give locked")
     detection_time = np.inf if notice is None else float(lock_times.min()) + notice
     chosen_servos = Servos() if servos is None else servos
-    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
-    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
-    plant = ServoPlant(arm, waypoints[0], np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen_servos, cell_clearance)
-    contact_log = ContactLog(cell_clearance)
-    contact_log.require_collision_free(plant.model)
-    stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=waypoints[0])
+    robot = ServoRobot(arm, waypoints[0], chosen_servos, chosen_clearance(arm, clearance or False, cell, looks=False))
+    robot.schedule_locks(lock_times)
     references, reaches_end = _sample_servo_references(waypoints, seconds, 1 / chosen_servos.rate, detection_time, stop, settle)
-    samples, is_stable = _drive_motion(plant, references, lock_times, stiffness, damping, contact_log)
-    is_at_rest = float(np.abs(samples.rates[-1]).max()) < REST_SPEED
-    outcome: Ended = "unstable" if not is_stable else "moving" if not is_at_rest else "finished" if reaches_end else "stopped"
+    q, rates, reference, torque = _follow_references(robot, references)
+    is_at_rest = float(np.abs(rates[-1]).max()) < REST_SPEED
+    outcome: Ended = (
+        "unstable" if len(q) < len(references) else "moving" if not is_at_rest else "finished" if reaches_end else "stopped"
+    )
     if degraded is not None:
-        locked_positions = {joint_name: float(samples.q[-1, arm.joint_index(joint_name)]) for joint_name in degraded.locked}
-        degraded = replace(degraded, locked=locked_positions)
+        degraded = replace(degraded, locked={name: float(q[-1, arm.joint_index(name)]) for name in degraded.locked})
     return Execution(
         arm=arm,
         degraded=degraded,
         servos=chosen_servos,
-        stiffness=stiffness,
-        damping=damping,
+        stiffness=robot.stiffness,
+        damping=robot.damping,
         lock_time=lock_times,
         noticed=np.inf if reaches_end else detection_time,
         outcome=outcome,
-        time=np.arange(len(samples.q)) / chosen_servos.rate,
-        q=samples.q,
-        rates=samples.rates,
-        reference=samples.reference,
-        planned=references[: len(samples.q)],
-        torque=samples.torque,
+        time=np.arange(len(q)) / chosen_servos.rate,
+        q=q,
+        rates=rates,
+        reference=reference,
+        planned=references[: len(q)],
+        torque=torque,
         goal=_check_goal(goal),
         keep=anchor_constraints(keep, arm.forward_kinematics(waypoints[0])),
-        contacts=contact_log.list_contacts(),
-        cell=None if cell_clearance is None else cell_clearance.cell,
+        contacts=robot.contacts.list_contacts(),
+        cell=robot.contacts.cell,
         error_limit=error_limit,
     )
 
@@ -170,11 +166,8 @@ def _make_lock_times(
                 f"{arm.joints[joint].unit}; a joint locks where it is"
             )
     times_in_order = require_real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
-    if (
-        times_in_order.shape not in ((), (len(degraded.locked),))
-        or not np.isfinite(times_in_order).all()
-        or (times_in_order < 0).any()
-    ):
+    has_right_shape = times_in_order.shape in ((), (len(degraded.locked),))
+    if not has_right_shape or not (np.isfinite(times_in_order) & (times_in_order >= 0)).all():
         raise InputError(
             f"lock_time is {times_in_order.tolist()}; give one time of 0 s or more, or {len(degraded.locked)}, one for each "
             "joint that locks"
@@ -212,43 +205,19 @@ def _sample_servo_references(
     return np.stack([np.interp(clock, seconds, column) for column in waypoints.T], axis=1), reaches_end
 
 
-@dataclass(frozen=True)
-class _ExecutionSamples:
-    """Samples at each of T control cycles, (T, n), as in :class:`holdfast.Execution`."""
-
-    q: FloatArray
-    rates: FloatArray
-    reference: FloatArray
-    torque: FloatArray
-
-
-def _drive_motion(
-    plant: ServoPlant,
-    references: FloatArray,
-    lock_time: FloatArray,
-    stiffness: FloatArray,
-    damping: FloatArray,
-    contact_log: ContactLog,
-) -> tuple[_ExecutionSamples, bool]:
-    """Return the measured motion, and whether the physics stayed within bounds."""
-    period, rate_feed, max_leads = 1 / plant.servos.rate, damping / stiffness, max_reference_offsets(plant.arm, stiffness)
-    healthy = np.ones(plant.arm.n, dtype=bool)
-    plant.set_gains(stiffness, damping)
+def _follow_references(robot: ServoRobot, references: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return measured configurations, rates, references, and torques, (T, n) each; T < K if the physics left all bounds."""
+    period = 1 / robot.servos.rate
     cycles: list[tuple[FloatArray, FloatArray, FloatArray, FloatArray]] = []
     for cycle in track("control cycles", range(len(references)), most=True, every=100):
-        still_healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
-        if not still_healthy.all() and (still_healthy != healthy).any():
-            healthy = still_healthy
-            plant = plant.lock_all_except(healthy)
-            plant.set_gains(stiffness, damping)
-        q, rates = plant.q, plant.rates
+        robot.lock_due_joints(cycle * period)
+        q, rates = robot.q, robot.rates
         next_reference = references[min(cycle + 1, len(references) - 1)]
-        reference = np.clip(next_reference, q - max_leads, q + max_leads)
-        cycles.append((q, rates, reference, plant.torque))
+        reference = robot.limit_reference(next_reference, q)
+        cycles.append((q, rates, reference, robot.torque))
         if not float(rates @ rates) < MAX_PHYSICAL_SPEED**2:
             break
-        plant.simulate_control_cycle(reference + rate_feed * (next_reference - references[cycle]) / period)
-        if plant.data.ncon > 0:
-            contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
-    samples = _ExecutionSamples(*(np.array(column) for column in zip(*cycles, strict=True)))
-    return samples, len(cycles) == len(references)
+        goal = reference + robot.rate_feed * (next_reference - references[cycle]) / period
+        robot.simulate_cycle(goal, (cycle + 1) * period)
+    q, rates, reference, torque = (np.array(column) for column in zip(*cycles, strict=True))
+    return q, rates, reference, torque

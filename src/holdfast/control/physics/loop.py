@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law
-from holdfast.control.physics.plant import LOCK_TIME_TOLERANCE_S, MAX_PHYSICAL_SPEED, ServoPlant
+from holdfast.control.physics.robot import MAX_PHYSICAL_SPEED, ServoRobot
 from holdfast.control.physics.run import Ending, PhysicalRun, Why
-from holdfast.control.physics.servos import Servos, max_reference_offsets
-from holdfast.control.physics.surroundings import ContactLog
+from holdfast.control.physics.servos import Servos
 from holdfast.control.simulation.batch import CONVERGENCE_TOLERANCE
 from holdfast.control.simulation.closed_loop import simulate
 from holdfast.control.simulation.runs import Runs
@@ -101,102 +98,69 @@ def simulate_physics(
     chosen_servos, arm = Servos() if servos is None else servos, law.arm
     start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
     checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
-    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
-    plant = ServoPlant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen_servos, cell_clearance)
-    contact_log = ContactLog(cell_clearance)
-    contact_log.require_collision_free(plant.model)
-    stiffness, damping = chosen_servos.gains(arm, plant.mujoco, plant.model, start=start)
+    robot = ServoRobot(arm, start, chosen_servos, checked_clearance)
     runs = simulate(law, q0, target, locked=locked, time=time, clearance=checked_clearance, stop_at_contact=stop_at_contact)
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
-    samples, ending = _drive_loop(plant, law, runs, stiffness, damping, run_limit, contact_log)
-    outcome, reason = ending or _classify_unfinished_run(samples.q, chosen_servos.rate, law.gain, ~arm.prismatic)
+    robot.schedule_locks(runs.lock_time)
+    cycles, ending = _run_cycles(robot, law, _target_pose(law, runs), run_limit)
+    q, reference, torque = (np.reshape([cycle[part] for cycle in cycles], (-1, arm.n)) for part in range(3))
+    outcome, reason = ending or _classify_unfinished_run(q, chosen_servos.rate, law.gain, ~arm.prismatic)
     return PhysicalRun(
         law=law,
         servos=chosen_servos,
-        stiffness=stiffness,
-        damping=damping,
+        stiffness=robot.stiffness,
+        damping=robot.damping,
         kinematic=runs,
         outcome=outcome,
         reason=reason,
-        time=np.arange(len(samples.q)) / chosen_servos.rate,
-        q=samples.q,
-        reference=samples.reference,
-        torque=samples.torque,
-        x=arm.forward_kinematics(samples.q)[:, :3, 3],
-        error=samples.error,
-        contacts=contact_log.list_contacts(),
+        time=np.arange(len(q)) / chosen_servos.rate,
+        q=q,
+        reference=reference,
+        torque=torque,
+        x=arm.forward_kinematics(q)[:, :3, 3],
+        error=np.sqrt([squared_error for *_, squared_error in cycles]),
+        contacts=robot.contacts.list_contacts(),
     )
 
 
-@dataclass(frozen=True)
-class _LoopSamples:
-    """Values at each of T control cycles, as in :class:`holdfast.PhysicalRun`."""
+def _run_cycles(
+    robot: ServoRobot, law: Law, target: tuple[FloatArray, FloatArray], time_limit: float
+) -> tuple[list[tuple[FloatArray, FloatArray, FloatArray, float]], tuple[Ending, Why] | None]:
+    """Run the control cycles towards a target, its position (3,) and rotation (9,).
 
-    q: FloatArray
-    reference: FloatArray
-    torque: FloatArray
-    error: FloatArray
-
-
-def _drive_loop(
-    plant: ServoPlant,
-    law: Law,
-    runs: Runs,
-    stiffness: FloatArray,
-    damping: FloatArray,
-    time_limit: float,
-    contact_log: ContactLog,
-) -> tuple[_LoopSamples, tuple[Ending, Why] | None]:
-    """Simulate the physical run next to a kinematic one, and return its ending if it ended before the time limit."""
-    n, period = law.arm.n, 1 / plant.servos.rate
-    command, inputs = _command_kernel(law).single_row(), np.concatenate([plant.start, *_target_pose(law, runs)])
-    max_leads, rate_feed = max_reference_offsets(law.arm, stiffness), damping / stiffness
-    reference, lock_time = plant.start.copy(), runs.lock_time
-    healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
-    plant.set_gains(stiffness, damping)
+    Returns:
+        Configuration (n,), reference (n,), torque (n,), and squared error of each cycle; and the ending of a run that ended
+        before the time limit.
+    """
+    n, period, reference = law.arm.n, 1 / robot.servos.rate, robot.q
+    command, inputs = _command_kernel(law).single_row(), np.concatenate([reference, *target])
     rest_cycles, cycles_at_rest = int(np.ceil(REST_DURATION / law.gain / period)), 0
-    cycles: list[FloatArray] = []
-    ending: tuple[Ending, Why] | None = None
+    cycles: list[tuple[FloatArray, FloatArray, FloatArray, float]] = []
     for cycle in track("control cycles", range(int(np.ceil(time_limit / period - 1e-9)) + 1), most=True, every=100):
-        if cycle * period >= next_lock - LOCK_TIME_TOLERANCE_S:
-            healthy = lock_time > cycle * period + LOCK_TIME_TOLERANCE_S
-            plant = plant.lock_all_except(healthy)
-            plant.set_gains(stiffness, damping)
-            next_lock = float(lock_time[healthy].min(initial=np.inf))
-        inputs[:n] = q = plant.q
+        robot.lock_due_joints(cycle * period)
+        inputs[:n] = q = robot.q
         outputs = command(inputs)
-        rates, squared_error, scaled_error = outputs[:n], outputs[n + 1], outputs[n + 2]
+        rates, (speed_fraction, squared_error, scaled_error) = outputs[:n], outputs[n:]
         if not np.isfinite(squared_error + rates.sum()):
-            ending = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
-            break
-        reference = np.minimum(np.maximum(reference + period * rates, q - max_leads), q + max_leads)
-        healthy_rates = rates[healthy]
-        speed = float(np.sqrt(healthy_rates @ healthy_rates)) / outputs[n]
-        plant.simulate_control_cycle(reference + rate_feed * rates)
-        cycles.append(np.concatenate((q, reference, plant.torque, (squared_error,))))
-        is_in_contact = plant.data.ncon > 0
-        if is_in_contact:
-            contact_log.record_contacts(plant.model, plant.data, (cycle + 1) * period)
-        velocity = plant.data.qvel
+            return cycles, ("undecided", "singular" if np.isfinite(q).all() else "unstable")
+        reference = robot.limit_reference(reference + period * rates, q)
+        healthy_rates = rates[robot.free]
+        speed = float(np.sqrt(healthy_rates @ healthy_rates)) / speed_fraction
+        robot.simulate_cycle(reference + robot.rate_feed * rates, (cycle + 1) * period)
+        cycles.append((q, reference, robot.torque, squared_error))
+        velocity, is_in_contact = robot.data.qvel, robot.data.ncon > 0
         squared_speed = float(velocity @ velocity)
         if not squared_speed < MAX_PHYSICAL_SPEED**2:
-            ending = ("undecided", "unstable")
-            break
+            return cycles, ("undecided", "unstable")
         # An arm that lies against an object is told to move as long as it lies there.
-        cycles_at_rest = (
-            cycles_at_rest + 1 if max(0.0 if is_in_contact else speed, np.sqrt(squared_speed)) < REST_SPEED * law.gain else 0
-        )
+        is_at_rest = max(0.0 if is_in_contact else speed, np.sqrt(squared_speed)) < REST_SPEED * law.gain
+        cycles_at_rest = cycles_at_rest + 1 if is_at_rest else 0
         if cycles_at_rest > rest_cycles:
-            ending = (
-                ("converged", "none")
-                if scaled_error < CONVERGENCE_TOLERANCE**2
-                else ("stuck", "contact" if is_in_contact else "none")
-            )
-            break
-    table = np.array(cycles).reshape(-1, 3 * n + 1)
-    q, references, torque = (table[:, block * n : (block + 1) * n].copy() for block in range(3))
-    return _LoopSamples(q, references, torque, np.sqrt(table[:, -1])), ending
+            if scaled_error < CONVERGENCE_TOLERANCE**2:
+                return cycles, ("converged", "none")
+            return cycles, ("stuck", "contact" if is_in_contact else "none")
+    return cycles, None
 
 
 @cached_kernel
@@ -223,12 +187,7 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
     """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
 
     It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
-
-    Args:
-        q: (T, n) configurations at the control cycles.
-        rate: Control cycles per second.
-        gain: Ke, 1/s.
-        is_revolute: (n,) joints of which the values count modulo whole turns.
+    The configurations (T, n) are those at the control cycles; values of revolute joints (n,) count modulo whole turns.
     """
     undecided: tuple[Ending, Why] = ("undecided", "time_limit")
     displacement = _wrap_angles(q[-1] - q, is_revolute)
@@ -247,9 +206,8 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
         shift = -float(neighbours[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)
         last_period = np.arange(len(q) - period, len(q))
         previous = q[last_period - period - 1], q[last_period - period], q[np.minimum(last_period - period + 1, len(q) - 1)]
-        earlier = (
-            previous[1] + shift * (previous[2] - previous[0]) / 2 + shift**2 * (previous[2] - 2 * previous[1] + previous[0]) / 2
-        )
+        before, middle, after = previous
+        earlier = middle + shift * (after - before) / 2 + shift**2 * (after - 2 * middle + before) / 2
         return_error = float(np.linalg.norm(_wrap_angles(q[last_period] - earlier, is_revolute), axis=1).max())
         if return_error < DRIFT_FRACTION * extent * min(period / rate * gain, 1.0):
             return "moving", "none"

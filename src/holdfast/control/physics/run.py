@@ -90,9 +90,8 @@ class PhysicalRun(Result):
     @property
     def terminal_turn(self) -> float:
         """Angle between the tools of both runs when this one ended, rad."""
-        physical_rotation, kinematic_rotation = self.law.arm.forward_kinematics(
-            np.stack([self.q[-1], self.kinematic_path.q[-1]])
-        )[:, :3, :3]
+        ends = np.stack([self.q[-1], self.kinematic_path.q[-1]])
+        physical_rotation, kinematic_rotation = self.law.arm.forward_kinematics(ends)[:, :3, :3]
         # Not the arccosine of the trace, which loses half of the digits of small angles.
         return float(2 * np.arcsin(min(np.linalg.norm(physical_rotation - kinematic_rotation) / np.sqrt(8), 1.0)))
 
@@ -126,11 +125,8 @@ class PhysicalRun(Result):
         if self.contacts is not None:
             contact_text = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
             lines.append(f"{contact_text} (with masses and servos)")
-        saturated_joints = [
-            joint_name
-            for joint_name, fraction in zip(self.law.arm.joint_names, self.saturated_fraction, strict=True)
-            if fraction > 0
-        ]
+        fractions = zip(self.law.arm.joint_names, self.saturated_fraction, strict=True)
+        saturated_joints = [name for name, fraction in fractions if fraction > 0]
         if saturated_joints:
             lines.append(f"motors at their effort for a while: {', '.join(saturated_joints)}")
         return lines

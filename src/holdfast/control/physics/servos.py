@@ -12,6 +12,7 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_constructor
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 
 INERTIA_SAMPLES = 64  # at which the inertia that a servo is tuned to is looked for
@@ -117,12 +118,7 @@ def saturated_fraction(arm: Arm, torque: FloatArray, locked: BoolArray) -> Float
 
 def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: FloatArray) -> FloatArray:
     """Return (n,) the largest diagonal entry of the inertia matrix of each joint."""
-    default_ranges = np.where(arm.prismatic, 1.0, np.pi)
-    lower, upper = (
-        np.where(np.isfinite(arm.lower), arm.lower, -default_ranges),
-        np.where(np.isfinite(arm.upper), arm.upper, default_ranges),
-    )
-    configurations = np.random.default_rng(0).uniform(lower, upper, (INERTIA_SAMPLES, arm.n))
+    configurations = np.random.default_rng(0).uniform(*sampling_limits(arm), (INERTIA_SAMPLES, arm.n))
     data, inertias, product = mujoco.MjData(model), np.zeros(arm.n), np.zeros(arm.n)
     for q in (start, *configurations):
         data.qpos[:] = q - start

@@ -14,8 +14,7 @@ from holdfast.model.collision.capsules import BASE_LINK, LinkCapsule, link_name
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.contacts import Contact
 
-# _ARM_CONTACT_BIT and _CELL_CONTACT_BIT: bits of what touches what: the arm the cell, and nothing itself
-_ARM_CONTACT_BIT = 1
+_ARM_CONTACT_BIT = 1  # the arm touches the cell, and nothing touches itself
 _CELL_CONTACT_BIT = 2
 
 
@@ -38,28 +37,22 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
     links = spec.bodies[1 : arm.n + 1]
     for index, body in enumerate(links):
         body.name = f"link {index}"
+    arm_bits = {"contype": _ARM_CONTACT_BIT, "conaffinity": _CELL_CONTACT_BIT}
     for number, capsule in enumerate(clearance.capsules):
         if capsule.link != BASE_LINK:
-            capsule_size = _capsule_geom_options(mujoco, capsule)
-            geom_name = f"part {number}"
-            links[capsule.link].add_geom(
-                name=geom_name, contype=_ARM_CONTACT_BIT, conaffinity=_CELL_CONTACT_BIT, **capsule_size, **contact_options
-            )
+            shape = _capsule_geom_options(mujoco, capsule)
+            links[capsule.link].add_geom(name=f"part {number}", **arm_bits, **shape, **contact_options)
     cell = clearance.cell or Cell(())
+    cell_bits = {"contype": _CELL_CONTACT_BIT, "conaffinity": _ARM_CONTACT_BIT}
     for number, solid in enumerate(cell):
-        body = spec.worldbody.add_body(
-            name=f"object {number}", pos=solid.pose[:3, 3], quat=to_quaternion(mujoco, solid.pose[:3, :3])
-        )
-        shape = _solid_geom_options(mujoco, spec, solid, number)
-        body.add_geom(
-            name=f"object {number}", contype=_CELL_CONTACT_BIT, conaffinity=_ARM_CONTACT_BIT, **shape, **contact_options
-        )
+        name, quaternion = f"object {number}", to_quaternion(mujoco, solid.pose[:3, :3])
+        body = spec.worldbody.add_body(name=name, pos=solid.pose[:3, 3], quat=quaternion)
+        body.add_geom(name=name, **cell_bits, **_solid_geom_options(mujoco, spec, solid, number), **contact_options)
     object_names = [solid.name for solid in cell]
     for object_name, link in cell.may_touch:
         if link in arm.joint_names:
-            spec.add_exclude(
-                bodyname1=f"link {arm.joint_names.index(link)}", bodyname2=f"object {object_names.index(object_name)}"
-            )
+            body_names = f"link {arm.joint_names.index(link)}", f"object {object_names.index(object_name)}"
+            spec.add_exclude(bodyname1=body_names[0], bodyname2=body_names[1])
 
 
 def _capsule_geom_options(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
@@ -93,11 +86,16 @@ class ContactLog:
     """Contacts so far in a model of :func:`add_cell_objects`.
 
     Args:
-        clearance: As for :func:`add_cell_objects`; None: nothing is looked at.
+        clearance: As for :func:`add_cell_objects`; without a cell no contacts are looked for.
+
+    Attributes:
+        cell: Objects around the arm; None without any.
+        clearance: The same clearance; None without a cell.
     """
 
     def __init__(self, clearance: Clearance | None) -> None:
-        self._clearance = clearance
+        self.cell = None if clearance is None else clearance.cell
+        self.clearance = None if self.cell is None else clearance
         self._contact_by_pair: dict[tuple[str, str], tuple[float, float]] = {}
 
     def record_contacts(self, model: Any, data: Any, time: float) -> None:
@@ -127,24 +125,18 @@ class ContactLog:
 
     def _identify_pair(self, model: Any, contact: Any) -> tuple[str, str]:
         """Return the names of the link and of the object of a contact."""
-        assert self._clearance is not None
-        assert self._clearance.cell is not None
+        assert self.clearance is not None
+        assert self.cell is not None
         numbers = {}
         for geom_id in contact.geom:
             kind, number = model.geom(int(geom_id)).name.split()
             numbers[kind] = int(number)
-        link_number = self._clearance.capsules.parts[numbers["part"]].link
-        return link_name(self._clearance.arm, link_number), self._clearance.cell.objects[numbers["object"]].name
+        link_number = self.clearance.capsules.parts[numbers["part"]].link
+        return link_name(self.clearance.arm, link_number), self.cell.objects[numbers["object"]].name
 
     def list_contacts(self) -> tuple[Contact, ...] | None:
         """Return the first contact of each pair, in order of time; None if none were checked."""
-        if self._clearance is None:
+        if self.clearance is None:
             return None
-        records = sorted(
-            (contact_time, link_text, object_name, contact_depth)
-            for (link_text, object_name), (contact_time, contact_depth) in self._contact_by_pair.items()
-        )
-        return tuple(
-            Contact(time=contact_time, link=link_text, object=object_name, depth=contact_depth)
-            for contact_time, link_text, object_name, contact_depth in records
-        )
+        records = sorted((time, *pair, depth) for pair, (time, depth) in self._contact_by_pair.items())
+        return tuple(Contact(time=time, link=link, object=name, depth=depth) for time, link, name, depth in records)

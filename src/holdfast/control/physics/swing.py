@@ -29,8 +29,7 @@ STOP_SPEED = 1e-4  # rad/s or m/s, against a stop
 BALANCED_TRAVEL = 1e-6  # rad or m: has not moved
 NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of what swings
 CHECK_INTERVAL_STEPS = 20  # steps
-# MIN_DURATION_S and MAX_DURATION_S: s, of the time allowed when none is given
-MIN_DURATION_S = 60.0
+MIN_DURATION_S = 60.0  # of the time allowed when none is given
 MAX_DURATION_S = 300.0
 MAX_STEP_S = 0.02  # s
 
@@ -94,12 +93,10 @@ def free_swing(
             f"q puts joint '{failed_joint.name}' at {start[joint_number]:g} {failed_joint.unit}, outside its limits "
             f"{failed_joint.lower:g} to {failed_joint.upper:g}; start inside them"
         )
-    checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
-    cell_clearance = None if checked_clearance is None or checked_clearance.cell is None else checked_clearance
+    contact_log = ContactLog(chosen_clearance(arm, clearance or False, cell, looks=False))
     model_spec = build_mujoco_spec(arm, start, [joint_number], has_stops, step)
-    if cell_clearance is not None:
-        add_cell_objects(model_spec, cell_clearance, step)
-    contact_log = ContactLog(cell_clearance)
+    if contact_log.clearance is not None:
+        add_cell_objects(model_spec, contact_log.clearance, step)
     swing = _SwingModel(compile_model(model_spec, arm, [joint_number]), arm, joint_number, contact_log)
     contact_log.require_collision_free(swing.model)
     if failed_joint.prismatic and not swing.is_balanced:
@@ -122,7 +119,7 @@ def free_swing(
         initial_acceleration=swing.acceleration,
         outcome=outcome,
         drops=tuple(_measure_drop(brake_time, time, angle, velocity, tool_positions, arm.gravity) for brake_time in brakes),
-        cell=None if cell_clearance is None else cell_clearance.cell,
+        cell=contact_log.cell,
         contacts=contact_log.list_contacts(),
     )
 
@@ -180,11 +177,8 @@ class _SwingModel:
         self.prismatic = bool(arm.prismatic[joint])
         label = f"arm '{arm.name}', joint '{arm.joint_names[joint]}'"
         mass = float(model.body_subtreemass[joint + 1])
-        # What swings is no longer than this.
-        length = float(
-            np.linalg.norm(model.body_pos[joint + 2 : arm.n + 1], axis=1).sum()
-            + np.linalg.norm(model.body_ipos[joint + 1 : arm.n + 1], axis=1).sum()
-        )
+        offsets = model.body_pos[joint + 2 : arm.n + 1], model.body_ipos[joint + 1 : arm.n + 1]
+        length = float(sum(np.linalg.norm(part, axis=1).sum() for part in offsets))  # what swings is no longer than this
         start_torque = self._holding_torque(0.0)
         inertia = np.zeros(1)
         self.mujoco.mj_mulM(model, self.data, inertia, np.ones(1))
@@ -235,10 +229,8 @@ class _SwingModel:
         if friction == 0 or self.stiffness == 0:
             return MIN_DURATION_S
         frequency = np.sqrt(self.stiffness / self.inertia)
-        damping_ratio = friction / (2 * np.sqrt(self.stiffness * self.inertia))
-        slowest_rate = frequency * (
-            damping_ratio if damping_ratio <= 1 else 1 / (damping_ratio + np.sqrt(damping_ratio**2 - 1))
-        )
+        ratio = friction / (2 * np.sqrt(self.stiffness * self.inertia))  # of critical damping
+        slowest_rate = frequency * (ratio if ratio <= 1 else 1 / (ratio + np.sqrt(ratio**2 - 1)))
         return float(np.clip(15 / slowest_rate, MIN_DURATION_S, MAX_DURATION_S))
 
     def run(self, duration: float, min_duration: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Outcome]:
@@ -256,12 +248,10 @@ class _SwingModel:
                 self.contact_log.record_contacts(model, data, step_number * step)
             mujoco.mj_kinematics(model, data)
             samples.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool_site]))
-            if (
-                step_number % CHECK_INTERVAL_STEPS == 0
-                and step_number * step >= min_duration
-                and (outcome := self._classify_state()) != "moving"
-            ):
-                break
+            if step_number % CHECK_INTERVAL_STEPS == 0 and step_number * step >= min_duration:
+                outcome = self._classify_state()
+                if outcome != "moving":
+                    break
         table: FloatArray = np.array(samples, dtype=np.float64)
         if np.abs(table[:, 0]).max() < BALANCED_TRAVEL and outcome == "moving":
             outcome = "balanced"
@@ -280,10 +270,8 @@ class _SwingModel:
             return "contact" if data.ncon else "stop"
         if self.prismatic:
             return "moving"
-        deviation = angle - self.rest_angle
-        amplitude = np.hypot(
-            np.arctan2(np.sin(deviation), np.cos(deviation)), velocity * np.sqrt(self.inertia / self.stiffness)
-        )
+        deviation, swing_time = angle - self.rest_angle, np.sqrt(self.inertia / self.stiffness)
+        amplitude = np.hypot(np.arctan2(np.sin(deviation), np.cos(deviation)), velocity * swing_time)
         return "rest" if amplitude < REST_AMPLITUDE_RAD else "moving"
 
 

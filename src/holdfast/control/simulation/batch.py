@@ -11,21 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.laws.law import Law
-from holdfast.control.simulation.cycles import SUBSTEPS_PER_CYCLE
+from holdfast.control.simulation.cycles import SUBSTEPS_PER_CYCLE, CycleStepper
+from holdfast.control.simulation.half_turns import MAX_STEPS, HalfTurnTraps
 from holdfast.control.simulation.periodic_motion import detect_periodic
-from holdfast.control.simulation.phases import PhaseSimulator
 from holdfast.control.simulation.residual import ErrorMinimiser
-from holdfast.control.simulation.runge_kutta import RungeKuttaStepper
+from holdfast.control.simulation.runge_kutta import FIRST_STEP_SIZE, MAX_STEP_TRAVEL_RAD, REST_SPEED, RungeKuttaStepper
 from holdfast.control.simulation.runs import Reason, RunOutcome, RunPath, Runs, RunSettings
 from holdfast.control.simulation.system import (
+    LARGE_NUMBER,
     STATE_ARRIVED,
     STATE_AT_REST,
     STATE_COLLAPSED,
+    STATE_PHASE_END,
     STATE_RUNNING,
     STATE_TIME_LIMIT,
+    ColumnLayout,
+    FailedArmSystem,
+    configuration_state_parts,
     scale_errors,
     split_error_norms,
 )
+from holdfast.control.simulation.tableaus import CLASSIC_RK4, DOP853
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import ProgressCount, ignore_count
@@ -35,28 +41,39 @@ from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Tell
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-from holdfast.kinematics.solvers.inverse_kinematics import pose_error_for_task
 from holdfast.model.arm import kinematics
 
 CONVERGENCE_TOLERANCE = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest counts as 0
 MIN_ENDLESS_SPEED = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not stopping
 DECAY_RATIO = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
-HALF_TURN_TOLERANCE_RAD = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
-MAX_STEPS = 100_000
-HALF_TURN_CHECK_STEPS = 500  # steps between two looks at runs that half a turn may have caught
-HALF_TURN_CHECKS = 4  # as many stretches decide
 LOOP_CALLS_PER_RUN = 1500  # of the loop, for each run (measured of several arms, tasks and laws: 900 to 11,000, once 130)
 MAX_BLOCK_RUNS = 8192  # runs that one thread makes together
 MIN_BLOCK_RUNS = 256  # no result depends on it
 
 
+Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, BoolArray]]
+
+
 class ClosedLoopSimulator:
-    """The compiled closed loop of one law under one integration method."""
+    """The compiled closed loop of one law under one integration method.
+
+    A run is a sequence of phases: nothing changes between two locks, so each phase is one loop over the states of all runs.
+
+    Attributes:
+        cycles: True for discrete control cycles.
+    """
 
     def __init__(self, law: Law, method: str) -> None:
-        self.law, self._phases = law, PhaseSimulator(law, method)
-        self.cycles, self._system, self._stepper = self._phases.cycles, self._phases.system, self._phases.stepper
-        self.made_of = law, method
+        self.law, self.made_of, self.cycles, self._has_fixed_step = law, (law, method), method == "cycles", method == "rk4"
+        self._system = FailedArmSystem(law)
+        self._stepper: RungeKuttaStepper | CycleStepper = (
+            CycleStepper(self._system)
+            if self.cycles
+            else RungeKuttaStepper(self._system, CLASSIC_RK4 if self._has_fixed_step else DOP853)
+        )
+        self._time_scale = 1.0 if self.cycles else law.gain  # units of a state's time in one second or cycle
+        self._half_turns = HalfTurnTraps(self._system, self._stepper)
+        self._start_columns = ColumnLayout(rates=law.arm.n, hand=1, share=1, error=1, slope=1)
 
     def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
         return ClosedLoopSimulator, self.made_of
@@ -67,24 +84,22 @@ class ClosedLoopSimulator:
 
     @cached_property
     @cached_kernel
+    def _start_kernel(self) -> Kernel:
+        """Kernel of the values at the start of a motion."""
+        parts = self._start_columns.join_parts(configuration_state_parts(self._system.evaluate_state_rates(self._system.q)))
+        return Kernel("start of a motion", [self._system.q, *self._system.inputs.values()], [parts])
+
+    @cached_property
+    @cached_kernel
     def _tool_kernel(self) -> Kernel:
         """Kernel of the tool position in the directions that the task prescribes."""
         position = kinematics.kinematic_chain(self.law.arm, self._system.q).position
         return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ position])
 
-    @cached_property
-    @cached_kernel
-    def _angle_kernel(self) -> Kernel:
-        """Kernel of the angle of the shortest rotation that the task prescribes, rad."""
-        system, law = self._system, self.law
-        tool_chain = kinematics.kinematic_chain(law.arm, system.q)
-        error = pose_error_for_task(law.task, tool_chain.position, tool_chain.rotation, system.target, system.rotation)
-        return Kernel("turn", [system.q, system.target, system.rotation], [ca.norm_2(error[3:])])
-
     def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs:
         """Simulate runs from q0 (N, n) to target (N, 4, 4) or (N, m), with joints that lock at (N, n), s or cycles.
 
-        A few thousand at a time, so that everything about them is done while they are in the cache, and by every thread.
+        Each thread takes a few thousand runs at a time, so that all of their data stay in the processor's cache.
         """
         run_count, workers = len(q0), 1 if in_pool() else thread_count()
         with expect_row_count(run_count * LOOP_CALLS_PER_RUN):
@@ -99,48 +114,34 @@ class ClosedLoopSimulator:
             def run_rows(selection: slice) -> dict[str, NDArray[Any]]:
                 return self._run_block(q0[selection], target[selection], lock_time[selection], setting, progress)
 
-            block_results = (
-                [run_rows(block_rows) for block_rows in blocks]
-                if workers == 1 or len(blocks) == 1
-                else list(shared_pool().map(run_rows, blocks))
-            )
-        fields: dict[str, Any] = (
-            {name: np.concatenate([result[name] for result in block_results]) for name in block_results[0]}
-            if block_results[1:]
-            else block_results[0]
-        )
-        return Runs(
-            law=self.law,
-            q0=q0,
-            target=target,
-            lock_time=lock_time,
-            cycles=self.cycles,
-            **fields,
-            _simulator=self,
-            _settings=setting,
-        )
+            mapped = map if workers == 1 or len(blocks) == 1 else shared_pool().map
+            block_results = list(mapped(run_rows, blocks))
+        fields: dict[str, Any] = block_results[0]
+        if block_results[1:]:
+            fields = {name: np.concatenate([result[name] for result in block_results]) for name in fields}
+        fields |= {"law": self.law, "q0": q0, "target": target, "lock_time": lock_time, "cycles": self.cycles}
+        return Runs(**fields, _simulator=self, _settings=setting)
 
     def _run_block(
         self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings, report: Tell
     ) -> dict[str, NDArray[Any]]:
         """Simulate one block of runs, and return the fields of :class:`Runs`."""
-        parameters = self._phases.make_parameters(target, setting)
+        parameters = self._make_parameters(target, setting)
         is_finite = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
         finite_rows: slice | IndexArray = slice(None) if is_finite.all() else np.flatnonzero(is_finite)
-        has_orientation, time_scale = target.ndim == 3 and self.law.task.angular, self._phases.time_scale
+        has_orientation, time_scale = target.ndim == 3 and self.law.task.angular, self._time_scale
         # A run whose joints lock later ends at each lock, and goes on.
         locks_later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
         report_ended = ignore_count if locks_later else report
 
         def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
             if has_orientation and not self.cycles:
-                return self._advance_until_trapped(states, parameters, report_ended)
-            result = self._stepper.loop.run(
-                states, parameters, 0.0, -(-MAX_STEPS // self._stepper.loop.times), report=report_ended
-            )
+                return self._half_turns.advance(states, parameters, report_ended)
+            loop = self._stepper.loop
+            result = loop.run(states, parameters, 0.0, -(-MAX_STEPS // loop.times), report=report_ended)
             return result.state, result.done
 
-        states = self._phases.run(q0[finite_rows], parameters[finite_rows], lock_time[finite_rows], setting, advance)
+        states = self._run_phases(q0[finite_rows], parameters[finite_rows], lock_time[finite_rows], setting, advance)
         if locks_later:
             report(len(q0))
         if not is_finite.all():
@@ -159,13 +160,13 @@ class ClosedLoopSimulator:
         if has_orientation:
             # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
             rows = np.flatnonzero(np.isin(reason, (Reason.STEPS, Reason.SINGULAR)))
-            reason[rows[self._is_half_turn_away(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
+            is_half_turn = self._half_turns.find_half_turns(q[rows], target[rows, :3, 3], target[rows, :3, :3])
+            reason[rows[is_half_turn]] = Reason.HALF_TURN
         if isinstance(self._stepper, RungeKuttaStepper):
             rows = np.flatnonzero((reason == Reason.STEPS) | may_be_endless)
             self._stepper.parameters.view_parts(parameters)["mask"][rows] = lock_time[rows] * time_scale > parts["time"][rows]
-            endless = rows[
-                detect_periodic(self._stepper, states[rows], parameters[rows], ~self.law.arm.prismatic, MIN_ENDLESS_SPEED)
-            ]
+            is_revolute, moving = ~self.law.arm.prismatic, (states[rows], parameters[rows])
+            endless = rows[detect_periodic(self._stepper, *moving, is_revolute, MIN_ENDLESS_SPEED)]
             code[endless], reason[endless] = RunOutcome.MOVING, Reason.NONE
         return {
             "code": code,
@@ -180,44 +181,6 @@ class ClosedLoopSimulator:
             "limits_passed": (lowest < self.law.arm.lower) | (highest > self.law.arm.upper),
             "time": parts["time"][:, 0] / time_scale,
         }
-
-    def _is_half_turn_away(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> BoolArray:
-        """Return (N,) True where the end effector is half a turn from its target, where the orientation error jumps."""
-        return np.asarray(self._angle_kernel.rows(q, position, rotation)[:, 0] > np.pi - HALF_TURN_TOLERANCE_RAD)
-
-    def _advance_until_trapped(
-        self, states: FloatArray, parameters: FloatArray, report_ended: Tell
-    ) -> tuple[FloatArray, BoolArray]:
-        """Advance the states as the loop does, but give up running rows that are trapped half a turn from their target.
-
-        Where the motion on either side of half a turn leads to it, steps across it shrink until next to nothing is left of
-        them: a row is caught if it is half a turn away at the ends of a few stretches, one after the other, at whose pace it
-        would not finish. Of 4,000 runs of a Panda half a turn caught 270; 4 of them would have got away later.
-        """
-        done, active, states = np.zeros(len(states), dtype=bool), np.arange(len(states)), states.copy()
-        parts = self._stepper.layout.view_parts(states)
-        # Looks one after the other that found the row half a turn away.
-        half_turn_counts = np.zeros(len(states), dtype=np.int64)
-        check_steps = HALF_TURN_CHECK_STEPS * self._stepper.calls_per_step
-        for checks_left in reversed(range(MAX_STEPS // check_steps)):
-            earlier_times = parts["time"][active, 0]
-            result = self._stepper.loop.run(
-                states[active], parameters[active], 0.0, -(-check_steps // self._stepper.loop.times), report=report_ended
-            )
-            states[active], done[active] = result.state, result.done
-            is_running, active = ~result.done, active[~result.done]
-            if not active.size:
-                break
-            inputs, time = self._stepper.parameters.split_inputs(parameters[active]), parts["time"][active, 0]
-            is_too_slow = time + checks_left * (time - earlier_times[is_running]) < np.minimum(
-                inputs["until"][:, 0], inputs["limit"][:, 0]
-            )
-            is_half_turn = self._is_half_turn_away(parts["q"][active], inputs["target"], inputs["rotation"])
-            half_turn_counts[active] = np.where(is_half_turn, np.where(is_too_slow, half_turn_counts[active], 0) + 1, 0)
-            is_trapped = half_turn_counts[active] > HALF_TURN_CHECKS
-            report_ended(int(np.count_nonzero(is_trapped)))
-            active = active[~is_trapped]
-        return states, done
 
     def _classify_endings(
         self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
@@ -243,17 +206,110 @@ class ClosedLoopSimulator:
         )
         return outcome.astype(np.uint8), reason.astype(np.uint8), may_be_endless
 
+    # ---- phases ------------------------------------------------------------------------------------------------------
+
+    def _make_parameters(self, target: FloatArray, setting: RunSettings) -> FloatArray:
+        """Return the parameters of runs to targets, poses (N, 4, 4) or task components (N, m).
+
+        The healthy joints and the end of the phase are still to be set.
+        """
+        return self._stepper.parameters.make_rows(
+            len(target),
+            **self._system.target_input_values(target),
+            limit=setting.time_limit * self._time_scale,
+            accuracy=setting.accuracy,
+        )
+
+    def _run_phases(
+        self, q0: FloatArray, parameters: FloatArray, lock_time: FloatArray, setting: RunSettings, advance: Advance
+    ) -> FloatArray:
+        """Return the states at the end of runs from q0 (N, n) with joints that lock at (N, n), s or cycles.
+
+        The parameters are those of :meth:`_make_parameters`, in which the last phase of each run is left. The function
+        ``advance`` returns the states at the end of a phase, and which of them have got there.
+        """
+        run_count, layout, time_scale = len(q0), self._stepper.layout, self._time_scale
+        states = np.zeros((run_count, layout.size))
+        parts = layout.view_parts(states)
+        parts["q"][:] = parts["low"][:] = parts["high"][:] = q0
+        parts["slowest"][:] = parts["closest"][:] = LARGE_NUMBER
+        if not self.cycles:
+            parts["h"][:] = setting.step_size * time_scale if self._has_fixed_step else FIRST_STEP_SIZE
+        parameter_parts, clock_limit = self._stepper.parameters.view_parts(parameters), setting.time_limit * time_scale
+        healthy_mask, phase_ends = parameter_parts["mask"], parameter_parts["until"][:, 0]
+        # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
+        final_time = LARGE_NUMBER if self._system.law.speed_limit is not None and not self.cycles else clock_limit
+        scaled_lock_times = lock_time * time_scale
+        current_times, active = np.zeros(run_count), np.arange(run_count)
+        while active.size:
+            selection: slice | IndexArray = slice(None) if active.size == run_count else active
+            healthy = scaled_lock_times[selection] > current_times[selection, None]
+            healthy_mask[selection] = healthy
+            phase_ends[selection] = np.minimum(np.where(healthy, scaled_lock_times[selection], np.inf).min(axis=1), final_time)
+            self._start_phase(states, selection, parameters[selection])
+            states[selection], is_done = advance(states[selection], parameters[selection])
+            codes, is_final = parts["code"][selection, 0], phase_ends[selection] >= clock_limit
+            parts["code"][selection, 0] = np.where((codes == STATE_PHASE_END) & is_final, STATE_TIME_LIMIT, codes)
+            active = active[is_done & (codes == STATE_PHASE_END) & ~is_final]
+            current_times[active] = parts["time"][active, 0] = phase_ends[active]
+        return states
+
+    def _start_phase(self, states: FloatArray, rows: slice | IndexArray, parameters: FloatArray) -> None:
+        """Set the parts of the states that are known where a phase begins."""
+        parts = self._stepper.layout.view_parts(states)
+        values = self._evaluate_states(states[rows], parameters)
+        is_finite = np.isfinite(values).all(axis=1)
+        code = np.where(is_finite, STATE_RUNNING, STATE_COLLAPSED)
+        values[~is_finite] = np.where(np.isfinite(values[~is_finite]), values[~is_finite], 0.0)
+        start_parts = self._start_columns.view_parts(values)
+        parts["error"][rows] = start_parts["error"]
+        parts["closest"][rows] = np.minimum(parts["closest"][rows], start_parts["error"])
+        if not self.cycles:
+            joint_speed = np.linalg.norm(start_parts["rates"], axis=1)
+            code[(joint_speed < REST_SPEED * start_parts["share"][:, 0]) & is_finite] = STATE_AT_REST
+            for name in ("rates", "hand", "share", "slope"):
+                parts[name][rows] = start_parts[name]
+            if not self._has_fixed_step:
+                parts["h"][rows, 0] = np.minimum(
+                    parts["h"][rows, 0], MAX_STEP_TRAVEL_RAD / np.maximum(joint_speed, MAX_STEP_TRAVEL_RAD)
+                )
+        parts["code"][rows, 0] = code
+
+    def _evaluate_states(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
+        """Return joint rates, tool speed, speed fraction, squared error, and its time derivative at the states, (N, n + 4)."""
+        layout = self._stepper.layout
+        if not self._stepper.is_staged:
+            inputs = self._stepper.parameters.split_inputs(parameters)
+            return self._start_kernel.rows(layout.view_parts(states)["q"], *[inputs[name] for name in self._system.inputs])
+        # A stage before the first: the law is not compiled a second time.
+        entry_states = states.copy()
+        parts = layout.view_parts(entry_states)
+        parts["stage"][:], parts["code"][:], parts["rates"][:] = -1, STATE_RUNNING, 0.0
+        entered_parts = layout.view_parts(self._call_step(entry_states, parameters))
+        return np.concatenate([entered_parts[name] for name in self._start_columns.slices], axis=1)
+
+    def _advance_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
+        """Return the states after one step."""
+        for _ in range(self._stepper.calls_per_step):
+            states = self._call_step(states, parameters)
+        return states
+
+    def _call_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
+        loop = self._stepper.loop
+        # A loop that takes single steps has a compiled one.
+        single = loop.step if loop.times == 1 else self._stepper.single_step
+        return single.rows(states, *self._stepper.parameters.split_inputs(parameters).values())[:, : self._stepper.layout.size]
+
     # ---- on demand -----------------------------------------------------------------------------------------------
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
         """Find the least error (N,) that each arm can have, and a configuration (N, n) that has it; NaN for bad input."""
         q, poses = np.atleast_2d(runs.q_final), self._target_poses(runs)
         healthy_mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
-        is_finite = np.isfinite(q).all(axis=1)
+        rows = np.isfinite(q).all(axis=1)
         least_errors, nearest = np.full(len(q), np.nan), np.full(q.shape, np.nan)
-        least_errors[is_finite], nearest[is_finite] = self._error_search.search(
-            q[is_finite], poses[is_finite], healthy_mask[is_finite], restarts, generator
-        )
+        found = self._error_search.search(q[rows], poses[rows], healthy_mask[rows], restarts, generator)
+        least_errors[rows], nearest[rows] = found
         return least_errors, nearest
 
     def _target_poses(self, runs: Runs) -> FloatArray:
@@ -278,11 +334,9 @@ class ClosedLoopSimulator:
         """Sample run k, as :meth:`replay_run` returned it, at times (T,)."""
         q = motion(time)
         position, angle = self.compute_errors(runs, run, q)
+        errors = {"error": np.hypot(position, angle), "position_error": position, "angle_error": angle}
         locked = time[:, None] >= np.atleast_2d(runs.lock_time)[run]
-        tool_points = self.law.arm.forward_kinematics(q)[:, :3, 3]
-        return RunPath(
-            time, q, tool_points, error=np.hypot(position, angle), position_error=position, angle_error=angle, locked=locked
-        )
+        return RunPath(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], **errors, locked=locked)
 
     def compute_errors(self, runs: Runs, run: int | BoolArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k.
@@ -290,14 +344,13 @@ class ClosedLoopSimulator:
         Where k is a mask of runs, the configurations are one for each of them.
         """
         target = np.broadcast_to(self._target_poses(runs)[run], (len(q), 4, 4))
-        return split_error_norms(
-            self.law, self._error_search.compute_error_norms(q, target), self.law.arm.forward_kinematics(q), target
-        )
+        norms = self._error_search.compute_error_norms(q, target)
+        return split_error_norms(self.law, norms, self.law.arm.forward_kinematics(q), target)
 
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
         """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps and its motion, (T,) -> (T, n)."""
         history: list[tuple[FloatArray, FloatArray]] = []
-        time_scale = self._phases.time_scale
+        time_scale = self._time_scale
 
         def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
             parts = self._stepper.layout.view_parts(states)
@@ -305,21 +358,19 @@ class ClosedLoopSimulator:
                 history.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both
                 if parts["code"][0, 0] != STATE_RUNNING or parts["time"][0, 0] > end * time_scale:
                     break
-                states = self._phases.advance_step(states, parameters)
+                states = self._advance_step(states, parameters)
                 parts = self._stepper.layout.view_parts(states)
             return states, np.array([parts["code"][0, 0] != STATE_RUNNING])
 
-        run_parameters = self._phases.make_parameters(self._target_poses(runs)[run][None], runs._settings)
-        self._phases.run(
+        run_parameters = self._make_parameters(self._target_poses(runs)[run][None], runs._settings)
+        self._run_phases(
             np.atleast_2d(runs.q0)[run : run + 1], run_parameters, runs.held_from[run : run + 1], runs._settings, advance
         )
         states, parameters = (np.array(values) for values in zip(*history, strict=True))
         parts = self._stepper.layout.view_parts(states)
         if self.cycles:
-            substep_times = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS_PER_CYCLE
-            return substep_times, lambda time: np.stack(
-                [np.interp(time, substep_times, column) for column in parts["q"].T], axis=1
-            )
+            times, columns = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS_PER_CYCLE, parts["q"].T
+            return times, lambda time: np.stack([np.interp(time, times, column) for column in columns], axis=1)
 
         def interpolate(time: FloatArray) -> FloatArray:
             # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
@@ -327,7 +378,7 @@ class ClosedLoopSimulator:
             step_parameters = parameters[step_index]
             parameter_parts = self._stepper.parameters.view_parts(step_parameters)
             parameter_parts["until"][:, 0], parameter_parts["accuracy"][:] = time * time_scale, 1.0
-            return self._stepper.layout.view_parts(self._phases.advance_step(states[step_index], step_parameters))["q"]
+            return self._stepper.layout.view_parts(self._advance_step(states[step_index], step_parameters))["q"]
 
         return parts["time"][:, 0] / time_scale, interpolate
 

@@ -17,23 +17,14 @@ _SAMPLES_PER_RUN = 20_000  # of a run, about: more where its integrator took mor
 
 
 class ErrorKind(NamedTuple):
-    """One of the two errors of the end effector, and its unit for people.
+    """One of the two errors of the end effector, and its unit for people."""
 
-    Attributes:
-        name: Attribute of the results that have it, in m or rad.
-        key: Name with the unit, for files.
-        text: Name for people.
-        unit: Unit for people.
-        factor: Number of units in 1 m or 1 rad.
-        whole: Part of the target from which the error is measured.
-    """
-
-    name: Literal["position_error", "angle_error"]
-    key: str
-    text: str
-    unit: str
-    factor: float
-    whole: str
+    name: Literal["position_error", "angle_error"]  # attribute of the results that have it, in m or rad
+    key: str  # name with the unit, for files
+    text: str  # name for people
+    unit: str  # unit for people
+    factor: float  # number of units in 1 m or 1 rad
+    whole: str  # part of the target from which the error is measured
 
 
 _POSITION_KIND = ErrorKind("position_error", "position_error_m", "distance from the target", "mm", 1000.0, "the target")
@@ -46,13 +37,9 @@ def error_kinds(law: Law) -> list[ErrorKind]:
 
 
 def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> list[FloatArray]:
-    """Compute the errors of configurations (N, n) in mm and degrees: one array (N,) for each of :func:`error_kinds`.
+    """Compute the errors of configurations (N, n) with error norms (N,) for a target (4, 4), in mm and degrees.
 
-    Args:
-        law: The control law.
-        q: (N, n) rad and m.
-        error: (N,) norms over the task's rows, m and rad.
-        target: (4, 4) wanted tool pose.
+    There is one array (N,) for each of :func:`error_kinds`.
     """
     errors_by_kind = dict(zip((_POSITION_KIND, _ANGLE_KIND), position_and_angle_errors(law, q, error, target), strict=True))
     return [kind.factor * errors_by_kind[kind] for kind in error_kinds(law)]
@@ -60,39 +47,24 @@ def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArra
 
 @dataclass(frozen=True)
 class ErrorAt:
-    """The error at one time.
+    """The error at one time."""
 
-    Attributes:
-        time: s, or cycles.
-        position: m.
-        angle: rad; 0 where the task has no angular row.
-    """
-
-    time: float
-    position: float
-    angle: float
+    time: float  # s, or cycles
+    position: float  # m
+    angle: float  # rad; 0 where the task has no angular row
 
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorHistory:
-    """The errors of one run.
+    """The errors of one run."""
 
-    Attributes:
-        lock_time: Time of the first lock, s or cycles; 0 where no joint locks.
-        end: The last error.
-        least_position, least_angle: The errors where the distance, and where the angle, was least, over the whole run.
-        largest_position: The error where the distance was largest, from the first lock on.
-        largest_angle: The error where the angle was largest, from the first lock on.
-        later: The errors 1, 10, and 60 s (or cycles) after the first lock, as far as the run is known then.
-    """
-
-    lock_time: float
-    end: ErrorAt
-    least_position: ErrorAt
-    least_angle: ErrorAt
-    largest_position: ErrorAt
-    largest_angle: ErrorAt
-    later: tuple[ErrorAt, ...]
+    lock_time: float  # time of the first lock, s or cycles; 0 where no joint locks
+    end: ErrorAt  # the last error
+    least_position: ErrorAt  # the error where the distance was least, over the whole run
+    least_angle: ErrorAt  # the error where the angle was least, over the whole run
+    largest_position: ErrorAt  # the error where the distance was largest, from the first lock on
+    largest_angle: ErrorAt  # the error where the angle was largest, from the first lock on
+    later: tuple[ErrorAt, ...]  # the errors 1, 10, and 60 s (or cycles) after the first lock, as far as the run is known then
 
 
 def error_history(runs: Runs, run: int = 0) -> ErrorHistory:

@@ -33,17 +33,15 @@ def detect_periodic(
         states: (N, s) of runs that are under way.
         parameters: (N, p) of the steps.
         is_revolute: (n,) joints of which the values count modulo whole turns.
-        min_speed: rad (and m) per 1/Ke.
+        min_speed: rad (and m) per 1/Ke; a motion that falls to it may stop.
 
     Returns:
         (N,) True where the drift from period to period, over :data:`DRIFT_HORIZON` or until the run's own limit if that is
         later, stays below a hundredth of the motion's extent.
     """
     groups = [slice(first, first + _GROUP_RUNS) for first in range(0, len(states), _GROUP_RUNS)]
-    group_results = [
-        _detect_periodic_group(stepper, states[group], parameters[group], is_revolute, min_speed) for group in groups
-    ]
-    return np.concatenate([np.zeros(0, dtype=bool), *group_results])
+    results = [_detect_periodic_group(stepper, states[group], parameters[group], is_revolute, min_speed) for group in groups]
+    return np.concatenate([np.zeros(0, dtype=bool), *results])
 
 
 def _detect_periodic_group(
@@ -81,15 +79,7 @@ def _record_steps(stepper: RungeKuttaStepper, states: FloatArray, parameters: Fl
 def _measure_drift(
     stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
 ) -> float:
-    """Return the drift of a motion per 1/Ke, in units of its extent, by its first return; infinite where it does not return.
-
-    Args:
-        stepper: The compiled steps.
-        trajectory: (T, s) states of the motion, one after the other.
-        parameters: (p,) of the steps.
-        is_revolute: (n,) joints of which the values count modulo whole turns.
-        min_speed: rad (and m) per 1/Ke; a motion that falls to it may stop.
-    """
+    """Return the drift per 1/Ke of a motion with states (T, s), in units of its extent; infinite where it does not return."""
     samples = stepper.layout.view_parts(trajectory)
     if (samples["code"] != STATE_RUNNING).any():
         return np.inf
@@ -99,10 +89,8 @@ def _measure_drift(
     extent = np.maximum.accumulate(np.linalg.norm(displacement, axis=1))
     for index in (np.flatnonzero((progress[1:-1] < 0) & (progress[2:] >= 0)) + 1).tolist():
         stride = np.linalg.norm(samples["q"][index + 1] - samples["q"][index])
-        if (
-            np.linalg.norm(displacement[index]) > 2 * stride + _RETURN_TOLERANCE * extent[index]
-            or not speed[: index + 2].min() > min_speed
-        ):
+        is_near = not np.linalg.norm(displacement[index]) > 2 * stride + _RETURN_TOLERANCE * extent[index]
+        if not is_near or not speed[: index + 2].min() > min_speed:
             continue
         period, return_error = _find_return_time(stepper, trajectory[0], trajectory[index], parameters, is_revolute)
         if return_error < _RETURN_TOLERANCE * extent[index]:

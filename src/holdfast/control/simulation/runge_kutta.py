@@ -42,8 +42,8 @@ from holdfast.kernels.program import SX
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 MIN_STEP_SIZE = 1e-12  # of 1/Ke: steps this short lead nowhere
-SPEED_TOLERANCE_RATIO = 1e-4  # largest tolerance, as a fraction of the speed
-MIN_SPEED_TOLERANCE = 1e-12  # rad (and m) per 1/Ke: finest tolerance
+SPEED_TOLERANCE_RATIO = 1e-4  # 1/Ke: the tolerance is at most so much of the speed
+MIN_SPEED_TOLERANCE = 1e-12  # rad (and m): the finest such tolerance
 MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would see too little of the way
 FIRST_STEP_SIZE = 0.5  # of 1/Ke
 _STAGED_OPERATIONS = 1250  # operations of one evaluation: beyond, stages are taken one at a time
@@ -84,24 +84,13 @@ class RungeKuttaStepper:
         operations = int(system.rates_function.n_instructions())
         is_staged = operations > 4 * _STAGED_OPERATIONS
         if not is_staged:
-            is_staged = (
-                int(
-                    ca.Function(
-                        "rates",
-                        [system.q, *system.inputs.values()],
-                        [system.evaluate_state_rates(system.q).rates],
-                        {"cse": True},
-                    ).n_instructions()
-                )
-                > _STAGED_OPERATIONS
-            )
+            inputs, rates = [system.q, *system.inputs.values()], system.evaluate_state_rates(system.q).rates
+            is_staged = int(ca.Function("rates", inputs, [rates], {"cse": True}).n_instructions()) > _STAGED_OPERATIONS
         max_steps = _EVALUATIONS_PER_CALL if is_staged else _EVALUATIONS_PER_CALL // len(self.tableau.rows)
         if operations > MAX_UNROLLED_OPERATIONS:
             max_steps = 1
-        next_state = self._build_stage if is_staged else self._build_step
-        return make_state_loop(
-            f"closed loop, {self.tableau.name}", next_state, self._layouts[is_staged], self.parameters.symbols, max_steps
-        )
+        next_state, name = self._build_stage if is_staged else self._build_step, f"closed loop, {self.tableau.name}"
+        return make_state_loop(name, next_state, self._layouts[is_staged], self.parameters.symbols, max_steps)
 
     @property
     def is_staged(self) -> bool:
@@ -135,9 +124,8 @@ class RungeKuttaStepper:
             tool_speeds.append(stage_rates.tool_speed)
             speed_fractions.append(stage_rates.speed_fraction)
         end_position = parts["q"] + h * _weighted_sum(self.tableau.rows[-1], rates)
-        return self._finish_step(
-            parts, h, rates, tool_speeds, speed_fractions, end_position, self.system.evaluate_state_rates(end_position)
-        )
+        end_rates = self.system.evaluate_state_rates(end_position)
+        return self._finish_step(parts, h, rates, tool_speeds, speed_fractions, end_position, end_rates)
 
     def _build_stage(self, parts: dict[str, SX]) -> dict[str, SX]:
         """Return the parts after one evaluation; the last one finishes the step."""
@@ -247,17 +235,14 @@ class RungeKuttaStepper:
     def _update_extremes(
         self, parts: dict[str, SX], h: SX, rates: list[SX], end_position: SX, end_rates: StateRates
     ) -> tuple[SX, SX, SX]:
-        """Return the least squared error and the least and greatest joint values so far, also where a derivative changes sign.
-
-        A long step is looked at in two halves.
-        """
+        """Return the least squared error and the least and greatest joint values so far, within steps and their halves too."""
         points = [(parts["q"], parts["rates"], parts["error"], parts["slope"])]
         if self.tableau.middle:
             middle_step, middle_rates = (_weighted_sum(weights, [*rates, end_rates.rates]) for weights in self.tableau.middle)
-            error, jacobian = self.system.error_and_jacobian(parts["q"] + h * middle_step)
-            points.append(
-                (parts["q"] + h * middle_step, middle_rates, ca.sumsqr(error), -2 * ca.dot(error, jacobian @ middle_rates))
-            )
+            middle_position = parts["q"] + h * middle_step
+            error, jacobian = self.system.error_and_jacobian(middle_position)
+            error_rate = -2 * ca.dot(error, jacobian @ middle_rates)
+            points.append((middle_position, middle_rates, ca.sumsqr(error), error_rate))
         points.append((end_position, end_rates.rates, end_rates.squared_error, end_rates.squared_error_rate))
         interval = h / (len(points) - 1)
         closest, lowest, highest = parts["closest"], parts["low"], parts["high"]

@@ -114,17 +114,11 @@ class RunPath:
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Settings with which runs were made.
+    """Settings with which runs were made."""
 
-    Attributes:
-        time_limit: s, or cycles.
-        accuracy: Tolerance of a step, or radius of the target in cycles.
-        step_size: Of the fixed-step method, s.
-    """
-
-    time_limit: float
-    accuracy: float
-    step_size: float
+    time_limit: float  # s, or cycles
+    accuracy: float  # tolerance of a step, or radius of the target in cycles
+    step_size: float  # of the fixed-step method, s
 
 
 class _Simulator(Protocol):
@@ -309,14 +303,11 @@ class Runs(Result):
         if not np.isfinite([arm.lower, arm.upper]).any():
             return ""
         violations = []
-        for joint, joint_name, minimum, maximum in zip(arm.joints, arm.joint_names, lowest, highest, strict=True):
+        for joint, minimum, maximum in zip(arm.joints, lowest, highest, strict=True):
             factor, unit = joint.display_unit
-            for value, limit, is_beyond in (
-                (minimum, joint.lower, minimum < joint.lower),
-                (maximum, joint.upper, maximum > joint.upper),
-            ):
-                if is_beyond:
-                    violations.append(f"{joint_name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
+            passed = [(minimum, joint.lower)] * (minimum < joint.lower) + [(maximum, joint.upper)] * (maximum > joint.upper)
+            for value, limit in passed:
+                violations.append(f"{joint.name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
         if not violations:
             return "All joints stay within their limits."
         return f"On the way {' and '.join(violations)}: a real arm would stop there."
@@ -327,24 +318,18 @@ class Runs(Result):
             return ""
         if k is None and len(self) > 1:
             touching = len({contact.run for contact in self.contacts})
-            object_counts = Counter(contact.object for contact in self.contacts)
-            object_list = ", ".join(
-                f"{name} by {count} link{'' if count == 1 else 's'}" for name, count in object_counts.most_common(3)
-            )
-            return f"{touching} of them touch something on the way" + (
-                f" ({object_list}, all runs together)" if object_list else ""
-            )
+            counts = Counter(contact.object for contact in self.contacts).most_common(3)
+            objects = ", ".join(f"{name} by {count} link{'' if count == 1 else 's'}" for name, count in counts)
+            return f"{touching} of them touch something on the way" + (f" ({objects}, all runs together)" if objects else "")
         run_contacts = [contact for contact in self.contacts if contact.run == (k or 0)]
         if not run_contacts:
             end_time, checked_time = float(np.atleast_1d(self.time)[k or 0]), self.checked_until(k or 0)
             if checked_time < end_time:
                 return f"The arm touches nothing in the first {checked_time:g} s; its motion after them was not checked."
             return "The arm touches nothing on the way."
-        unit, is_stopped = self.unit, self.stopped is not None
         remark = "" if len(run_contacts) == 1 else f", the first of {len(run_contacts)} contacts"
-        return (
-            f"{capitalise_first(run_contacts[0].sentence(unit))}{remark}{': the run is stopped there' if is_stopped else ''}."
-        )
+        remark += "" if self.stopped is None else ": the run is stopped there"
+        return f"{capitalise_first(run_contacts[0].sentence(self.unit))}{remark}."
 
     def describe(self) -> list[str]:
         """Return the outcomes of the runs in a few sentences."""
@@ -355,10 +340,8 @@ class Runs(Result):
         ]
         passes_limit = np.atleast_2d(self.limits_passed).any(axis=1)
         if passes_limit.any():
-            converged_count = int((passes_limit & (np.atleast_1d(self.code) == RunOutcome.CONVERGED)).sum())
-            lines.append(
-                f"{int(passes_limit.sum())} of them pass a joint limit on the way, {converged_count} of these converge"
-            )
+            converging = (passes_limit & (np.atleast_1d(self.code) == RunOutcome.CONVERGED)).sum()
+            lines.append(f"{passes_limit.sum()} of them pass a joint limit on the way, {converging} of these converge")
         reasons = np.atleast_1d(self.reason)
         for reason in UNDECIDED_REASONS:
             if (reasons == reason).any():

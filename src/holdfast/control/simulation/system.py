@@ -30,21 +30,13 @@ MAX_UNROLLED_OPERATIONS = 12_000  # operations in one call, about
 
 @dataclass(frozen=True)
 class StateRates:
-    """Rates at one configuration, in units of ``1/Ke``.
+    """Rates at one configuration, in units of ``1/Ke``."""
 
-    Attributes:
-        rates: (n,) joint rates, 0 for locked joints.
-        tool_speed: Tool speed, m.
-        speed_fraction: By how much the speed limit slows the command: 1 where it does not act.
-        squared_error: Of the task's rows, m and rad.
-        squared_error_rate: Its derivative by time.
-    """
-
-    rates: SX
-    tool_speed: SX
-    speed_fraction: SX
-    squared_error: SX
-    squared_error_rate: SX
+    rates: SX  # (n,) joint rates, 0 for locked joints
+    tool_speed: SX  # tool speed, m
+    speed_fraction: SX  # by how much the speed limit slows the command: 1 where it does not act
+    squared_error: SX  # of the task's rows, m and rad
+    squared_error_rate: SX  # its derivative by time
 
 
 class FailedArmSystem:
@@ -74,18 +66,16 @@ class FailedArmSystem:
         return task_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def scaled_error_and_jacobian(self, q: SX) -> tuple[SX, SX]:
-        """Return :meth:`error_and_jacobian` with lengths in units of the arm's length, for thresholds."""
+        """Return the error and Jacobian with lengths in units of the arm's length, for thresholds."""
         return scaled_error_and_jacobian(self.law.arm, self.law.task, q, self.target, self.rotation)
 
     def compute_limited_velocity(self, error: SX) -> tuple[SX, SX]:
-        """Return the commanded task velocity (m,) in units of ``1/Ke``, and the fraction that the speed limit leaves."""
+        """Return the commanded task velocity (m,) per ``1/Ke``, and the fraction to which the speed limit reduces it."""
         velocity = self.law.command(error) / self.law.gain
         if self.law.speed_limit is None:
             return velocity, ca.SX(1)
-        squared_error = ca.sumsqr(error)
-        return velocity, ca.if_else(
-            squared_error > 0, ca.dot(velocity, error) / ca.if_else(squared_error > 0, squared_error, 1.0), 1.0
-        )
+        squared_error, is_off = ca.sumsqr(error), ca.sumsqr(error) > 0
+        return velocity, ca.if_else(is_off, ca.dot(velocity, error) / ca.if_else(is_off, squared_error, 1.0), 1.0)
 
     def compute_rates(self, q: SX, velocity: SX) -> SX:
         """Return the joint rates (n,) of the failed arm for a command v."""
@@ -97,14 +87,14 @@ class FailedArmSystem:
 
     @cached_property
     def rates_function(self) -> ca.Function:
-        """Function of q and ``inputs`` behind :meth:`evaluate_state_rates`, built once, as a law takes a second to write."""
+        """Function behind :meth:`evaluate_state_rates`, built once because a law takes a second to write down."""
         q = self.q
         error, jacobian = self.error_and_jacobian(q)
         velocity, speed_fraction = self.compute_limited_velocity(error)
         rates = self.compute_rates(q, velocity)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
-        tool_speed, squared_error_rate = self.compute_tool_speed(q, rates), -2 * ca.dot(error, jacobian @ rates)
-        outputs = [rates, tool_speed, speed_fraction, ca.sumsqr(error), squared_error_rate]
+        squared_error_rate = -2 * ca.dot(error, jacobian @ rates)
+        outputs = [rates, self.compute_tool_speed(q, rates), speed_fraction, ca.sumsqr(error), squared_error_rate]
         return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
 
     def evaluate_state_rates(self, q: SX) -> StateRates:
@@ -124,16 +114,9 @@ def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatAr
 
 
 def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Split norms of the task's error into position errors and angle errors.
+    """Split norms (N,) of the task's error into position errors (N,), m, and angle errors (N,), rad.
 
-    Args:
-        law: The control law.
-        error: (N,) norms over the task's rows, m and rad.
-        tool: (N, 4, 4) tool poses, or whatever where the task has no angular row.
-        target: (N, 4, 4) targets, likewise.
-
-    Returns:
-        (N,) m, and (N,) rad, which is 0 where the task has no angular row.
+    Where the task has no angular row, the angle errors are 0, and the tools and targets (N, 4, 4) are not used.
     """
     if not law.task.angular:
         return np.asarray(error), np.zeros(np.shape(error))
@@ -142,7 +125,7 @@ def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: Flo
 
 
 def position_and_angle_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute position (m) and angle errors (rad), (N,), at q (N, n) for a target or N; see :func:`split_error_norms`."""
+    """Compute position errors (N,), m, and angle errors (N,), rad, at q (N, n) with error norms (N,), for a target or N."""
     return split_error_norms(law, error, law.arm.forward_kinematics(q), np.broadcast_to(target, (len(q), 4, 4)))
 
 
@@ -248,18 +231,17 @@ STATE_COLLAPSED = 2
 STATE_TIME_LIMIT = 3
 STATE_PHASE_END = 4
 STATE_ARRIVED = 5
-END_WINDOW_FRACTION = 0.8  # of the time limit, from which the end of a motion is watched
-LATE_WINDOW_FRACTION = 0.9  # of the time limit, from which the second half is watched
+END_WINDOW_FRACTION = 0.8  # of the time limit: from then on the end of a motion is watched, in two halves
+LATE_WINDOW_FRACTION = 0.9
 
 
 def track_final_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, SX]:
     """Update the speeds near the end of the time limit: the least, and the greatest of the first and the second half."""
     is_in_window, is_late = clock >= END_WINDOW_FRACTION * limit, clock >= LATE_WINDOW_FRACTION * limit
+    is_early = ca.logic_and(is_in_window, ca.logic_not(is_late))
     return {
         "slowest": ca.if_else(is_in_window, elementwise_min(parts["slowest"], speed), parts["slowest"]),
-        "early": ca.if_else(
-            ca.logic_and(is_in_window, ca.logic_not(is_late)), elementwise_max(parts["early"], speed), parts["early"]
-        ),
+        "early": ca.if_else(is_early, elementwise_max(parts["early"], speed), parts["early"]),
         "late": ca.if_else(is_late, elementwise_max(parts["late"], speed), parts["late"]),
     }
 
@@ -269,15 +251,7 @@ def make_state_loop(
 ) -> Loop:
     """Return a loop that repeats a step until the state has a code; cheap steps are taken several at a time.
 
-    Args:
-        name: For messages.
-        step: From the parts of a state to those of the next; it leaves a state with a code as it is.
-        state: What the state is made of, with a part ``code``.
-        parameters: Symbols.
-        max_steps: Steps at most in one call.
-
-    Returns:
-        The loop; its ``times`` tells how many steps one of its own takes.
+    A step leaves a state with a code as it is. One call takes at most ``max_steps``; ``times`` of the loop is their number.
     """
     symbol = ca.SX.sym("state", state.size)
     next_state = state.join_parts(step(state.split_symbol(symbol)))

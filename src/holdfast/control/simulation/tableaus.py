@@ -9,21 +9,15 @@ Weights = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Tableau:
-    """A method whose last stage is the new state, so that its derivative serves the next step too.
+    """A method whose last stage is the new state, so that its derivative serves the next step too."""
 
-    Attributes:
-        name: For people.
-        rows: Row i holds the weights of the derivatives before stage i + 1; the last row is the step itself.
-        errors: Weights of the error estimates of fifth and third order that the method combines into one of seventh; none
-            for a fixed step.
-        middle: Weights of all derivatives, the last one too, for the way to the middle of a step and the derivative there.
-        longest_step: Of a step, 1/Ke: well within what is stable for the rate Ke at which the error itself shrinks.
-    """
-
-    name: str
-    rows: tuple[Weights, ...]
-    longest_step: float
+    name: str  # for people
+    rows: tuple[Weights, ...]  # row i holds the weights of the derivatives before stage i + 1; the last row is the step itself
+    longest_step: float  # of a step, 1/Ke: well within what is stable for the rate Ke at which the error itself shrinks
+    # weights of the error estimates of fifth and third order that the method combines into one of seventh; none for a fixed
+    # step
     errors: tuple[Weights, Weights] | None = None
+    # weights of all derivatives, the last one too, for the way to the middle of a step and the derivative there
     middle: tuple[Weights, Weights] | None = None
 
 

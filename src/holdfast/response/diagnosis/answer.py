@@ -57,38 +57,29 @@ class Diagnosis(Result):
         """Joints whose reference moves by less than twice their tracking bound, so that a lock could not be detected."""
         travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
         moves_too_little = ~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking)
-        return tuple(
-            name for name, is_inconclusive in zip(self.arm.joint_names, moves_too_little, strict=True) if is_inconclusive
-        )
+        return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(moves_too_little))
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
         """Joints whose reference is more than 10 % faster than in calibration, so that the bounds are not valid for them."""
         max_speeds = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
         is_too_fast = max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9
-        return tuple(name for name, is_beyond in zip(self.arm.joint_names, is_too_fast, strict=True) if is_beyond)
+        return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(is_too_fast))
 
     @cached_property
     def gaps(self) -> tuple[tuple[float, float], ...]:
         """Start and end, s, of the intervals of more than 50 ms without joint measurements, in which nothing was monitored."""
         measured_times = self.log.t[self.signals.seen]
-        times = [self.log.t[0], *measured_times, self.log.t[-1]]
-        return tuple(
-            (float(gap_start), float(gap_end))
-            for gap_start, gap_end in pairwise(times)
-            if gap_end - gap_start > MAX_BRIDGED_GAP_S + 1.5 * self.signals.dt
-        )
+        intervals = pairwise([self.log.t[0], *measured_times, self.log.t[-1]])
+        min_gap = MAX_BRIDGED_GAP_S + 1.5 * self.signals.dt
+        return tuple((float(start), float(end)) for start, end in intervals if end - start > min_gap)
 
     @property
     def unmonitored(self) -> tuple[str, ...]:
         """Signals that are not monitored, because the recording or the bounds lack them."""
-        bounds = self.bounds
-        has_bound = {"torque": bool(np.isfinite(bounds.torque).all()), "tool": bool(np.isfinite(bounds.position))}
-        return tuple(
-            _LEVEL_NAMES[name]
-            for name, is_available in has_bound.items()
-            if not is_available or name not in self.signals.levels
-        )
+        has_bound = {"torque": np.isfinite(self.bounds.torque).all(), "tool": np.isfinite(self.bounds.position)}
+        levels = self.signals.levels
+        return tuple(_LEVEL_NAMES[name] for name, is_bound in has_bound.items() if not is_bound or name not in levels)
 
     def describe(self) -> list[str]:
         """Describe the fault, or that none was detected, with the reasons and the inconclusive joints."""
@@ -96,22 +87,14 @@ class Diagnosis(Result):
         if not verdict.alarm:
             lines = [f"no fault seen in {self.log.duration:.4g} s"]
         elif verdict.kind == "contact":
-            blame_text = (
-                f", or {verdict.suspect} has a fault: it alone is above its bound"
-                if verdict.suspect
-                else "; no joint is to blame"
-            )
+            suspect_text = f", or {verdict.suspect} has a fault: it alone is above its bound"
+            blame_text = suspect_text if verdict.suspect else "; no joint is to blame"
             lines = [f"alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}"]
         else:
-            loss_text = (
-                f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
-                if verdict.kind == "weak"
-                else ""
-            )
-            lines = [
-                f"alarm at {format_seconds(verdict.time)}: {verdict.joint or 'a joint that is not known'} "
-                f"{_KIND_PHRASES[verdict.kind]}{loss_text}"
-            ]
+            phrase = f"{verdict.joint or 'a joint that is not known'} {_KIND_PHRASES[verdict.kind]}"
+            if verdict.kind == "weak":
+                phrase += f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
+            lines = [f"alarm at {format_seconds(verdict.time)}: {phrase}"]
         lines += list(verdict.evidence)
         other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
         if other_kinds:

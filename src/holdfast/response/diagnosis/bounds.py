@@ -28,8 +28,7 @@ BOUND_FACTOR = 1.5  # on the largest healthy residual
 BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
 RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
 _SECONDS_PER_HOUR = 3600.0
-# _UNSEALED_FORMAT and _SEALED_FORMAT: the first has no digest
-_UNSEALED_FORMAT = 1
+_UNSEALED_FORMAT = 1  # without a digest
 _SEALED_FORMAT = 2
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
 _MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
@@ -274,11 +273,8 @@ def calibrate(
     if not factor >= 1:
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     coulomb_friction = np.zeros(arm.n) if coulomb is None else np.broadcast_to(np.asarray(coulomb, dtype=np.float64), (arm.n,))
-    viscous_friction = (
-        np.array([joint.friction for joint in arm.joints])
-        if viscous is None
-        else np.broadcast_to(np.asarray(viscous), (arm.n,))
-    )
+    own_friction = np.array([joint.friction for joint in arm.joints])
+    viscous_friction = own_friction if viscous is None else np.broadcast_to(np.asarray(viscous), (arm.n,))
     logs = [prepare_log(arm, log) for log in logs]
     rate = logs[0].rate
     for log in logs:
@@ -303,9 +299,8 @@ def calibrate(
     without_error = np.flatnonzero(largest[1].max(axis=0) == 0)
     if without_error.size:
         raise InputError(
-            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what "
-            f"the servos "
-            "were to follow, not what the sensors told"
+            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what the "
+            "servos were to follow, not what the sensors told"
         )
     change = factor * np.array([log_signals.largest_residual("change") for log_signals in residual_signals]).max(axis=0)
     alarms: int | None = None
@@ -315,10 +310,7 @@ def calibrate(
             others = [factor * np.delete(residuals, index, axis=0).max(axis=0) for residuals in largest]
             alarms += signals.scale_by_bounds(*others).alarm is not None
     bounds = [factor * residuals.max(axis=0) for residuals in largest]
-    hours = (
-        sum(log.duration * float(log_signals.seen.mean()) for log, log_signals in zip(logs, residual_signals, strict=True))
-        / _SECONDS_PER_HOUR
-    )
+    seconds = sum(log.duration * float(signals.seen.mean()) for log, signals in zip(logs, residual_signals, strict=True))
     return Bounds(
         fingerprint=arm.fingerprint,
         joints=arm.joint_names,
@@ -333,7 +325,7 @@ def calibrate(
         scales=scales,
         factor=float(factor),
         speed=np.nanmax([np.nanmax(np.abs(np.diff(log.q_ref, axis=0) * rate), axis=0) for log in logs], axis=0),
-        hours=hours,
+        hours=seconds / _SECONDS_PER_HOUR,
         logs=len(logs),
         alarms=alarms,
     )

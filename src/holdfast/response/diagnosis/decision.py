@@ -18,13 +18,10 @@ from holdfast.response.diagnosis.kinds import SCALE, FaultClassifier, FaultVerdi
 from holdfast.response.diagnosis.observer import FRICTION_TRANSITION_RATE
 from holdfast.response.diagnosis.sensors import Sensors
 
-# ISOLATION_TIME_S and CLASSIFICATION_TIME_S: s after the alarm, s after that
-ISOLATION_TIME_S = 0.020
-CLASSIFICATION_TIME_S = 0.100
-# SENSOR_REVISION_TIME_S and POSE_MONITORING_TIME_S: s after the alarm: the tool's pose may still call it a sensor, and may name
-# that
-SENSOR_REVISION_TIME_S = 0.5
-POSE_MONITORING_TIME_S = 2.0
+ISOLATION_TIME_S = 0.020  # after the alarm
+CLASSIFICATION_TIME_S = 0.100  # after the isolation
+SENSOR_REVISION_TIME_S = 0.5  # after the alarm; until then the tool's pose may show that a sensor is faulty
+POSE_MONITORING_TIME_S = 2.0  # after the alarm; until then the tool's pose may name that sensor
 SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
 WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
 _RANK_TOLERANCE = 1e-9  # of the largest: a direction in which a force loads no joint
@@ -63,14 +60,10 @@ class AlarmDecision:
         joint_count, period = arm.n, 1 / bounds.rate
         self._arm, self._bounds, self._joint_noise = arm, bounds, sensors.joint
         self._alarm_time, self._residual_level, self._has_torques, self._has_tool = time, level, torques, tool
-        self._isolation_cycles, self._classification_cycles = (
-            count_cycles(ISOLATION_TIME_S, period),
-            count_cycles(ISOLATION_TIME_S + CLASSIFICATION_TIME_S, period),
-        )
-        self._revision_cycles, self.end_cycle = (
-            count_cycles(SENSOR_REVISION_TIME_S, period),
-            count_cycles(POSE_MONITORING_TIME_S, period),
-        )
+        self._isolation_cycles = count_cycles(ISOLATION_TIME_S, period)
+        self._classification_cycles = count_cycles(ISOLATION_TIME_S + CLASSIFICATION_TIME_S, period)
+        self._revision_cycles = count_cycles(SENSOR_REVISION_TIME_S, period)
+        self.end_cycle = count_cycles(POSE_MONITORING_TIME_S, period)
         self.count = 0
         self._residual_sizes, self._residual_sum = np.zeros(joint_count), np.zeros(joint_count)
         self.force_advantage = 0.0
@@ -100,21 +93,16 @@ class AlarmDecision:
         """
         self.count += 1
         if self.count <= self._isolation_cycles:
-            self._residual_sizes += np.nan_to_num(
-                np.maximum(scaled_torque, scaled_tracking) if self._has_torques else scaled_tracking
-            )
+            sizes = np.maximum(scaled_torque, scaled_tracking) if self._has_torques else scaled_tracking
+            self._residual_sizes += np.nan_to_num(sizes)
             self._residual_sum += signals[1]
             if self.count == self._isolation_cycles:
                 self._isolate_joint(q)
         elif self._classifier is not None and self.count <= self._classification_cycles:
             joint = self._classifier.joint
-            rate, residual, torque, gravity = (float(signal[joint]) for signal in signals)
-            self._classifier.add_cycle(
-                float(q[joint]),
-                float(reference[joint]),
-                float(np.tanh(rate / FRICTION_TRANSITION_RATE)),
-                (residual, torque, gravity),
-            )
+            rate, *torques = (float(signal[joint]) for signal in signals)
+            slip = float(np.tanh(rate / FRICTION_TRANSITION_RATE))
+            self._classifier.add_cycle(float(q[joint]), float(reference[joint]), slip, torques)
 
     def add_tool_pose(self, scaled_residual: float, residual: FloatArray, jacobian: FloatArray) -> None:
         """Add a sample of the tool's pose in the cycle that :meth:`add_cycle` was given last.
@@ -141,24 +129,16 @@ class AlarmDecision:
             self._best_joint = 0, np.inf
 
     def _isolate_joint(self, q: FloatArray) -> None:
-        """Select the joint with the largest residuals, and compare it with a force on a link as the cause of the residual
-        torques.
-        """
+        """Select the joint with the largest residuals, and compare it with a force on a link as their cause."""
         if self._has_torques:
-            self.force_advantage = _force_advantage(
-                self._arm, q, self._residual_sum / self._isolation_cycles - self._residual_level, self._residual_deviations
-            )
+            residual_change = self._residual_sum / self._isolation_cycles - self._residual_level
+            self.force_advantage = _force_advantage(self._arm, q, residual_change, self._residual_deviations)
         joint, bounds = int(self._residual_sizes.argmax()), self._bounds
-        joint_bounds, healthy_torque = (
-            (float(bounds.torque[joint]), float(bounds.tracking[joint])),
-            float(bounds.torque[joint] / bounds.factor),
-        )
-        coulomb = float(bounds.coulomb[joint])
         self._classifier = FaultClassifier(
             joint,
-            coulomb=coulomb,
-            bounds=joint_bounds,
-            largest=healthy_torque,
+            coulomb=float(bounds.coulomb[joint]),
+            bounds=(float(bounds.torque[joint]), float(bounds.tracking[joint])),
+            largest=float(bounds.torque[joint] / bounds.factor),
             noise=self._joint_noise,
             torques=self._has_torques,
         )
@@ -171,36 +151,27 @@ class AlarmDecision:
         """
         if self._sensor_suspected and (self.count >= self._isolation_cycles or last):
             return self._sensor_verdict()
-        if self.force_advantage > PUSHED and not (
-            self._classifier is not None and self._classifier.exceeds_external_force_error
-        ):
-            reason = ("a force on a link explains all rows",)
-            suspect = self._find_sole_exceeding_joint()
-            return FaultVerdict(
-                True, self._alarm_time, kind="contact", candidates=("contact",), suspect=suspect, evidence=reason
-            )
-        if self._classifier is None:
+        # The joint that alone was above its bound, on average over the cycles that isolate it.
+        above_bound = np.flatnonzero(self._residual_sizes > self._isolation_cycles)
+        suspect = self._arm.joint_names[above_bound[0]] if above_bound.size == 1 else None
+        classifier = self._classifier
+        if self.force_advantage > PUSHED and not (classifier is not None and classifier.exceeds_external_force_error):
+            contact: dict[str, Any] = {"kind": "contact", "candidates": ("contact",)}
+            contact["evidence"] = ("a force on a link explains all rows",)
+            return FaultVerdict(True, self._alarm_time, suspect=suspect, **contact)
+        if classifier is None:
             largest = self._arm.joint_names[int(self._residual_sizes.argmax())]
             return FaultVerdict(True, self._alarm_time, joint=largest if last and self.count else None)
-        joint = self._arm.joints[self._classifier.joint]
+        joint = self._arm.joints[classifier.joint]
         if self.count < self._classification_cycles and not last:
             return FaultVerdict(True, self._alarm_time, joint=joint.name)
         mean_sizes = self._residual_sizes / self._isolation_cycles
-        next_largest = np.delete(mean_sizes, self._classifier.joint).max(initial=0.0)
-        reason = (
-            f"its residuals are {mean_sizes[self._classifier.joint]:.3g} times their bounds, those of the next joint "
-            f"{next_largest:.3g}",
-        )
-        classification: dict[str, Any] = self._classifier.classify(joint.unit, () if self._has_tool else ("sensor",))
-        classification["evidence"] = reason + classification["evidence"]
-        if classification["kind"] == "contact":
-            return FaultVerdict(True, self._alarm_time, suspect=self._find_sole_exceeding_joint(), **classification)
-        return FaultVerdict(True, self._alarm_time, joint=joint.name, **classification)
-
-    def _find_sole_exceeding_joint(self) -> str | None:
-        """Return the joint that alone was above its bound, on average over the cycles that isolate it."""
-        above_bound = np.flatnonzero(self._residual_sizes > self._isolation_cycles)
-        return self._arm.joint_names[above_bound[0]] if above_bound.size == 1 else None
+        size, next_largest = mean_sizes[classifier.joint], np.delete(mean_sizes, classifier.joint).max(initial=0.0)
+        reason = f"its residuals are {size:.3g} times their bounds, those of the next joint {next_largest:.3g}"
+        classification: dict[str, Any] = classifier.classify(joint.unit, () if self._has_tool else ("sensor",))
+        classification["evidence"] = (reason, *classification["evidence"])
+        culprit: dict[str, Any] = {"suspect": suspect} if classification["kind"] == "contact" else {"joint": joint.name}
+        return FaultVerdict(True, self._alarm_time, **culprit, **classification)
 
     def _sensor_verdict(self) -> FaultVerdict:
         """Return the verdict on the joint whose sensor would explain the tool's pose."""
@@ -220,11 +191,7 @@ class AlarmDecision:
 def _force_advantage(arm: Arm, q: FloatArray, residual_change: FloatArray, scale: FloatArray) -> float:
     """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
 
-    Args:
-        arm: The arm.
-        q: (n,) where it is, rad and m.
-        residual_change: (n,) N m and N.
-        scale: (n,) its deviations.
+    The arm is at q (n,), the residual torques (n,) have changed by so much, and ``scale`` (n,) are their deviations, N m and N.
     """
     ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), residual_change / scale
     smallest_error = np.inf

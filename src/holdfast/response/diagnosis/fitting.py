@@ -19,10 +19,8 @@ from holdfast.response.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_t
 from holdfast.response.faults.log import Log
 
 _MASS_PRIOR_DEVIATION = 0.1  # prior deviation of the scale of a link's mass
-# _FRICTION_PRIOR_DEVIATION and _FIXED_FRICTION_DEVIATION: N m (N), N m s/rad (N s/m): prior deviations, and that of what is
-# kept
-_FRICTION_PRIOR_DEVIATION = 1.0
-_FIXED_FRICTION_DEVIATION = 1e-4
+_FRICTION_PRIOR_DEVIATION = 1.0  # prior deviation, N m (N) and N m s/rad (N s/m)
+_FIXED_FRICTION_DEVIATION = 1e-4  # of friction that is kept
 _SCALE_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
 
 
@@ -48,10 +46,7 @@ def fit_masses_and_friction(
     Source: derived here.
     """
     joint_count, symbols = arm.n, (joint_symbols(arm), ca.SX.sym("v", arm.n))
-    arms = [
-        arm,
-        *(scale_masses(arm, np.where(np.arange(joint_count) == index, 1 + _SCALE_STEP, 1.0)) for index in range(joint_count)),
-    ]
+    arms = [arm, *(scale_masses(arm, 1 + _SCALE_STEP * row) for row in np.eye(joint_count))]
     # On CasADi's machine: they are called a few times, and never again.
     nominal, *heavier = (
         Kernel("momentum", symbols, [ca.densify(term) for term in momentum_terms(scaled_arm, *symbols)], backend="casadi")
@@ -75,15 +70,9 @@ def fit_masses_and_friction(
         for index in range(joint_count):
             columns[:, :, index] = (residual(heavier[index], coulomb, viscous) - nominal_residual) / _SCALE_STEP
         # Friction of a joint is on its own row alone.
-        dry_friction, viscous_friction = (
-            residual(nominal, coulomb + 1, viscous) - nominal_residual,
-            residual(nominal, coulomb, viscous + 1) - nominal_residual,
-        )
-        for index in range(joint_count):
-            columns[:, index, joint_count + index], columns[:, index, 2 * joint_count + index] = (
-                dry_friction[:, index],
-                viscous_friction[:, index],
-            )
+        joints = np.arange(joint_count)
+        columns[:, joints, joint_count + joints] = residual(nominal, coulomb + 1, viscous) - nominal_residual
+        columns[:, joints, 2 * joint_count + joints] = residual(nominal, coulomb, viscous + 1) - nominal_residual
         rows = (columns / deviation[:, None]).reshape(-1, 3 * joint_count)
         normal += rows.T @ rows
         right_side -= rows.T @ (nominal_residual / deviation).ravel()

@@ -32,11 +32,7 @@ def count_cycles(seconds: float, dt: float) -> int:
 
 
 def complete_row_mask(log: Log) -> NDArray[np.bool_]:
-    """Return the mask (T,) of the rows in which all joint signals have numbers.
-
-    Raises:
-        InputError: There are none.
-    """
+    """Return the mask (T,) of the rows in which all joint signals have numbers, or raise an error if there are none."""
     parts = [part for part in (log.q, log.q_ref, log.tau) if part is not None]
     is_complete = np.all([np.isfinite(part).all(axis=1) for part in parts], axis=0)
     if not is_complete.any():

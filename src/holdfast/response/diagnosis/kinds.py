@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
 
-# STILL, PART and NOISE_FACTOR: rad or m; of the reference's travel; deviations of the sensor
-STILL = 2e-3
-PART = 0.15
-NOISE_FACTOR = 12.0
+STILL = 2e-3  # rad or m
+PART = 0.15  # of the reference's travel
+NOISE_FACTOR = 12.0  # deviations of the sensor
 ALL = 0.93  # losses: of the whole motor
 FRICTION_LOSS_RANGE = (0.8, 1.2)  # that friction may hide
 MORE = 1.1  # of a motor's torque: no fault of its own takes so much
@@ -76,7 +76,7 @@ class FaultClassifier:
         self._max_requested_torque, self._min_gravity_torque = 0.0, np.inf
         self._rr = self._rt = self._rs = self._tt = self._ts = self._ss = 0.0
 
-    def add_cycle(self, q: float, reference: float, slip: float, torques: tuple[float, float, float]) -> None:
+    def add_cycle(self, q: float, reference: float, slip: float, torques: Sequence[float]) -> None:
         """Add the signals of one cycle.
 
         Args:
@@ -89,17 +89,11 @@ class FaultClassifier:
         self._cycle_count, self._tracking_error = self._cycle_count + 1, abs(reference - q)
         self._q_range = [min(self._q_range[0], q), max(self._q_range[1], q)]
         self._reference_range = [min(self._reference_range[0], reference), max(self._reference_range[1], reference)]
-        self._max_requested_torque, self._min_gravity_torque = (
-            max(self._max_requested_torque, abs(torque - gravity)),
-            min(self._min_gravity_torque, abs(gravity)),
-        )
+        self._max_requested_torque = max(self._max_requested_torque, abs(torque - gravity))
+        self._min_gravity_torque = min(self._min_gravity_torque, abs(gravity))
         self._rr, self._rt, self._rs = self._rr + residual * residual, self._rt + residual * torque, self._rs + residual * slip
-        self._tt, self._ss, self._torque_sum = (
-            self._tt + torque * torque,
-            self._ss + slip * slip,
-            self._torque_sum + abs(torque),
-        )
-        self._ts += torque * slip
+        self._tt, self._ts, self._ss = self._tt + torque * torque, self._ts + torque * slip, self._ss + slip * slip
+        self._torque_sum += abs(torque)
 
     @property
     def exceeds_external_force_error(self) -> bool:
@@ -123,22 +117,19 @@ class FaultClassifier:
         def make_answer(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
             if np.isnan(loss):
                 return {"kind": kind, "candidates": candidates, "evidence": tuple(evidence)}
-            uncertainty = (
-                self._healthy_residual * self._torque_sum / self._tt
-            )  # of -sum r tau / sum tau^2, where r is off by no more than `largest`
+            # Of -sum r tau / sum tau^2, where r is off by no more than `largest`.
+            uncertainty = self._healthy_residual * self._torque_sum / self._tt
             loss_text = f"its motor lost {loss:.0%} of its torque, which may be off by {uncertainty:.0%}"
-            return {
-                "kind": kind,
+            return make_answer(kind, candidates) | {
                 "loss": loss,
                 "uncertainty": uncertainty,
-                "candidates": candidates,
                 "evidence": (*evidence, loss_text),
             }
 
         if not self._has_torques:
-            return make_answer(
-                *(("locked", ("locked", "standstill", *candidates_without_pose)) if is_still else ("unknown", ()))
-            )
+            if is_still:
+                return make_answer("locked", ("locked", "standstill", *candidates_without_pose))
+            return make_answer("unknown", ())
         loss = float(np.clip(-self._rt / self._tt, 0.0, 1.3)) if self._tt > 0 else np.nan
         drag = max(0.0, -self._rs / max(self._ss, 1e-12))
         loss_error = self._rr + 2 * loss * self._rt + loss**2 * self._tt

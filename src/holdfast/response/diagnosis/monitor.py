@@ -72,13 +72,10 @@ class Monitor:
         bounds.require(arm, bounds.rate)
         self.arm, self.bounds, self.sensors = arm, bounds, sensors or Sensors()
         self._period = 1 / bounds.rate
-        self._latency_cycles, self._max_gap_cycles = (
-            round(self.sensors.latency * bounds.rate),
-            count_cycles(MAX_BRIDGED_GAP_S, 1 / bounds.rate),
-        )
-        self._decision_cycles = (
-            count_cycles(ISOLATION_TIME_S, self._period),
-            count_cycles(ISOLATION_TIME_S + CLASSIFICATION_TIME_S, self._period),
+        self._latency_cycles = round(self.sensors.latency * bounds.rate)
+        self._max_gap_cycles, *self._decision_cycles = (
+            count_cycles(seconds, self._period)
+            for seconds in (MAX_BRIDGED_GAP_S, ISOLATION_TIME_S, ISOLATION_TIME_S + CLASSIFICATION_TIME_S)
         )
         self._momentum_kernel = momentum_kernel(bounds.body(arm)).single_row() if np.isfinite(bounds.torque).all() else None
         self.reset()
@@ -151,12 +148,8 @@ class Monitor:
         ) = self._residual_level = np.zeros(self.arm.n)
         self._last_q: FloatArray | None = None
         self._skipped_torque_sum = np.zeros(self.arm.n)  #  torques of cycles that were passed over
-        self._skipped_cycles, self._skipped_with_torque, self._settling_cycles, self._past_positions = (
-            0,
-            0,
-            0,
-            np.full((self._latency_cycles + 1, self.arm.n), np.nan),
-        )
+        self._skipped_cycles = self._skipped_with_torque = self._settling_cycles = 0
+        self._past_positions = np.full((self._latency_cycles + 1, self.arm.n), np.nan)
         self._last_reference: FloatArray | None = None
         self._pose_residuals = np.zeros((SMOOTHING_SAMPLES, 6))
         self._is_monitored = np.ones(self.arm.n, dtype=bool)
@@ -210,50 +203,33 @@ class Monitor:
         ):
             self._skipped_cycles += 1
             if commanded_torque is not None and np.isfinite(commanded_torque).all():
-                self._skipped_torque_sum, self._skipped_with_torque = (
-                    self._skipped_torque_sum + commanded_torque,
-                    self._skipped_with_torque + 1,
-                )
+                self._skipped_torque_sum = self._skipped_torque_sum + commanded_torque
+                self._skipped_with_torque += 1
             return self.verdict
         elapsed = (self._skipped_cycles + 1) * self._period  # longer after cycles that were passed over
         self._bridge_skipped_cycles(position, commanded_torque)
         self._update_observer(position, commanded_torque)
         scaled_torque = np.where(self._is_monitored, np.abs(self._residual) / self.bounds.torque, 0.0)
-        scaled_tracking = np.where(
-            self._is_monitored,
-            self._scaled_tracking(reference_position, position, elapsed, alone=commanded_torque is None),
-            0.0,
-        )
+        tracking = self._scaled_tracking(reference_position, position, elapsed, alone=commanded_torque is None)
+        scaled_tracking = np.where(self._is_monitored, tracking, 0.0)
         self._torque_excess = np.maximum(0.0, self._torque_excess + (scaled_torque - 1) * self._period)
         self._tracking_excess = np.maximum(0.0, self._tracking_excess + np.nan_to_num(scaled_tracking - 1) * self._period)
         past_position = self._past_positions[(self._cycle_count + 1) % len(self._past_positions)]
         pose_sample = None if pose is None else self._add_pose_sample(past_position, np.asarray(pose, dtype=np.float64))
         if self._alarm_decision is None:
             if (scaled_torque < UNSURE).all():
-                self._residual_level = self._residual_level + min(1.0, LEVEL_BANDWIDTH_RAD_S * self._period) * (
-                    self._residual - self._residual_level
-                )
-            excess_times = {
-                "torque": self._torque_excess.max(),
-                "tracking": self._tracking_excess.max(),
-                "tool": self._tool_excess,
-            }
+                self._residual_level = self._filter(self._residual_level, self._residual, LEVEL_BANDWIDTH_RAD_S)
+            largest_excess = self._torque_excess.max(), self._tracking_excess.max(), self._tool_excess
+            excess_times = dict(zip(("torque", "tracking", "tool"), largest_excess, strict=True))
             alarmed = tuple(name for name in excess_times if excess_times[name] > EXCESS_LIMITS_S[name])
             if alarmed:
                 time = (self._cycle_count - 1) * self._period
                 levels = ("tracking", *["torque"] * (commanded_torque is not None), *["tool"] * (self._pose_count > 0))
-                self._alarm_decision, self.verdict = (
-                    self._start_decision(time, levels, alarmed, self._residual_level),
-                    FaultVerdict(True, time),
-                )
+                self._alarm_decision = self._start_decision(time, levels, alarmed, self._residual_level)
+                self.verdict = FaultVerdict(True, time)
         if self._alarm_decision is not None and self._alarm_decision.count < self._alarm_decision.end_cycle:
-            self._alarm_decision.add_cycle(
-                position,
-                reference_position,
-                (self._filtered_rates, self._residual, self._twice_filtered_torque, self._gravity_torque),
-                scaled_torque,
-                scaled_tracking,
-            )
+            signals = self._filtered_rates, self._residual, self._twice_filtered_torque, self._gravity_torque
+            self._alarm_decision.add_cycle(position, reference_position, signals, scaled_torque, scaled_tracking)
             if pose_sample is not None:
                 self._alarm_decision.add_tool_pose(*pose_sample, self.arm.jacobian(past_position))
             if pose_sample is not None or self._alarm_decision.count in self._decision_cycles:
@@ -303,48 +279,36 @@ class Monitor:
         residual = tool_residual(self.arm, q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
         self._pose_residuals[self._pose_count % SMOOTHING_SAMPLES] = residual
         mean_residual = self._pose_residuals[: self._pose_count + 1].sum(axis=0) / min(self._pose_count + 1, SMOOTHING_SAMPLES)
-        bounds = self.bounds
-        scaled_residual = max(
-            float(np.linalg.norm(mean_residual[:3])) / bounds.position, float(np.linalg.norm(mean_residual[3:])) / bounds.angle
-        )
-        if self._pose_count:
-            cycles_since = min(
-                self._cycle_count - self._last_pose_cycle, self._max_gap_cycles
-            )  # of a long silence one sample proves nothing
+        position_error, angle_error = (float(np.linalg.norm(part)) for part in (mean_residual[:3], mean_residual[3:]))
+        scaled_residual = max(position_error / self.bounds.position, angle_error / self.bounds.angle)
+        if self._pose_count:  # of a long silence one sample proves nothing
+            cycles_since = min(self._cycle_count - self._last_pose_cycle, self._max_gap_cycles)
             self._tool_excess = max(0.0, self._tool_excess + (scaled_residual - 1) * cycles_since * self._period)
         self._pose_count, self._last_pose_cycle = self._pose_count + 1, self._cycle_count
         return scaled_residual, residual
 
     def _update_observer(self, q: FloatArray, tau: FloatArray | None) -> None:
-        joint_count, period = self.arm.n, self._period
-        is_settling = self._last_q is None or self._settling_cycles > 0
+        period, is_settling = self._period, self._last_q is None or self._settling_cycles > 0
         if self._last_q is not None:  # the arm moves when it is seen again: its first rate is not filtered
-            self._filtered_rates = self._filtered_rates + (
-                1.0 if self._settling_cycles > self._max_gap_cycles else min(1.0, FILTER_BANDWIDTH_RAD_S * period)
-            ) * ((q - self._last_q) / period - self._filtered_rates)
+            bandwidth = np.inf if self._settling_cycles > self._max_gap_cycles else FILTER_BANDWIDTH_RAD_S
+            self._filtered_rates = self._filter(self._filtered_rates, (q - self._last_q) / period, bandwidth)
             self._settling_cycles = max(0, self._settling_cycles - 1)
         elif tau is not None:
             self._filtered_torque = self._twice_filtered_torque = tau
         self._last_q = q
         if tau is None or self._momentum_kernel is None:
             return
-        self._filtered_torque = self._filtered_torque + min(1.0, FILTER_BANDWIDTH_RAD_S * period) * (
-            tau - self._filtered_torque
-        )
-        self._twice_filtered_torque = self._twice_filtered_torque + min(1.0, OBSERVER_GAIN_PER_S * period) * (
-            self._filtered_torque - self._twice_filtered_torque
-        )
-        momentum, energy, self._gravity_torque = self._momentum_kernel(np.concatenate((q, self._filtered_rates))).reshape(
-            3, joint_count
-        )
+        self._filtered_torque = self._filter(self._filtered_torque, tau, FILTER_BANDWIDTH_RAD_S)
+        self._twice_filtered_torque = self._filter(self._twice_filtered_torque, self._filtered_torque, OBSERVER_GAIN_PER_S)
+        terms = self._momentum_kernel(np.concatenate((q, self._filtered_rates)))
+        momentum, energy, self._gravity_torque = terms.reshape(3, self.arm.n)
         if not is_settling:
-            known_torque = (
-                self._filtered_torque
-                + energy
-                - self._gravity_torque
-                - friction_torque(self._filtered_rates, self.bounds.coulomb, self.bounds.viscous)
-            )
-            self._residual = (1 - OBSERVER_GAIN_PER_S * period) * self._residual + OBSERVER_GAIN_PER_S * (
-                momentum - self._last_momentum - period * known_torque
-            )
+            friction = friction_torque(self._filtered_rates, self.bounds.coulomb, self.bounds.viscous)
+            known_torque = self._filtered_torque + energy - self._gravity_torque - friction
+            unexplained = momentum - self._last_momentum - period * known_torque
+            self._residual = (1 - OBSERVER_GAIN_PER_S * period) * self._residual + OBSERVER_GAIN_PER_S * unexplained
         self._last_momentum = momentum
+
+    def _filter(self, value: FloatArray, target: FloatArray, bandwidth: float) -> FloatArray:
+        """Return a filtered value one cycle later, which approaches its target with a bandwidth in rad/s."""
+        return value + min(1.0, bandwidth * self._period) * (target - value)

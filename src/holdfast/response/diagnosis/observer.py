@@ -59,9 +59,7 @@ def low_pass(signal: FloatArray, dt: float, band: float, initial: FloatArray) ->
 
 
 def slow_residual_component(residual: FloatArray, dt: float) -> FloatArray:
-    """Return the slowly varying levels (T, n) of residuals (T, n), from 0 on, which errors of the masses cause, unlike faults
-    and external forces.
-    """
+    """Return the slowly varying levels (T, n) of residuals (T, n), from 0 on, which errors of the masses cause."""
     return low_pass(residual, dt, LEVEL_BANDWIDTH_RAD_S, np.zeros(residual.shape[1]))
 
 
@@ -94,16 +92,11 @@ def observe_residuals(
 
     rates, torque = filtered_rates(q, dt, moving=settling > 1), low_pass(tau, dt, FILTER_BANDWIDTH_RAD_S, tau[0])
     momentum, energy, gravity = kernel(q, rates)
-    input_change = np.diff(momentum, axis=0, prepend=momentum[:1]) - dt * (
-        torque + energy - gravity - friction_torque(rates, coulomb, viscous)
-    )
+    known_torque = torque + energy - gravity - friction_torque(rates, coulomb, viscous)
+    input_change = np.diff(momentum, axis=0, prepend=momentum[:1]) - dt * known_torque
     input_change[:settling] = 0.0  # it begins with r = 0
-    return (
-        np.asarray(lfilter([OBSERVER_GAIN_PER_S], [1, OBSERVER_GAIN_PER_S * dt - 1], input_change, axis=0)),
-        rates,
-        gravity,
-        low_pass(torque, dt, OBSERVER_GAIN_PER_S, tau[0]),
-    )
+    residual = np.asarray(lfilter([OBSERVER_GAIN_PER_S], [1, OBSERVER_GAIN_PER_S * dt - 1], input_change, axis=0))
+    return residual, rates, gravity, low_pass(torque, dt, OBSERVER_GAIN_PER_S, tau[0])
 
 
 def accumulate_excess(scaled: FloatArray, dt: float | FloatArray) -> FloatArray:

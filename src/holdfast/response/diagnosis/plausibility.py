@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis.signals import compute_signals
 from holdfast.response.faults.log import Log
@@ -29,8 +30,7 @@ _RATIO_CORRELATION = 0.98
 _FOLLOWING_CORRELATION = 0.9  # least correlation of a joint with its own reference
 _SWAPPED_JOINT_CORRELATION = 0.99  # correlation with another joint's reference that names a swapped order
 _TORQUE_CORRELATION = 0.97
-# _MIN_TORQUE_SCALE and _MAX_TORQUE_SCALE: of a recorded torque to that of the model
-_MIN_TORQUE_SCALE = 0.25
+_MIN_TORQUE_SCALE = 0.25  # of a recorded torque to that of the model
 _MAX_TORQUE_SCALE = 4.0
 _MIN_LOAD_FRACTION = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
 _MIN_GRAVITY_FRACTION = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
@@ -74,17 +74,11 @@ def require_reference_tracking(arm: Arm, logs: Sequence[Log]) -> None:
         for joint in moving:
             name, measured = arm.joint_names[joint], log.q[:, joint]
             if _fit_slope_and_correlation(log.q_ref[:, joint], measured)[1] < _FOLLOWING_CORRELATION:
-                others = [
-                    other_joint
-                    for other_joint in moving
-                    if other_joint != joint
-                    and _fit_slope_and_correlation(log.q_ref[:, other_joint], measured)[1] > _SWAPPED_JOINT_CORRELATION
-                ]
-                advice = (
-                    f"it follows that of '{arm.joint_names[others[0]]}', so give the joints in the arm's order"
-                    if others
-                    else "give records of healthy motion"
-                )
+                advice = "give records of healthy motion"
+                for other in moving[::-1]:
+                    correlation = _fit_slope_and_correlation(log.q_ref[:, other], measured)[1]
+                    if other != joint and correlation > _SWAPPED_JOINT_CORRELATION:
+                        advice = f"it follows that of '{arm.joint_names[other]}', so give the joints in the arm's order"
                 raise InputError(f"q of '{name}' does not follow its q_ref; {advice}")
         if log.tau is not None and moving and not np.nan_to_num(np.nanmax(log.tau, axis=0) - np.nanmin(log.tau, axis=0)).any():
             raise InputError("tau never changes while joints move; leave tau out if it was not recorded")
@@ -98,15 +92,13 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     Raises:
         InputError: The message names the joints and the probable cause.
     """
-    torque_pairs: list[tuple[FloatArray, FloatArray]] = []
-    checked_s = 0.0
+    torque_pairs: list[list[FloatArray]] = []
+    checked_s, friction = 0.0, {"coulomb": coulomb, "viscous": viscous}
     for log in logs:
         if log.tau is not None and checked_s < _CHECKED_S:
-            signal_pair = [
-                compute_signals(arm, replace(log, tau=tau), coulomb=coulomb, viscous=viscous)
-                for tau in (log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan))
-            ]
-            torque_pairs.append((signal_pair[0].torque[signal_pair[0].seen], signal_pair[1].torque[signal_pair[1].seen]))
+            torques = log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan)
+            signal_pair = [compute_signals(arm, replace(log, tau=tau), **friction) for tau in torques]
+            torque_pairs.append([signals.torque[signals.seen] for signals in signal_pair])
             checked_s += log.duration
     if not torque_pairs:
         return
@@ -114,17 +106,15 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     recorded = model - residual
     recorded_square, model_square, product = (recorded**2).sum(0), (model**2).sum(0), (recorded * model).sum(0)
     gravity = _largest_gravity_torques(arm)
-    significant = (model_square > len(model) * (_MIN_LOAD_FRACTION * gravity) ** 2) & (
-        gravity > _MIN_GRAVITY_FRACTION * gravity.max()
-    )
+    significant = gravity > _MIN_GRAVITY_FRACTION * gravity.max()
+    significant &= model_square > len(model) * (_MIN_LOAD_FRACTION * gravity) ** 2
     correlation = product / np.sqrt(np.maximum(recorded_square * model_square, np.finfo(np.float64).tiny))
     scale = product / np.maximum(model_square, np.finfo(np.float64).tiny)
     reversed_joints = significant & (correlation < -_TORQUE_CORRELATION)
     if reversed_joints.any():
         raise InputError(
-            f"tau of {_quote_names(arm, reversed_joints)} has the opposite sign of the torque that the arm's model "
-            f"needs; give the "
-            "motors' torques on the joints, positive in the direction of the joint"
+            f"tau of {_quote_names(arm, reversed_joints)} has the opposite sign of the torque that the arm's model needs; give "
+            "the motors' torques on the joints, positive in the direction of the joint"
         )
     order = _find_torque_column_order(recorded, model)
     if order is not None and significant.any():
@@ -136,9 +126,8 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
     if is_unlike.any():
         first_unlike = int(np.flatnonzero(is_unlike)[0])
         raise InputError(
-            f"tau of {_quote_names(arm, is_unlike)} is {scale[first_unlike]:.3g} times the torque that the arm's model "
-            f"needs; give torques of the "
-            "joints in N m and N, not currents, motor torques or mN m"
+            f"tau of {_quote_names(arm, is_unlike)} is {scale[first_unlike]:.3g} times the torque that the arm's model needs; "
+            "give torques of the joints in N m and N, not currents, motor torques or mN m"
         )
     unexplained = (recorded_square + model_square - 2 * product)[significant].sum()
     if unexplained > _UNEXPLAINED_FRACTION * recorded_square[significant].sum() and significant.any():
@@ -150,17 +139,12 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
 
 def _largest_gravity_torques(arm: Arm) -> FloatArray:
     """Return the largest gravity torque (n,) of each joint at random configurations, N m and N."""
-    default_bound = np.where(arm.prismatic, 1.0, np.pi)
-    lower, upper = (
-        np.where(np.isfinite(arm.lower), arm.lower, -default_bound),
-        np.where(np.isfinite(arm.upper), arm.upper, default_bound),
-    )
-    q = np.random.default_rng(0).uniform(lower, upper, (_CONFIGURATION_COUNT, arm.n))
+    q = np.random.default_rng(0).uniform(*sampling_limits(arm), (_CONFIGURATION_COUNT, arm.n))
     return np.asarray(np.abs(arm.gravity_torque(q)).max(axis=0))
 
 
 def _quote_names(arm: Arm, chosen: NDArray[np.bool_]) -> str:
-    return ", ".join(f"'{name}'" for name, is_chosen in zip(arm.joint_names, chosen, strict=True) if is_chosen)
+    return ", ".join(f"'{arm.joint_names[joint]}'" for joint in np.flatnonzero(chosen))
 
 
 def _find_torque_column_order(recorded: FloatArray, model: FloatArray) -> list[int] | None:
@@ -179,31 +163,22 @@ def _fit_slope_and_correlation(reference: FloatArray, measured: FloatArray) -> t
     is_measured = np.isfinite(reference) & np.isfinite(measured)
     if is_measured.sum() < 2 or np.ptp(reference[is_measured]) <= _MIN_TRAVEL or np.ptp(measured[is_measured]) == 0:
         return 0.0, 0.0
-    centered_reference, centered_measured = (
-        values[is_measured] - values[is_measured].mean() for values in (reference, measured)
-    )
-    return float(centered_reference @ centered_measured / (centered_reference @ centered_reference)), float(
-        centered_reference
-        @ centered_measured
-        / np.sqrt((centered_reference @ centered_reference) * (centered_measured @ centered_measured))
-    )
+    x, y = (values[is_measured] - values[is_measured].mean() for values in (reference, measured))
+    return float(x @ y / (x @ x)), float(x @ y / np.sqrt((x @ x) * (y @ y)))
 
 
 def _unwrap_angles(arm: Arm, log: Log) -> Log:
     """Return the log with unwrapped angles, ``q_ref`` within the limits, and ``q`` on the same turn as ``q_ref``."""
     references, positions = log.q_ref.copy(), log.q.copy()
     for joint in np.flatnonzero(~arm.prismatic).tolist():
-        for column in (references[:, joint], positions[:, joint]):
-            measured_rows = np.flatnonzero(np.isfinite(column))
-            column[measured_rows] -= _FULL_TURN_RAD * np.cumsum(
-                _full_turns(np.diff(column[measured_rows], prepend=column[measured_rows[:1]]))
-            )
-        references[:, joint] += _FULL_TURN_RAD * _turns_to_limits(arm, joint, references[:, joint])
-        first_common = np.flatnonzero(np.isfinite(references[:, joint]) & np.isfinite(positions[:, joint]))[:1]
+        reference, position = references[:, joint], positions[:, joint]
+        for column in (reference, position):
+            rows = np.flatnonzero(np.isfinite(column))
+            column[rows] -= _FULL_TURN_RAD * np.cumsum(_full_turns(np.diff(column[rows], prepend=column[rows[:1]])))
+        reference += _FULL_TURN_RAD * _turns_to_limits(arm, joint, reference)
+        first_common = np.flatnonzero(np.isfinite(reference) & np.isfinite(position))[:1]
         if first_common.size:
-            positions[:, joint] -= (
-                _FULL_TURN_RAD * _full_turns(positions[first_common, joint] - references[first_common, joint])[0]
-            )
+            position -= _FULL_TURN_RAD * _full_turns(position[first_common] - reference[first_common])[0]
     is_unchanged = np.array_equal(references, log.q_ref, equal_nan=True) and np.array_equal(positions, log.q, equal_nan=True)
     return log if is_unchanged else replace(log, q_ref=references, q=positions)
 
@@ -211,14 +186,11 @@ def _unwrap_angles(arm: Arm, log: Log) -> Log:
 def _turns_to_limits(arm: Arm, joint: int, angles: FloatArray) -> int:
     """Return the full turns that bring angles within the limits of a joint; 0 if none does or they are there already."""
     lowest, highest = np.fmin.reduce(angles), np.fmax.reduce(angles)
-    return next(
-        (
-            turns
-            for turns in (0, 1, -1)
-            if arm.lower[joint] <= lowest + turns * _FULL_TURN_RAD and highest + turns * _FULL_TURN_RAD <= arm.upper[joint]
-        ),
-        0,
-    )
+    for turns in (0, 1, -1):
+        shift = turns * _FULL_TURN_RAD
+        if arm.lower[joint] <= lowest + shift and highest + shift <= arm.upper[joint]:
+            return turns
+    return 0
 
 
 def _full_turns(steps: FloatArray) -> FloatArray:

@@ -25,55 +25,34 @@ from holdfast.response.faults.log import Log
 
 EXCESS_LIMITS_S = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
 SMOOTHING_SAMPLES = 5  # samples of the tool's pose
-# MAX_SLOW_RATE and CALM_TIME_S: rad/s or m/s, s: with joint sensors alone, tracking counts while all references were so slow
-# for so long
-MAX_SLOW_RATE = 0.6
-CALM_TIME_S = 0.1
+MAX_SLOW_RATE = 0.6  # rad/s or m/s; with joint sensors alone, tracking counts while all references are so slow
+CALM_TIME_S = 0.1  # for which they have been slow
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ScaledResiduals:
-    """Residuals in units of their bounds, and their accumulated excess in seconds.
+    """Residuals in units of their bounds, and their accumulated excess in seconds."""
 
-    Attributes:
-        torque, tracking: (T, n).
-        tool: (T,) NaN where the pose is not measured.
-        excess: By level, seconds.
-        alarm: Row of the first alarm, and the levels that alarm there; None if there is none.
-    """
-
-    torque: FloatArray
-    tracking: FloatArray
-    tool: FloatArray
-    excess: dict[str, FloatArray]
-    alarm: tuple[int, tuple[str, ...]] | None
+    torque: FloatArray  # (T, n)
+    tracking: FloatArray  # (T, n)
+    tool: FloatArray  # (T,) NaN where the pose is not measured
+    excess: dict[str, FloatArray]  # by level, seconds
+    alarm: tuple[int, tuple[str, ...]] | None  # row of the first alarm, and the levels that alarm there; None if there is none
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Signals:
-    """Residuals of a recording, T samples of n joints.
+    """Residuals of a recording, T samples of n joints."""
 
-    Attributes:
-        dt: s.
-        seen: (T,) whether the joints told all of their numbers; where not, what follows has NaN.
-        torque: (T, n) residual torque r, N m and N; 0 without torques.
-        tracking: (T, n) distance from the reference, rad and m; without torques NaN in motion that is not slow.
-        tool: (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples.
-        v: (T, n) filtered rates, rad/s and m/s.
-        gravity: (T, n) N m and N; 0 without torques.
-        asked: (T, n) commanded torques through both filters of the residual, likewise.
-        levels: What of ``torque``, ``tracking`` and ``tool`` is there.
-    """
-
-    dt: float
-    seen: NDArray[np.bool_]
-    torque: FloatArray
-    tracking: FloatArray
-    tool: FloatArray
-    v: FloatArray
-    gravity: FloatArray
-    asked: FloatArray
-    levels: tuple[str, ...]
+    dt: float  # s
+    seen: NDArray[np.bool_]  # (T,) whether the joints told all of their numbers; where not, what follows has NaN
+    torque: FloatArray  # (T, n) residual torque r, N m and N; 0 without torques
+    tracking: FloatArray  # (T, n) distance from the reference, rad and m; without torques NaN in motion that is not slow
+    tool: FloatArray  # (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples
+    v: FloatArray  # (T, n) filtered rates, rad/s and m/s
+    gravity: FloatArray  # (T, n) N m and N; 0 without torques
+    asked: FloatArray  # (T, n) commanded torques through both filters of the residual, likewise
+    levels: tuple[str, ...]  # what of ``torque``, ``tracking`` and ``tool`` is there
 
     def largest_residual(self, name: str) -> FloatArray | float:
         """Return the largest ``torque``, its ``change``, or ``tracking``, (n,), or the largest ``position`` or ``angle`` error
@@ -101,13 +80,11 @@ class Signals:
             "tracking": accumulate_excess(scaled_tracking, self.dt),
             "tool": self._tool_excess(scaled_tool),
         }
-        is_alarmed = {
-            name: (excess_times[name].reshape(len(scaled_tool), -1) > EXCESS_LIMITS_S[name]).any(axis=1)
-            for name in excess_times
-            if name in self.levels
-        }
-        first_rows = {name: int(level_flags.argmax()) for name, level_flags in is_alarmed.items() if level_flags.any()}
-        alarm = None
+        first_rows, alarm = dict[str, int](), None
+        for name in (name for name in excess_times if name in self.levels):
+            is_alarmed = (excess_times[name].reshape(len(scaled_tool), -1) > EXCESS_LIMITS_S[name]).any(axis=1)
+            if is_alarmed.any():
+                first_rows[name] = int(is_alarmed.argmax())
         if first_rows:
             first_row = min(first_rows.values())
             alarm = first_row, tuple(name for name, row in first_rows.items() if row == first_row)
@@ -145,9 +122,7 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
     """
     period, is_complete = 1 / log.rate, complete_row_mask(log)
     levels, tracking = ["tracking"], np.where(is_complete[:, None], log.q_ref - log.q, np.nan)
-    torque_residual, rates, gravity, commanded = (
-        np.where(is_complete[:, None], np.zeros(log.q.shape), np.nan) for _ in range(4)
-    )
+    torque_residual, rates, gravity, commanded = np.where(is_complete[:, None], np.zeros((4, *log.q.shape)), np.nan)
     observe = partial(observe_residuals, dt=period, coulomb=coulomb, viscous=viscous)
     for segment in split_at_gaps(log, is_complete):
         complete_part = is_complete[segment.rows]
@@ -168,15 +143,8 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
             rotations = rotations_of_quaternions(log.quat[pose_rows])
             tool_errors[pose_rows] = _smooth_poses(tool_residual(arm, log.q[pose_rows], log.x[pose_rows], rotations))
             levels.append("tool")
-    fields = {
-        "torque": torque_residual,
-        "tracking": tracking,
-        "tool": tool_errors,
-        "v": rates,
-        "gravity": gravity,
-        "asked": commanded,
-    }
-    return Signals(dt=period, seen=is_complete, **fields, levels=tuple(levels))
+    fields = {"torque": torque_residual, "tracking": tracking, "tool": tool_errors, "v": rates, "gravity": gravity}
+    return Signals(dt=period, seen=is_complete, **fields, asked=commanded, levels=tuple(levels))
 
 
 def tool_residual(arm: Arm, q: FloatArray, x: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -191,9 +159,8 @@ def find_slow_rows(reference: FloatArray, is_complete: NDArray[np.bool_], dt: fl
     row_indices, is_calm = np.flatnonzero(is_complete), np.zeros(len(is_complete), dtype=bool)
     steps = np.abs(np.diff(reference[row_indices], axis=0, prepend=reference[row_indices[:1]]))
     is_fast = (steps >= MAX_SLOW_RATE * dt * np.diff(row_indices, prepend=row_indices[0] - 1)[:, None]).any(axis=1)
-    is_calm[row_indices] = row_indices - np.maximum.accumulate(np.where(is_fast, row_indices, -1)) >= max(
-        1, round(CALM_TIME_S / dt)
-    )
+    rows_since_fast = row_indices - np.maximum.accumulate(np.where(is_fast, row_indices, -1))
+    is_calm[row_indices] = rows_since_fast >= max(1, round(CALM_TIME_S / dt))
     return is_calm
 
 

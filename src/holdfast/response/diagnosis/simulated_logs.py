@@ -6,12 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.physics.body import Body
-from holdfast.control.physics.drives import Drives
+from holdfast.control.physics.robot import SimulatedRobots, split_tool_poses
 from holdfast.control.physics.servos import Servos
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
@@ -101,9 +102,8 @@ def simulate_log(
         raise InputError("give the duration or the motion of the record, one of them")
     rng = np.random.default_rng(seed)
     reference = _sine_references(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
-    robot_body = Body(seed if robot is None else robot, mismatch=mismatch, coulomb=coulomb, viscous=viscous)
-    simulated_robot = _RecordedRobot(arm, reference, rng, robot_body, faults, external_forces)
-    return _make_logs(arm, [simulated_robot], pose)[0]
+    body = Body(seed if robot is None else robot, mismatch=mismatch, coulomb=coulomb, viscous=viscous)
+    return _make_logs(arm, [_Recording(reference, rng, body, faults, external_forces)], pose)[0]
 
 
 @check_arguments
@@ -148,145 +148,102 @@ def simulate_logs(
         if values is not None and len(values) != count:
             raise InputError(f"{name} are of {len(values)} records and seeds of {count}; give one for each record")
     deviations = {"mismatch": mismatch, "coulomb": coulomb, "viscous": viscous}
-    logs: list[Log] = []
-    for first_index in range(0, count, _ROBOTS_PER_BATCH):
-        simulated_robots = []
-        for index in range(first_index, min(first_index + _ROBOTS_PER_BATCH, count)):
-            rng = np.random.default_rng(seeds[index])
-            events, forces = faults[index] if faults else (), external_forces[index] if external_forces else ()
-            reference = _sine_references(arm, duration, speed, rng)
-            simulated_robots.append(
-                _RecordedRobot(arm, reference, rng, Body((robots or seeds)[index], **deviations), events, forces)
-            )
-        logs += _make_logs(arm, simulated_robots, pose)
-    return tuple(logs)
+    recordings = []
+    for index, (rng, body_seed) in enumerate(zip(map(np.random.default_rng, seeds), robots or seeds, strict=True)):
+        events, forces = faults[index] if faults else (), external_forces[index] if external_forces else ()
+        reference = _sine_references(arm, duration, speed, rng)
+        recordings.append(_Recording(reference, rng, Body(body_seed, **deviations), events, forces))
+    batches = [recordings[first : first + _ROBOTS_PER_BATCH] for first in range(0, count, _ROBOTS_PER_BATCH)]
+    return tuple(log for batch in batches for log in _make_logs(arm, batch, pose))
 
 
-class _RecordedRobot:
-    """Simulated robot with its motion (T, n), its faults, and its external forces."""
+class _Recording(NamedTuple):
+    """Motion (T, n) of one simulated robot, with its random generator, body, faults, and external forces."""
 
-    def __init__(
-        self,
-        arm: Arm,
-        reference: FloatArray,
-        rng: np.random.Generator,
-        body: Body,
-        faults: Sequence[FaultEvent],
-        pushes: Sequence[ExternalForce],
-    ) -> None:
-        self._mujoco, self.reference, self.rng, self.has_events = import_mujoco(), reference, rng, bool(faults or pushes)
-        self.body = body
-        self.model, self.stiffness, self.damping = body.model(arm, Servos(rate=1 / _CYCLE_S))
-        self.data = self._mujoco.MjData(self.model)
-        self.data.qpos[:] = reference[0]
-        self._mujoco.mj_forward(self.model, self.data)
-        self.injector = FaultInjector(self.model, self.data, arm, faults=faults)
-        self._external_forces = [
-            (1 + arm.joint_index(external_force.joint), external_force) for external_force in pushes
-        ]  # body 0 is the world
+    reference: FloatArray
+    rng: np.random.Generator
+    body: Body
+    faults: Sequence[FaultEvent]
+    external_forces: Sequence[ExternalForce]
 
-    def apply_forces(self, time: float) -> None:
-        """Apply the external forces that act at a time in s."""
-        data = self.data
+
+class _Disturbances:
+    """Faults of one robot, and external forces on its links."""
+
+    def __init__(self, model: Any, data: Any, arm: Arm, recording: _Recording) -> None:
+        self._apply_force, self._model, self._data = import_mujoco().mj_applyFT, model, data
+        self._injector = FaultInjector(model, data, arm, faults=recording.faults)
+        self.read_sensors = self._injector.read_sensors
+        links = [1 + arm.joint_index(force.joint) for force in recording.external_forces]  # body 0 is the world
+        self._forces_by_link = list(zip(links, recording.external_forces, strict=True))
+
+    def before_step(self, time: float) -> None:
+        """Insert the faults, and apply the external forces that act at a time in s."""
+        self._injector.before_step(time)
+        data = self._data
         data.qfrc_applied[:] = 0.0
-        for link, external_force in self._external_forces:
+        for link, external_force in self._forces_by_link:
             if external_force.onset <= time < external_force.end:
-                application_point = data.xpos[link] + data.xmat[link].reshape(3, 3) @ external_force.point
-                self._mujoco.mj_applyFT(
-                    self.model, data, np.array(external_force.force), np.zeros(3), application_point, link, data.qfrc_applied
-                )
+                point = data.xpos[link] + data.xmat[link].reshape(3, 3) @ external_force.point
+                force, torque = np.array(external_force.force), np.zeros(3)
+                self._apply_force(self._model, data, force, torque, point, link, data.qfrc_applied)
 
 
-def _make_logs(arm: Arm, robots: Sequence[_RecordedRobot], pose: bool) -> list[Log]:
-    """Return the recordings of robots whose motions have one length."""
-    measured, true_positions, torque = _simulate_robots(arm, robots)
-    times, logs = np.arange(len(true_positions), dtype=np.float64) * _CYCLE_S, []
-    for robot_index, robot in enumerate(robots):
-        tool_positions, quaternions = _measured_tool_poses(arm, true_positions[:, robot_index], robot) if pose else (None, None)
-        measured_torque = torque[:, robot_index] + robot.rng.normal(0, robot.body.torque, (len(times), arm.n))
-        logs.append(
-            Log(
-                t=times,
-                q_ref=robot.reference,
-                q=measured[:, robot_index].copy(),
-                tau=measured_torque,
-                x=tool_positions,
-                quat=quaternions,
-            )
-        )
+def _make_logs(arm: Arm, recordings: Sequence[_Recording], pose: bool) -> list[Log]:
+    """Return the logs of robots that run in lockstep, with motions of one length."""
+    robots = _make_robots(arm, recordings)
+    measured, q, torque = _simulate_robots(robots, recordings)
+    logs, pose_interval = [], round(1 / (_POSE_RATE_HZ * _CYCLE_S))
+    for index, (reference, rng, body, *_) in enumerate(recordings):
+        x = quat = None
+        if pose:
+            poses = np.full((len(q), 4, 4), np.nan)
+            poses[::pose_interval] = body.measure_poses(arm.forward_kinematics(q[::pose_interval, index]), rng)
+            x, quat = split_tool_poses(poses)
+        tau = torque[:, index] + rng.normal(0, body.torque, (len(q), arm.n))
+        t = np.arange(len(q), dtype=np.float64) * _CYCLE_S
+        logs.append(Log(t=t, q_ref=reference, q=measured[:, index].copy(), tau=tau, x=x, quat=quat))
     return logs
 
 
-def _simulate_robots(arm: Arm, robots: Sequence[_RecordedRobot]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Run R robots in lockstep; return measured and true positions and torques (T, R, n)."""
-    advance, cycle_count, joint_count = import_mujoco().mj_step, len(robots[0].reference), arm.n
-    times = np.arange(cycle_count, dtype=np.float64) * _CYCLE_S
-    reference = np.stack([robot.reference for robot in robots], axis=1)
-    noise = np.stack([robot.rng.normal(0, robot.body.joint, (cycle_count, joint_count)) for robot in robots], axis=1)
-    stiffness, damping = (np.array([getattr(robot, gain_name) for robot in robots]) for gain_name in ("stiffness", "damping"))
-    drives = Drives(stiffness, damping, effort=np.array([joint.effort for joint in arm.joints]), period=_CYCLE_S)
+def _make_robots(arm: Arm, recordings: Sequence[_Recording]) -> SimulatedRobots:
+    starts = np.array([recording.reference[0] for recording in recordings])
+    robots = SimulatedRobots(arm, [recording.body for recording in recordings], starts, Servos(rate=1 / _CYCLE_S))
+    robots.faults = [
+        _Disturbances(model, data, arm, recording) if recording.faults or recording.external_forces else None
+        for model, data, recording in zip(robots.models, robots.data, recordings, strict=True)
+    ]
+    return robots
+
+
+def _simulate_robots(robots: SimulatedRobots, recordings: Sequence[_Recording]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Run R robots along their motions; return measured and true positions and torques (T, R, n)."""
+    reference = np.stack([recording.reference for recording in recordings], axis=1)
+    shape, cycle_count = reference[:, 0].shape, len(reference)
+    noise = np.stack([recording.rng.normal(0, recording.body.joint, shape) for recording in recordings], axis=1)
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _CYCLE_S
     rates[-1] = rates[max(-2, -cycle_count)]  # the motion goes on after the record
-    measured, commands, true_positions = (
+    measured, commands, q = (
         np.empty_like(reference),
         np.empty_like(reference),
-        np.empty((cycle_count + 1, len(robots), joint_count)),
+        np.empty((cycle_count + 1, *reference.shape[1:])),
     )
-    gravity = arm._gravity_torque_kernel.single_row() if len(robots) == 1 else arm._gravity_torque_kernel.rows
-    position_arrays, velocity_arrays = [robot.data.qpos for robot in robots], [robot.data.qvel for robot in robots]
-    affected = [robot for robot in robots if robot.has_events]
-    simulations = [(robot.model, robot.data, robot.data.ctrl) for robot in robots]
     for cycle in track("control cycles", range(cycle_count), every=1000):
-        for robot in affected:
-            robot.injector.before_step(times[cycle])
-        positions_now, measured_now = true_positions[cycle], measured[cycle]
-        np.concatenate(position_arrays, out=positions_now.reshape(-1))
-        np.add(positions_now, noise[cycle], out=measured_now)
-        for robot_index, robot in enumerate(robots if affected else ()):
-            measured_now[robot_index] = (
-                robot.injector.read_sensors(positions_now[robot_index], reference=reference[cycle, robot_index])
-                + noise[cycle, robot_index]
-            )
-        drives.update_rate_error(measured_now, positions_now)
-        torque = gravity(measured_now.reshape(-1) if len(robots) == 1 else measured_now)
-        velocity = np.concatenate(velocity_arrays).reshape(measured_now.shape)
-        commands[cycle] = drives.compute_motor_controls(
-            reference[cycle], rates[cycle], measured_now, gravity=torque, velocity=velocity
-        )
-        for (model, state, control), command, robot in zip(simulations, commands[cycle], robots, strict=True):
-            control[:] = command
-            if robot.has_events:
-                robot.injector.before_step(times[cycle])
-                robot.apply_forces(times[cycle])
-            advance(model, state)
-    np.concatenate(position_arrays, out=true_positions[cycle_count].reshape(-1))
-    return measured, true_positions[:-1], drives.compute_mean_torque(commands, np.diff(true_positions, axis=0))
+        measured[cycle] = robots.measure(cycle * _CYCLE_S, reference[cycle], noise[cycle])
+        q[cycle] = robots.q
+        commands[cycle] = robots.advance(measured[cycle], reference[cycle], rates[cycle])
+    q[cycle_count] = robots.read_positions()
+    return measured, q[:-1], robots.drives.compute_mean_torque(commands, np.diff(q, axis=0))
 
 
 def _sine_references(arm: Arm, duration: float | None, speed: float, rng: np.random.Generator) -> FloatArray:
     """Return sines about the middle of each range, from rest: their phase accelerates within half a second."""
     if duration is None or not 0 < duration < np.inf:
         raise InputError(f"duration is {duration}; it must be a finite number of seconds above 0")
-    lower, upper = (
-        np.where(np.isfinite(limits), limits, sign * np.pi) for limits, sign in ((arm.lower, -1.0), (arm.upper, 1.0))
-    )
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     amplitude = np.minimum(_MAX_AMPLITUDE, (upper - lower) / 4)
     angular_rates = speed / amplitude * rng.uniform(0.5, 1.0, arm.n)
     times = np.arange(int(np.ceil(duration / _CYCLE_S)), dtype=np.float64) * _CYCLE_S
-    return np.asarray(
-        (lower + upper) / 2 + amplitude * np.sin(np.where(times < 0.5, times**2, times - 0.25)[:, None] * angular_rates)
-    )
-
-
-def _measured_tool_poses(arm: Arm, q: FloatArray, robot: _RecordedRobot) -> tuple[FloatArray, FloatArray]:
-    """Return tool poses with noise, NaN between samples."""
-    from scipy.spatial.transform import Rotation
-
-    sample_interval = round(1 / (_POSE_RATE_HZ * _CYCLE_S))
-    poses = robot.body.measure_poses(arm.forward_kinematics(q[::sample_interval]), robot.rng)
-    positions, quaternions = np.full((len(q), 3), np.nan), np.full((len(q), 4), np.nan)
-    positions[::sample_interval], quaternions[::sample_interval] = (
-        poses[:, :3, 3],
-        Rotation.from_matrix(poses[:, :3, :3]).as_quat(),
-    )
-    return positions, quaternions
+    phases = np.where(times < 0.5, times**2, times - 0.25)[:, None]
+    return np.asarray((lower + upper) / 2 + amplitude * np.sin(phases * angular_rates))

@@ -20,14 +20,8 @@ from holdfast.core.typing import FloatArray
 _TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
 _JOINT_UNITS = {"rad": 1.0, "deg": np.pi / 180, **_LENGTH_UNITS}
-_ARRAY_UNITS = {
-    "t": _TIME_UNITS,
-    "q_ref": _JOINT_UNITS,
-    "q": _JOINT_UNITS,
-    "tau": {"N m": 1.0},
-    "x": _LENGTH_UNITS,
-    "quat": {},
-}  # the first: if not given
+# The first unit of each array is the default.
+_ARRAY_UNITS = {"t": _TIME_UNITS, "q_ref": _JOINT_UNITS, "q": _JOINT_UNITS, "tau": {"N m": 1.0}, "x": _LENGTH_UNITS, "quat": {}}
 
 
 class _Column(Strict):
@@ -72,9 +66,8 @@ def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]
             unit_factor = _ARRAY_UNITS[name][column.unit] if column.unit else 1.0
             arrays[name] = np.column_stack([numbers(column_name) for column_name in selected]) * unit_factor
         elif name in layout.model_fields_set or name in ("t", "q_ref", "q"):
-            available = ", ".join(f"'{name_shown}'" for name_shown in column_names[:8]) + (
-                f" and {len(column_names) - 8} more" if len(column_names) > 8 else ""
-            )
+            available = ", ".join(f"'{shown}'" for shown in column_names[:8])
+            available += f" and {len(column_names) - 8} more" if len(column_names) > 8 else ""
             raise InputError(
                 f"it has no column '{missing[0]}' for {name}, but {available}; name them in a file of columns (--columns)"
             )
@@ -107,11 +100,9 @@ def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str
 
 
 def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
-    """Return the names and a function for the numbers of a column; empty cells are NaN. The first line decides the
-    delimiter.
-    """
+    """Return the names and a function for the numbers of a column; empty cells are NaN."""
     lines = raw.decode("utf-8-sig", "replace").splitlines()
-    delimiter = max(",;\t", key=(lines[0] if lines else "").count)
+    delimiter = max(",;\t", key=(lines[0] if lines else "").count)  # the first line decides
     try:
         rows = [(line_number, row) for line_number, row in enumerate(csv.reader(lines, delimiter=delimiter), start=1) if row]
     except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
@@ -162,10 +153,9 @@ def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
         names += [field.name, *(f"{field.name}[{k}]" for k in range(lengths))]
 
     def read_numbers(name: str) -> FloatArray:
-        indexed_name = re.fullmatch(r"(.*)\[(\d+)\]", name)
-        base_name, chosen = (
-            (indexed_name[1], int(indexed_name[2])) if name not in table.column_names and indexed_name else (name, None)
-        )
+        base_name, chosen, match = name, None, re.fullmatch(r"(.*)\[(\d+)\]", name)
+        if name not in table.column_names and match:
+            base_name, chosen = match[1], int(match[2])
         try:
             if not _get_list_length(pyarrow, table[base_name]):
                 with np.errstate(invalid="ignore"):  # a signaling NaN becomes a quiet one

@@ -1,4 +1,4 @@
-"""Entry of a fault model: a family of faults with its joints, times, and parameters."""
+"""Entry of a fault model: a family of faults with its joints, times, and parameters, which may be random."""
 
 from __future__ import annotations
 
@@ -8,8 +8,101 @@ from dataclasses import KW_ONLY, dataclass, field
 from typing import Any, TypedDict
 
 from holdfast.core.errors import InputError
-from holdfast.response.faults.distributions import ParameterDistribution
 from holdfast.response.faults.kind import FaultParameter, find_kind
+
+DISTRIBUTION_LAWS = ("uniform", "loguniform", "exponential", "choice")
+_ACCEPTED_FORMS = "a number, uniform: [a, b], loguniform: [a, b], exponential: MEAN or choice: [a, b, ...]"
+
+
+@dataclass(frozen=True)
+class ParameterDistribution:
+    """Number, or the law from which it is drawn."""
+
+    law: str  # ``number`` or one of :data:`DISTRIBUTION_LAWS`
+    numbers: tuple[float, ...]  # the number; both ends; the mean; what is chosen from
+
+    @classmethod
+    def from_value(cls, value: Any, quantity_name: str) -> ParameterDistribution:
+        """Return the distribution from a number, two numbers in a tuple (uniform), or ``{law: numbers}``.
+
+        Args:
+            value: From a caller or a file.
+            quantity_name: What an error calls it.
+
+        Raises:
+            InputError: Another form, numbers that are not finite, ends upside down.
+        """
+        if isinstance(value, ParameterDistribution):
+            return value
+        law, content = "number", value
+        if isinstance(value, Mapping):
+            if len(value) != 1 or next(iter(value)) not in DISTRIBUTION_LAWS:
+                raise InputError(
+                    f"{quantity_name} has the keys {', '.join(map(str, value)) or 'of nothing'}; it must be {_ACCEPTED_FORMS}"
+                )
+            ((law, content),) = value.items()
+        elif isinstance(value, tuple):
+            law = "uniform"
+        has_one_number = law in ("number", "exponential")
+        if not has_one_number and (not isinstance(content, Sequence) or isinstance(content, str)):
+            raise InputError(f"{quantity_name} is {value!r}; it must be {_ACCEPTED_FORMS}")
+        numbers = tuple(_parse_number(item, quantity_name) for item in ([content] if has_one_number else content))
+        if law in ("uniform", "loguniform"):
+            if len(numbers) != 2:
+                raise InputError(f"{quantity_name} has {len(numbers)} numbers for '{law}'; give both ends, the lower one first")
+            if numbers[0] > numbers[1]:
+                raise InputError(f"{quantity_name} is from {numbers[0]:g} to {numbers[1]:g}; give the lower end first")
+            if law == "loguniform" and numbers[0] <= 0:
+                raise InputError(f"{quantity_name} is loguniform from {numbers[0]:g}; both ends must be above 0")
+        if law == "exponential" and numbers[0] <= 0:
+            raise InputError(f"{quantity_name} has the mean {numbers[0]:g}; the mean of an exponential law must be above 0")
+        if not numbers:
+            raise InputError(f"{quantity_name} has nothing to choose from; give at least one number")
+        return cls(law, numbers)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and greatest number that may be drawn."""
+        return (0.0, math.inf) if self.law == "exponential" else (min(self.numbers), max(self.numbers))
+
+    def at(self, uniform_value: float) -> float:
+        """Return the number that a uniform number of [0, 1) draws."""
+        lower, upper = self.numbers[0], self.numbers[-1]
+        match self.law:
+            case "uniform":
+                return lower + (upper - lower) * uniform_value
+            case "loguniform":
+                return float(lower * (upper / lower) ** uniform_value)
+            case "exponential":
+                return exponential_quantile(lower, uniform_value)
+            case _:
+                return self.numbers[int(uniform_value * len(self.numbers))]
+
+    def stored(self) -> Any:
+        """Return the distribution as files store it."""
+        if self.law == "number":
+            return self.numbers[0]
+        return {self.law: self.numbers[0] if self.law == "exponential" else list(self.numbers)}
+
+
+def exponential_quantile(mean: float, uniform_value: float) -> float:
+    """Return the number that a uniform number of [0, 1) draws from the exponential law."""
+    return -mean * math.log1p(-uniform_value)
+
+
+def _parse_number(value: Any, quantity_name: str) -> float:
+    try:
+        if isinstance(value, bool):
+            raise ValueError
+        number = float(value)  # text too: YAML 1.1 reads 1e-3 as text
+    except OverflowError as error:  # a whole number of Python may have any number of digits
+        raise InputError(f"{quantity_name} is a whole number beyond 1e308; it must be finite") from error
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{quantity_name} is {value!r}; it must be {_ACCEPTED_FORMS}") from error
+    if not math.isfinite(number):
+        raise InputError(f"{quantity_name} is {number:g}; it must be finite")
+    return number
+
 
 Joints = str | Sequence[str] | None
 Value = float | tuple[float, float] | Mapping[str, float | Sequence[float]] | ParameterDistribution
@@ -84,9 +177,9 @@ class Fault:
                 raise InputError(f"'{self.kind}' has {len(self.weights)} weights; give one for each of its joints, by name")
             if not all(math.isfinite(weight) and weight >= 0 for weight in self.weights) or not any(self.weights):
                 raise InputError(f"weights of '{self.kind}' are {list(self.weights)}; they must be 0 or more, one above 0")
-        max_joints = (
-            sum(weight > 0 for weight in self.weights) if self.weights else len(self.joints) if self.joints else math.inf
-        )
+        max_joints = len(self.joints) if self.joints else math.inf
+        if self.weights:
+            max_joints = sum(weight > 0 for weight in self.weights)
         if isinstance(self.together, bool) or self.together != int(self.together) or not 1 <= self.together <= max_joints:
             raise InputError(f"together of '{self.kind}' is {self.together}; it is a whole number, 1 to that of its joints")
 
@@ -113,21 +206,15 @@ class Fault:
         name, minimum, maximum = parameter.name, parameter.low, parameter.high
         distribution = ParameterDistribution.from_value(value, f"{name} of '{self.kind}'")
         lower, upper = distribution.ends
-        is_inside = (
-            minimum <= lower and upper <= maximum
-            if parameter.includes_ends
-            else minimum < lower and (upper < maximum or math.isinf(maximum))
-        )
+        is_inside = minimum < lower and (upper < maximum or math.isinf(maximum))
+        if parameter.includes_ends:
+            is_inside = minimum <= lower and upper <= maximum
         if distribution.law == "exponential":
             is_inside = math.isinf(maximum)
         if not is_inside:
-            expected_text = (
-                f"between {minimum:g} and {maximum:g}"
-                if math.isfinite(maximum)
-                else "0 or more"
-                if parameter.includes_ends
-                else f"above {minimum:g}"
-            )
+            expected_text = "0 or more" if parameter.includes_ends else f"above {minimum:g}"
+            if math.isfinite(maximum):
+                expected_text = f"between {minimum:g} and {maximum:g}"
             sign_text = "; its sign is drawn" if parameter.has_random_sign else ""
             range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
             raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
@@ -152,15 +239,14 @@ class Fault:
     def to_stored(self) -> dict[str, Any]:
         """Return the entry as files store it, without default values."""
         data: dict[str, Any] = {"kind": self.kind}
+        has_onset = self.onset is not None and self.onset != ParameterDistribution("number", (0.0,))
         values = {
             "joints": self.joints and list(self.joints),
             "weights": self.weights and list(self.weights),
             "probability": None if self.probability == 1 else self.probability,
             "together": None if self.together == 1 else self.together,
             "rate_per_hour": self.rate_per_hour,
-            "onset": None
-            if self.onset is None or self.onset == ParameterDistribution("number", (0.0,))
-            else self.onset.stored(),
+            "onset": self.onset.stored() if has_onset else None,
             "duration": self.duration and self.duration.stored(),
             "on": self.on,
             "off": self.off,

@@ -149,17 +149,13 @@ def _solve_in_cone(
     arm: Arm, degraded: Degraded | None, goal: FloatArray, rows: Task, within: float, restarts: int, tolerance: float
 ) -> FloatArray:
     """Search configurations (K, n) of a goal (4, 4) whose tool z axis may deviate by an angle (rad), from random starts."""
-    limited, q_locked, is_free = (
-        (arm, np.zeros(arm.n), np.ones(arm.n, bool)) if degraded is None else (degraded.limited, degraded.lo, degraded.moves)
-    )
+    limited, q_locked, is_free = arm, np.zeros(arm.n), np.ones(arm.n, bool)
+    if degraded is not None:
+        limited, q_locked, is_free = degraded.limited, degraded.lo, degraded.moves
     solver = make_row_solver(arm, rows, within).with_limits(limited)
     poses = np.repeat(goal[None], restarts, axis=0)
-    q = solver.solve(
-        solver.sample_configurations(restarts, q_locked, is_free, np.random.default_rng(0)),
-        poses,
-        np.ones((restarts, solver.rows.m)),
-        is_free,
-    )
+    starts = solver.sample_configurations(restarts, q_locked, is_free, np.random.default_rng(0))
+    q = solver.solve(starts, poses, np.ones((restarts, solver.rows.m)), is_free)
     return q[(np.abs(solver.compute_errors(q, poses)) <= tolerance).all(axis=1)]
 
 

@@ -67,11 +67,8 @@ class FaultInjector:
         self.model, self.data, self.faults, self.horizon = model, data, faults, horizon
         allowed_types = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
         if joints is None:
-            joints = [
-                model.joint(joint_id).name
-                for joint_id in _list_driven_joints(mujoco, model)
-                if model.jnt_type[joint_id] in allowed_types and model.joint(joint_id).name
-            ]
+            driven = [number for number in _list_driven_joints(mujoco, model) if model.jnt_type[number] in allowed_types]
+            joints = [name for name in (model.joint(number).name for number in driven) if name]
         self.joints = list_joint_names(joints)
         arm_limits = {joint.name: (joint.lower, joint.upper) for joint in getattr(joints, "joints", ())}
         self._ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self.joints]
@@ -80,12 +77,10 @@ class FaultInjector:
                 raise InputError(f"the model has no hinge or slide '{name}'; give the names of joints that it has")
         self._dofs = model.jnt_dofadr[self._ids]
         actuators = find_actuators(mujoco, model)
-        implicit_integrators = [
-            int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")
-        ]
-        no_damping_flags = sum(
-            int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0)) for name in ("EULERDAMP", "DAMPER", "PASSIVE")
-        )
+        integrators, flags = mujoco.mjtIntegrator, mujoco.mjtDisableBit
+        implicit_integrators = [int(getattr(integrators, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST")]
+        no_damping_flags = sum(int(getattr(flags, f"mjDSBL_{name}", 0)) for name in ("EULERDAMP", "DAMPER", "PASSIVE"))
+        is_damped = not model.opt.disableflags & no_damping_flags
         self._changes: list[tuple[FloatArray, Any, Any]] = []  # array, row and value before the faults were inserted
         self._model_joints = [
             ModelJoint(
@@ -95,8 +90,7 @@ class FaultInjector:
                 joint_id=joint_id,
                 actuators=actuators.get(joint_id, np.zeros(0, dtype=np.int64)),
                 arm_limits=arm_limits.get(self.joints[index]),
-                has_implicit_damping=model.opt.integrator in implicit_integrators
-                and not model.opt.disableflags & no_damping_flags,
+                has_implicit_damping=is_damped and model.opt.integrator in implicit_integrators,
                 changes=self._changes,
             )
             for index, joint_id in enumerate(self._ids)
@@ -239,10 +233,8 @@ class FaultInjector:
             weights = entry.weights or (1.0,) * len(names)
             for name in (name for name, weight in zip(names, weights, strict=True) if weight > 0 and entry.probability > 0):
                 for bound_index in (0, 1):
-                    numbers = {
-                        parameter: law if isinstance(law, str) else law.ends[bound_index]
-                        for parameter, law in entry.parameters.items()
-                    }
+                    laws = entry.parameters.items()
+                    numbers = {key: law if isinstance(law, str) else law.ends[bound_index] for key, law in laws}
                     self._check_event(FaultEvent(entry.kind, name, 0.0, parameters=numbers))
 
     def _schedule_changes(self) -> None:
@@ -268,10 +260,6 @@ class FaultInjector:
             self._active[event] = fault
             if kind.holds_joint and not fault.is_pending:
                 self._stop_with_impact(fault)
-        self._apply_faults()
-
-    def _apply_faults(self) -> None:
-        """Insert the currently active faults into the model, and nothing else."""
         self.insert()
         self._schedule_changes()
 
@@ -291,7 +279,8 @@ class FaultInjector:
             fault.is_pending = False
             if kind.holds_joint:
                 self._stop_with_impact(fault)
-            self._apply_faults()
+            self.insert()
+            self._schedule_changes()
 
     def _stop_with_impact(self, fault: ActiveFault) -> None:
         """Stop a joint, together with the locked joints, as in an impact: the momenta of all others are conserved."""
@@ -301,10 +290,8 @@ class FaultInjector:
         fault.is_still = fault.position == fault.joint.q
         if not velocity.any():
             return
-        held_faults = [
-            held for held in (*self._active.values(), *self._brakes) if find_kind(held.kind).holds_joint and not held.is_pending
-        ]
-        dofs = sorted({held.joint.dof for held in (*held_faults, fault)})
+        others = [other for other in (*self._active.values(), *self._brakes) if not other.is_pending]
+        dofs = sorted({fault.joint.dof, *(other.joint.dof for other in others if find_kind(other.kind).holds_joint)})
         self._mujoco.mj_forward(self.model, self.data)
         units = np.zeros((len(dofs), self.model.nv))
         units[np.arange(len(dofs)), dofs] = 1.0
@@ -318,10 +305,5 @@ def _list_driven_joints(mujoco: Any, model: Any) -> list[int]:
     actuated = set(find_actuators(mujoco, model))
     body_roots = model.body_rootid[model.jnt_bodyid]
     trees = {body_roots[joint_id] for joint_id in actuated}
-    return [
-        joint_id
-        for joint_id in range(model.njnt)
-        if not actuated
-        or joint_id in actuated
-        or (body_roots[joint_id] in trees and model.jnt_bodyid[joint_id] != body_roots[joint_id])
-    ]
+    in_tree = [root in trees and body != root for root, body in zip(body_roots, model.jnt_bodyid, strict=True)]
+    return [joint_id for joint_id in range(model.njnt) if not actuated or joint_id in actuated or in_tree[joint_id]]

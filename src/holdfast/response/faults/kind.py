@@ -31,25 +31,15 @@ _KINDS_PACKAGE = "holdfast.response.faults.kinds."
 
 @dataclass(frozen=True)
 class FaultParameter:
-    """Parameter of a kind of fault.
+    """Parameter of a kind of fault."""
 
-    Attributes:
-        name: Name in files and of the argument of the constructor.
-        low: Lower bound of the number.
-        high: Upper bound of the number.
-        includes_ends: True if the bounds are allowed.
-        has_random_sign: True if the sign of the number is drawn in every episode.
-        word: Text that is accepted in place of a number, and the default; None if a number is required.
-        absent: Number in the step kernel where the parameter is not given.
-    """
-
-    name: str
-    low: float = -math.inf
-    high: float = math.inf
-    includes_ends: bool = True
-    has_random_sign: bool = False
-    word: str | None = None
-    absent: float = 0.0
+    name: str  # name in files and of the argument of the constructor
+    low: float = -math.inf  # lower bound of the number
+    high: float = math.inf  # upper bound of the number
+    includes_ends: bool = True  # True if the bounds are allowed
+    has_random_sign: bool = False  # True if the sign of the number is drawn in every episode
+    word: str | None = None  # text that is accepted in place of a number, and the default; None if a number is required
+    absent: float = 0.0  # number in the step kernel where the parameter is not given
 
 
 class FaultKind:
@@ -177,10 +167,8 @@ def fault_kinds() -> dict[str, FaultKind]:
         raise InputError(f"codes of the fault kinds are {codes_text}; each number from 0 to {len(kinds) - 1} must occur once")
     for kind in kinds:
         if len(kind.parameters_by_name) > MAX_PARAMETERS or any(len(names) > _MAX_ALTERNATIVE for names in kind.parameters):
-            raise InputError(
-                f"fault kind '{kind.name}' has {len(kind.parameters_by_name)} parameters; it can have {MAX_PARAMETERS}, "
-                f"and {_MAX_ALTERNATIVE} in each alternative"
-            )
+            limits = f"it can have {MAX_PARAMETERS}, and {_MAX_ALTERNATIVE} in each alternative"
+            raise InputError(f"fault kind '{kind.name}' has {len(kind.parameters_by_name)} parameters; {limits}")
     return {kind.name: kind for kind in kinds}
 
 

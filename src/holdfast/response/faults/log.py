@@ -22,9 +22,8 @@ _MIN_CLOCK_TIME_S = 1e6  # s: later times are those of a clock
 _MIN_RATE_HZ = 40.0  # Hz: the observer's own rate, below which it says nothing
 _MAX_GAP_FACTOR = 20  # times as many samples as there are: longer gaps are between records, not in one
 _UNEVEN_FRACTION = 0.01  # of the period: time stamps that differ less from even ones are even
-# _MAX_LIMIT_EXCESS and _MAX_SPEED_FACTOR: rad or m beyond a limit, and of a speed limit: such references are in other units
-_MAX_LIMIT_EXCESS = 0.5
-_MAX_SPEED_FACTOR = 2.0
+_MAX_LIMIT_EXCESS = 0.5  # rad or m beyond a limit; a reference farther beyond is in other units
+_MAX_SPEED_FACTOR = 2.0  # of a speed limit, likewise
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -78,9 +77,8 @@ class Log:
         count = int(rows[-1]) + 1
         if count > _MAX_GAP_FACTOR * len(times):
             raise InputError(
-                f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at "
-                f"{count / self.duration:.4g} a second; "
-                "give its parts as records of their own"
+                f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at {count / self.duration:.4g} a "
+                "second; give its parts as records of their own"
             )
         if count > len(times):
             object.__setattr__(self, "t", np.interp(np.arange(count), rows, times))
@@ -140,10 +138,9 @@ class Log:
             ):
                 unit = joint.unit
                 raise InputError(
-                    f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and "
-                    f"the joint's "
-                    f"limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a record "
-                    f"in {unit} and s, its joints in the arm's order"
+                    f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and the "
+                    f"joint's limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a "
+                    f"record in {unit} and s, its joints in the arm's order"
                 )
 
     @classmethod
@@ -209,15 +206,8 @@ class Log:
         path = Path(file)
         available = {name: value for name in _ARRAY_WIDTHS if (value := getattr(self, name)) is not None}
         if path.suffix.lower() in (".csv", ".parquet"):
-            header = [
-                "t",
-                *(
-                    f"{name}_{column + 1}"
-                    for name, array in available.items()
-                    if array.ndim == 2
-                    for column in range(array.shape[1])
-                ),
-            ]
+            matrices = [(name, array.shape[1]) for name, array in available.items() if array.ndim == 2]
+            header = ["t", *(f"{name}_{column + 1}" for name, width in matrices for column in range(width))]
             rows = np.column_stack(list(available.values()))
             if path.suffix.lower() == ".csv":
                 return write_table(path, "log", header, rows)
@@ -225,14 +215,10 @@ class Log:
             with guard_writing(path, "log", "choose another path"):
                 parquet.write_table(pyarrow.table(dict(zip(header, rows.T, strict=True))), path)
             return path
+        arrays = {**available, **more}
+        arrays = {name: array if name == "t" else array.astype(np.float32) for name, array in arrays.items()}
         with guard_writing(path, "log", "choose another path"), path.open("wb") as stream:
-            arrays = {**available, **more}
-            np.savez_compressed(
-                stream,
-                **{
-                    array_name: array if array_name == "t" else array.astype(np.float32) for array_name, array in arrays.items()
-                },
-            )
+            np.savez_compressed(stream, **arrays)
         return path
 
 

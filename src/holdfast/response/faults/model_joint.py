@@ -31,27 +31,17 @@ def find_actuators(mujoco: ModuleType, model: Any) -> dict[int, NDArray[np.int64
 
 @dataclass(eq=False, kw_only=True)
 class ModelJoint:
-    """Joint of a MuJoCo model. Every change of the model is stored so that it can be undone.
+    """Joint of a MuJoCo model. Every change of the model is stored so that it can be undone."""
 
-    Attributes:
-        model: ``mujoco.MjModel``.
-        data: ``mujoco.MjData``.
-        index: Number of the joint among the injector's joints.
-        joint_id: Number of the joint in the model.
-        actuators: Numbers of the actuators of the joint.
-        arm_limits: Limits of the arm's joint, rad or m, where an arm is given, because its model may have no stops.
-        has_implicit_damping: True if MuJoCo integrates damping implicitly.
-        changes: Array, row, and earlier value of each change.
-    """
-
-    model: Any
-    data: Any
-    index: int
-    joint_id: int
-    actuators: NDArray[np.int64]
+    model: Any  # ``mujoco.MjModel``
+    data: Any  # ``mujoco.MjData``
+    index: int  # number of the joint among the injector's joints
+    joint_id: int  # number of the joint in the model
+    actuators: NDArray[np.int64]  # numbers of the actuators of the joint
+    # limits of the arm's joint, rad or m, where an arm is given, because its model may have no stops
     arm_limits: tuple[float, float] | None
-    has_implicit_damping: bool
-    changes: list[tuple[FloatArray, Any, Any]]
+    has_implicit_damping: bool  # True if MuJoCo integrates damping implicitly
+    changes: list[tuple[FloatArray, Any, Any]]  # array, row, and earlier value of each change
     _effort: float | None = None
 
     @property
@@ -168,27 +158,16 @@ class ModelJoint:
 
 @dataclass(eq=False)
 class ActiveFault:
-    """State of an active fault.
+    """State of an active fault."""
 
-    Attributes:
-        kind: Name of the kind.
-        joint: Joint with the fault.
-        numbers: Parameters by name, with their sign.
-        onset: Time of the onset, s.
-        position: Position of the joint at the onset, or at which it is held, rad or m.
-        is_pending: True if the fault waits until the joint reaches a position.
-        is_still: True if the joint was stopped at the position at which it is held.
-        memory: What the kind keeps from one step to the next.
-    """
-
-    kind: str
-    joint: ModelJoint
-    numbers: Mapping[str, float | str]
-    onset: float
-    position: float
-    is_pending: bool = False
-    is_still: bool = False
-    memory: Any = None
+    kind: str  # name of the kind
+    joint: ModelJoint  # joint with the fault
+    numbers: Mapping[str, float | str]  # parameters by name, with their sign
+    onset: float  # time of the onset, s
+    position: float  # position of the joint at the onset, or at which it is held, rad or m
+    is_pending: bool = False  # True if the fault waits until the joint reaches a position
+    is_still: bool = False  # True if the joint was stopped at the position at which it is held
+    memory: Any = None  # what the kind keeps from one step to the next
 
     def number(self, name: str, default: float = 0.0) -> float:
         """Return a parameter, or the default where it is not given."""
@@ -197,16 +176,9 @@ class ActiveFault:
 
 @dataclass(frozen=True)
 class SensorReading:
-    """Reading of a joint sensor.
+    """Reading of a joint sensor."""
 
-    Attributes:
-        value: Reading without the fault, rad or m.
-        time: Time, s.
-        reference: Reference of the servo, rad or m; None if it is not known.
-        generator: Random generator of the noise.
-    """
-
-    value: float
-    time: float
-    reference: float | None
-    generator: np.random.Generator
+    value: float  # reading without the fault, rad or m
+    time: float  # time, s
+    reference: float | None  # reference of the servo, rad or m; None if it is not known
+    generator: np.random.Generator  # random generator of the noise

@@ -16,36 +16,22 @@ class StepSymbols:
     """Symbols of one step, (n,) where nothing else is given: rad and rad/s, or m and m/s.
 
     A kind may change ``command``, ``speed_limits``, ``lower``, and ``upper`` before the motion, and ``q_measured`` after it.
-
-    Attributes:
-        first, second, third: Parameters of the fault of each joint in the order of its kind.
-        onset: Onset of the fault of each joint, s.
-        last_command: Commanded rates of the last step.
-        q_onset: Positions at the onset.
-        q_motor: Positions of the motors, which differ from those of the links after a slipping clutch.
-        noise: Numbers of the standard normal distribution.
-        time: Scalar, time of the reading, s.
-        command: Commanded rates.
-        speed_limits: Largest rates.
-        lower: Lower stops.
-        upper: Upper stops.
-        q_measured: Sensor readings.
     """
 
-    first: SX
-    second: SX
-    third: SX
-    onset: SX
-    last_command: SX
-    q_onset: SX
-    noise: SX
-    time: SX
-    command: SX
-    speed_limits: SX
-    lower: SX
-    upper: SX
-    q_motor: SX = None
-    q_measured: SX = None
+    first: SX  # parameters of the fault of each joint in the order of its kind
+    second: SX  # parameters of the fault of each joint in the order of its kind
+    third: SX  # parameters of the fault of each joint in the order of its kind
+    onset: SX  # onset of the fault of each joint, s
+    last_command: SX  # commanded rates of the last step
+    q_onset: SX  # positions at the onset
+    noise: SX  # numbers of the standard normal distribution
+    time: SX  # scalar, time of the reading, s
+    command: SX  # commanded rates
+    speed_limits: SX  # largest rates
+    lower: SX  # lower stops
+    upper: SX  # upper stops
+    q_motor: SX = None  # positions of the motors, which differ from those of the links after a slipping clutch
+    q_measured: SX = None  # sensor readings
 
     @staticmethod
     def select(condition: SX, value: SX, otherwise: SX) -> SX:

@@ -1,4 +1,4 @@
-"""Condition of an arm after faults: the facts that the controller keeps from one state to the next."""
+"""Condition of an arm and its joints after faults, which the controller keeps from one state to the next."""
 
 from __future__ import annotations
 
@@ -11,41 +11,59 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.diagnosis.bounds import Bounds
-from holdfast.response.supervisor.thresholds import MIN_CALIBRATED_SPEED, PACE_RATE_PER_S
+from holdfast.response.supervisor import thresholds
 
 
 @dataclass
 class Pace:
-    """Speed of the arm as fractions of the commanded speed.
+    """Speed of the arm as fractions of the commanded speed."""
 
-    Attributes:
-        target: Fraction that the arm approaches.
-        current: Present fraction.
-        allowed: Largest fraction with the failures so far.
-    """
-
-    target: float = 1.0
-    current: float = 0.0
-    allowed: float = 1.0
+    target: float = 1.0  # fraction that the arm approaches
+    current: float = 0.0  # present fraction
+    allowed: float = 1.0  # largest fraction with the failures so far
 
     def ramp(self, dt: float) -> None:
         """Move the present fraction towards its target for dt s."""
-        self.current += min(max(self.target - self.current, -PACE_RATE_PER_S * dt), PACE_RATE_PER_S * dt)
+        self.current += min(max(self.target - self.current, -thresholds.PACE_RATE_PER_S * dt), thresholds.PACE_RATE_PER_S * dt)
 
 
-@dataclass
-class ControlCycle:
-    """Last control cycle.
+@dataclass(frozen=True)
+class JointMotion:
+    """Motion of one joint in a control cycle."""
 
-    Attributes:
-        time: Time of the cycle in s.
-        q: (n,) joint positions in rad and m that the controller trusted.
-        rates: (n,) commanded rates in rad/s and m/s.
-    """
+    tracking_error: float  # reference minus position in rad or m
+    tracking_bound: float  # bound of the monitor for the tracking error in rad or m
+    v: float  # measured rate in rad/s or m/s
+    commanded_rate: float  # commanded rate in rad/s or m/s
 
-    time: float
-    q: FloatArray
-    rates: FloatArray
+    @property
+    def tracking_ratio(self) -> float:
+        """Size of the tracking error divided by its bound."""
+        return abs(self.tracking_error) / self.tracking_bound
+
+    def early_brake_reason(self) -> str | None:
+        """Return why the joint must be braked before its fault kind is known; None if it need not be."""
+        is_falling = self.tracking_error * self.v < 0
+        if abs(self.v) < thresholds.STILL_SPEED and self.tracking_ratio > thresholds.LAGGING_TRACKING_RATIO:
+            return "it does not move"
+        if (
+            self.tracking_ratio > (thresholds.LAGGING_TRACKING_RATIO if is_falling else thresholds.RUNAWAY_TRACKING_RATIO)
+            and abs(self.v - self.commanded_rate) > thresholds.RUNAWAY_SPEED_ERROR
+            and abs(self.v) > thresholds.MOVING_SPEED
+        ):
+            return "it runs away"
+        return None
+
+    def is_following(self) -> bool:
+        """Return whether the joint follows its command closely, in position or in rate."""
+        rate_tolerance = max(thresholds.STILL_SPEED, thresholds.REDUCED_PACE * abs(self.commanded_rate))
+        return self.tracking_ratio < thresholds.LAGGING_TRACKING_RATIO or abs(self.commanded_rate - self.v) < rate_tolerance
+
+    def lagging_speed_fraction(self) -> float | None:
+        """Return the fraction of the commanded rate that a lagging joint reaches; None if the joint does not lag or move."""
+        forward_speed = self.v * np.sign(self.commanded_rate)
+        is_slower = thresholds.MIN_CALIBRATED_SPEED < forward_speed < abs(self.commanded_rate)
+        return self.v / self.commanded_rate if self.tracking_ratio > thresholds.LAGGING_TRACKING_RATIO and is_slower else None
 
 
 class ArmCondition:
@@ -96,23 +114,17 @@ class ArmCondition:
 
 
 def calibrated_speeds(arm: Arm, bounds: Bounds) -> FloatArray:
-    """Return the rates (n,) for which the monitor is calibrated, rad/s and m/s, within the limits; faster motion would raise
-    alarms.
-    """
+    """Return the rates (n,), rad/s and m/s, for which the monitor is calibrated; faster motion would raise alarms."""
     limits = np.array([joint.velocity for joint in arm.joints])
-    return np.asarray(np.minimum(np.maximum(bounds.speed, MIN_CALIBRATED_SPEED), limits))
+    return np.asarray(np.minimum(np.maximum(bounds.speed, thresholds.MIN_CALIBRATED_SPEED), limits))
 
 
 def estimate_joint_position(arm: Arm, joint: int, samples: list[tuple[FloatArray, FloatArray]]) -> tuple[float, float]:
     """Estimate the position of a braked joint from measured tool poses, and the error of its sensor, in rad or m.
 
     Each of three iterations corrects the joint by ``b = sum J_i' c / sum J_i' J_i``, where ``c`` is the error of the tool pose
-    and ``J_i`` the joint's Jacobian column; metres and radians have equal weights.
-
-    Args:
-        arm: The arm.
-        joint: Index of the joint.
-        samples: Joint positions (n,) in rad and m with the tool pose (4, 4) measured there.
+    and ``J_i`` the joint's Jacobian column; metres and radians have equal weights. A sample is the joint positions (n,) in rad
+    and m, with the tool pose (4, 4) measured there.
     """
     rows = np.array([q for q, _ in samples])
     measured = np.array([pose for _, pose in samples])

@@ -15,14 +15,13 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.diagnosis.bounds import Bounds
 from holdfast.response.diagnosis.kinds import FaultVerdict
+from holdfast.response.diagnosis.monitor import Monitor
+from holdfast.response.faults.injector import FaultInjector
 from holdfast.response.faults.kind import find_kind
-from holdfast.response.supervisor import thresholds
-from holdfast.response.supervisor.condition import ArmCondition, ControlCycle, Pace, calibrated_speeds, estimate_joint_position
-from holdfast.response.supervisor.interfaces import Brakes, FaultMonitor
-from holdfast.response.supervisor.joint_motion import JointMotion
+from holdfast.response.supervisor import replanning, thresholds
+from holdfast.response.supervisor.condition import ArmCondition, JointMotion, Pace, calibrated_speeds, estimate_joint_position
 from holdfast.response.supervisor.masked_law import PROGRESS_TIMEOUT_S, MaskedLaw
-from holdfast.response.supervisor.plan import ACCELERATION_LIMIT, RouteFollower
-from holdfast.response.supervisor.replanning import TrialRoute, plan_intermediate_motion, plan_target_route, plan_trial_route
+from holdfast.response.supervisor.replanning import ACCELERATION_LIMIT, RouteFollower, TrialRoute
 from holdfast.response.supervisor.run import Action, ActionKind, React
 from holdfast.response.supervisor.states import (
     Alarmed,
@@ -48,7 +47,7 @@ class Controller:
     Args:
         law: Control law; the controller masks the braked joints.
         bounds: Bounds of the monitor; None without a monitor.
-        brakes: Brakes of the joints.
+        brakes: Brakes of the joints, which the fault injector of the simulation has.
         monitor: Fault monitor; None without one.
         react: Response, as for :func:`holdfast.simulate_faults`.
         plan: True if a route may be planned where the masked law would miss the target and no intermediate configuration
@@ -64,7 +63,7 @@ class Controller:
     """
 
     def __init__(
-        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: Brakes, monitor: FaultMonitor | None, react: React, plan: bool
+        self, law: MaskedLaw, *, bounds: Bounds | None, brakes: FaultInjector, monitor: Monitor | None, react: React, plan: bool
     ) -> None:
         self.law, self.arm = law, law.arm
         self._bounds, self._brakes, self._monitor, self._react = bounds, brakes, monitor, react
@@ -75,7 +74,7 @@ class Controller:
         self.condition = ArmCondition(self.arm)
         self.actions, self.verdicts = list[Action](), list[FaultVerdict]()
         self._pace = Pace()
-        self._cycle = ControlCycle(0.0, np.full(self.arm.n, np.nan), np.zeros(self.arm.n))
+        self._time, self._q, self._rates = 0.0, np.full(self.arm.n, np.nan), np.zeros(self.arm.n)  # of the last cycle
 
     @property
     def pace(self) -> float:
@@ -90,7 +89,7 @@ class Controller:
     @property
     def degraded(self) -> Degraded | None:
         """Failures of the arm that the controller knows; None if there are none."""
-        return self.condition.find_failures(self._cycle.q, self.law.mask)
+        return self.condition.find_failures(self._q, self.law.mask)
 
     def trusted_positions(self, q_measured: FloatArray) -> FloatArray:
         """Return the joint positions (n,), replacing those of sensors that are not trusted."""
@@ -105,8 +104,8 @@ class Controller:
 
     def rates(self, time: float, q_measured: FloatArray) -> FloatArray:
         """Commanded rates (n,), rad/s and m/s: smooth, within the velocity limits, and slower towards the ends of the range."""
-        q, dt = self.trusted_positions(q_measured), time - self._cycle.time
-        self._cycle.time, self._cycle.q = time, q
+        q, dt = self.trusted_positions(q_measured), time - self._time
+        self._time, self._q = time, q
         self._pace.ramp(dt)
         requested = self._requested_rates(time, q, dt)
         if not np.isfinite(requested).all():
@@ -116,8 +115,8 @@ class Controller:
         low, high = (np.sqrt(2 * ACCELERATION_LIMIT * np.maximum(margin, 0.0)) for margin in margins)
         requested = np.minimum(np.maximum(requested, -low), high)
         change = ACCELERATION_LIMIT * dt
-        self._cycle.rates = self.law.mask * np.clip(requested, self._cycle.rates - change, self._cycle.rates + change)
-        return self._cycle.rates
+        self._rates = self.law.mask * np.clip(requested, self._rates - change, self._rates + change)
+        return self._rates
 
     def _requested_rates(self, time: float, q: FloatArray, dt: float) -> FloatArray:
         """Return the rates that the control law or the route requests."""
@@ -144,7 +143,7 @@ class Controller:
         """Return whether the remaining control law fails to reach its target, by forward simulation or at its end."""
         if self.is_stopped or self.law.mask.min() > 0:
             return False
-        commanded = self._cycle.rates
+        commanded = self._rates
         stopping_distance = commanded * np.abs(commanded) / (2 * ACCELERATION_LIMIT)
         if not self.law.is_collision_free(q + 2 * stopping_distance):
             return True
@@ -189,13 +188,12 @@ class Controller:
             columns = tracking_error, self._bounds.tracking, v, commanded_rates
             return JointMotion(*(float(column[joint]) for column in columns))
 
-        trial = self.trial.state
+        trial, supervision = self.trial.state, self.supervision.state
         if isinstance(trial, OnTrial) and self._fails_trial(trial, time, motion_of(trial.joint)):
             self.trial.enter(NoTrial(), "joint not following")
             self._brake_and_wait(time, self.arm.joint_names[trial.joint], "it does not follow")
             self._stop(time, "what is left does not reach the target")
             return
-        supervision = self.supervision.state
         if isinstance(supervision, Braked):
             self._resume_monitoring(supervision.joint, "arm settled")
             return
@@ -246,13 +244,13 @@ class Controller:
         """Use a measured tool pose (4, 4): after braking it shows whether the joint's sensor can be trusted."""
         self.condition.has_tool_poses = True
         self._end_wait(time)
-        motion = self.motion.state
-        if not isinstance(motion, Waiting) or len(motion.pose_samples) == thresholds.MIN_POSE_SAMPLES:
+        motion, sample_count = self.motion.state, thresholds.MIN_POSE_SAMPLES
+        if not isinstance(motion, Waiting) or len(motion.pose_samples) == sample_count:
             return
-        if time <= motion.end_time - thresholds.MIN_POSE_SAMPLES / 100:
+        if time <= motion.end_time - sample_count / 100:
             return
         motion.pose_samples.append((self.trusted_positions(q_measured).copy(), pose))
-        if len(motion.pose_samples) == thresholds.MIN_POSE_SAMPLES:
+        if len(motion.pose_samples) == sample_count:
             self._check_sensor(time, motion)
 
     # ---- answers to a verdict ----------------------------------------------------------------------------------------
@@ -355,7 +353,7 @@ class Controller:
         while law.attempts:
             attempt = law.attempts.pop(0)
             if attempt == "detour":
-                route = plan_intermediate_motion(self.law, q, failures, max_speeds=self.condition.max_speeds)
+                route = replanning.plan_intermediate_motion(self.law, q, failures, max_speeds=self.condition.max_speeds)
             else:
                 route = self._plan_route(time, q, failures)
             if not isinstance(route, str):
@@ -373,14 +371,14 @@ class Controller:
 
     def _plan_route(self, time: float, q: FloatArray, failures: Degraded) -> RouteFollower | str:
         """Plan a route without the braked joints, else one with the braked joint, which may only have met a stop."""
-        route = plan_target_route(self.law, q, failures, max_speeds=self.condition.max_speeds)
+        route = replanning.plan_target_route(self.law, q, failures, max_speeds=self.condition.max_speeds)
         braked = [int(joint) for joint in np.flatnonzero(self.law.mask == 0)]
         has_trusted_joint = len(braked) == 1 and braked[0] not in self.condition.true_positions
         may_try = self._react == "chain" and not self.condition.is_sensor_fault and isinstance(self.trial.state, NoTrial)
         if not isinstance(route, str) or not has_trusted_joint or not may_try:
             return route
         directions, max_speeds = (self.condition.named_direction, 0.0), self.condition.max_speeds
-        trial = plan_trial_route(self.law, q, braked[0], directions, max_speeds=max_speeds)
+        trial = replanning.plan_trial_route(self.law, q, braked[0], directions, max_speeds=max_speeds)
         if trial is None:
             return route
         self._release(time, trial)

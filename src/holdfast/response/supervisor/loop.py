@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import get_args
 
 import numpy as np
@@ -12,14 +11,14 @@ from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law
 from holdfast.control.physics.body import Body
-from holdfast.control.physics.drives import Drives
-from holdfast.control.physics.plant import MAX_PHYSICAL_SPEED
-from holdfast.control.physics.servos import Servos, max_reference_offsets
+from holdfast.control.physics.robot import MAX_PHYSICAL_SPEED, SimulatedRobots, split_tool_poses
+from holdfast.control.physics.servos import Servos
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
+from holdfast.model.arm.mjcf import silence_mujoco
+from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.response.diagnosis.monitor import Monitor
@@ -136,8 +135,8 @@ def simulate_faults(
     looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
     robot_body = Body() if body is None else body
     masked = MaskedLaw(law, target, centring=centring, clearance=looked)
-    robot = _SimulatedRobot(
-        law, start, robot_body, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose
+    robot = _MonitoredRobot(
+        law.arm, start, robot_body, chosen, faults=faults, episode=episode, horizon=time_limit, seed=seed, pose=pose
     )
     bounds = None if monitor is None else monitor.bounds
     controller = Controller(masked, bounds=bounds, brakes=robot.injector, monitor=monitor, react=response, plan=plan)
@@ -163,12 +162,12 @@ def simulate_faults(
     )
 
 
-class _SimulatedRobot:
-    """Robot body with servos and sensors, and the recording so far."""
+class _MonitoredRobot:
+    """One simulated robot with faults whose servos follow commanded rates, and the recording so far."""
 
     def __init__(
         self,
-        law: Law,
+        arm: Arm,
         start: FloatArray,
         body: Body,
         servos: Servos,
@@ -179,113 +178,76 @@ class _SimulatedRobot:
         seed: int,
         pose: bool,
     ) -> None:
-        self.mujoco, self.arm, self.servos, self.body = import_mujoco(), law.arm, servos, body
-        self.model, stiffness, damping = body.model(law.arm, servos)
-        self.data = self.mujoco.MjData(self.model)
-        self.data.qpos[:] = start
-        self.mujoco.mj_forward(self.model, self.data)
-        self.injector = FaultInjector(self.model, self.data, law.arm, faults=faults, horizon=horizon)
+        self.arm, self.body, self._measures_pose, self.dt = arm, body, pose, 1 / servos.rate
+        self.robots = SimulatedRobots(arm, [body], start[None], servos)
+        (model,), (self.data,) = self.robots.models, self.robots.data
+        self.injector = FaultInjector(model, self.data, arm, faults=faults, horizon=horizon)
         self.injector.reset(episode)
-        self.rng, self.dt, self.cycles_per_pose = (
-            np.random.default_rng([2, seed]),
-            1 / servos.rate,
-            round(servos.rate / POSE_RATE_HZ) or 1,
-        )
-        effort = np.array([joint.effort for joint in law.arm.joints])
-        self.drives = Drives(stiffness, damping, effort=effort, period=self.dt)
-        self.reference, self.max_reference_lead, self._pose = start.copy(), max_reference_offsets(law.arm, stiffness), pose
-        self.gravity_of = law.arm._gravity_torque_kernel.single_row()
+        self.robots.faults = [self.injector]
+        self.rng, self.cycles_per_pose = np.random.default_rng([2, seed]), round(servos.rate / POSE_RATE_HZ) or 1
+        self.reference = start.copy()
         self.began: dict[FaultEvent, float] = {}
         self.rows: list[tuple[FloatArray, ...]] = []
-        self.gravity = self.gravity_of(start)
 
     def measure_joints_and_pose(self, cycle: int) -> tuple[FloatArray, FloatArray | None]:
         """Return the measured joint positions in a cycle and the measured tool pose, None without a sample."""
-        self.injector.before_step(cycle * self.dt)
+        noise = self.rng.normal(0, self.body.joint, (1, self.arm.n))
+        (q_measured,) = self.robots.measure(cycle * self.dt, self.reference[None], noise)
         for event, position in self.injector.places.items():
             self.began.setdefault(event, position)
-        true = self.data.qpos
-        q_measured = self.injector.read_sensors(true, reference=self.reference) + self.rng.normal(
-            0, self.body.joint, self.arm.n
-        )
-        self.drives.update_rate_error(q_measured, true)
-        self.v = self.data.qvel + self.drives.rate_error
-        if not self._pose or cycle % self.cycles_per_pose:
+        if not self._measures_pose or cycle % self.cycles_per_pose:
             return q_measured, None
-        return q_measured, self.body.measure_poses(self.arm.forward_kinematics(true[None]), self.rng)[0]
+        return q_measured, self.body.measure_poses(self.arm.forward_kinematics(self.robots.q), self.rng)[0]
+
+    @property
+    def v(self) -> FloatArray:
+        """(n,) measured rates, rad/s and m/s."""
+        return np.asarray(self.data.qvel + self.robots.drives.rate_error[0])
 
     def advance_cycle(self, q: FloatArray, rates: FloatArray, mask: FloatArray) -> FloatArray:
         """Advance one cycle with commanded rates, the joints assumed at q (n,), and return the recorded motor torques (n,)."""
-        reference = np.minimum(
-            np.maximum(self.reference + self.dt * rates, q - self.max_reference_lead), q + self.max_reference_lead
-        )
+        (max_lead,), drives = self.robots.max_reference_lead, self.robots.drives
+        reference = np.minimum(np.maximum(self.reference + self.dt * rates, q - max_lead), q + max_lead)
         inside = np.clip(reference, np.minimum(self.arm.lower, q), np.maximum(self.arm.upper, q))
         self.reference = np.where(mask > 0, inside, q)
-        self.gravity = self.gravity_of(q)
-        velocity = self.data.qvel
-        command = self.drives.compute_motor_controls(self.reference, rates, q, gravity=self.gravity, velocity=velocity)
-        self.data.ctrl[:] = command
-        self.injector.before_step(self.injector.time)
-        before = self.data.qpos.copy()
-        self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
-        torque = self.drives.compute_mean_torque(command, self.data.qpos - before)
+        commands = self.robots.advance(q[None], self.reference[None], rates[None])
+        (torque,) = drives.compute_mean_torque(commands, self.robots.read_positions() - self.robots.q)
         return np.asarray(torque + self.rng.normal(0, self.body.torque, self.arm.n))
 
     def record_cycle(
-        self, true: FloatArray, q_measured: FloatArray, torque: FloatArray, pose: FloatArray | None, errors: tuple[float, float]
+        self, q_measured: FloatArray, torque: FloatArray, pose: FloatArray | None, errors: tuple[float, float]
     ) -> None:
-        """Record a cycle."""
-        self.rows.append(
-            (true, q_measured, self.reference, torque, np.full(16, np.nan) if pose is None else pose.ravel(), np.array(errors))
-        )
+        """Record a cycle, in which the tool has a position and an orientation error."""
+        measured_pose = np.full((4, 4), np.nan) if pose is None else pose
+        self.rows.append((self.robots.q[0], q_measured, self.reference, torque, measured_pose, np.array(errors)))
 
     def recorded_arrays(self) -> dict[str, FloatArray]:
         """Return the fields of :class:`FaultRun` that are rows over time."""
-        from scipy.spatial.transform import Rotation
-
         q, q_measured, reference, torque, poses, errors = (np.array(part) for part in zip(*self.rows, strict=True))
-        poses = poses.reshape(-1, 4, 4)
-        has_pose = np.isfinite(poses[:, 0, 0])
-        quat = np.full((len(q), 4), np.nan)
-        if has_pose.any():
-            quat[has_pose] = Rotation.from_matrix(poses[has_pose, :3, :3]).as_quat()
-        return {
-            "time": np.arange(len(q)) * self.dt,
-            "q": q,
-            "q_measured": q_measured,
-            "reference": reference,
+        x, quat = split_tool_poses(poses)
+        fields = {"time": np.arange(len(q)) * self.dt, "q": q, "q_measured": q_measured, "reference": reference}
+        return fields | {
             "torque": torque,
-            "x": poses[:, :3, 3],
+            "x": x,
             "quat": quat,
             "position_error": errors[:, 0],
             "orientation_error": errors[:, 1],
         }
 
 
-@dataclass
-class _EndCounters:
-    """Counters of cycles that decide when a run ends."""
-
-    at_target: int = 0
-    idle: int = 0
-
-
 def _run_cycles(
-    robot: _SimulatedRobot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float
+    robot: _MonitoredRobot, controller: Controller, law: MaskedLaw, monitor: Monitor | None, react: React, limit: float
 ) -> FaultRunOutcome:
     """Run the control cycles and return the outcome."""
-    dt, ends, errors = robot.dt, _EndCounters(), (math.inf, math.inf)
+    dt, errors, cycles_at_target, idle_cycles = robot.dt, (math.inf, math.inf), 0, 0
     last_onset = max((event.onset for event in robot.injector.events), default=0.0)
     for cycle in track("control cycles", range(int(np.ceil(limit / dt))), most=True, every=1000):
-        time, true = cycle * dt, robot.data.qpos.copy()
-        q_measured, pose = robot.measure_joints_and_pose(cycle)
+        time = cycle * dt
+        (q_measured, pose), v = robot.measure_joints_and_pose(cycle), robot.v
         if cycle % robot.cycles_per_pose == 0:
-            errors = law.target_errors(true)
-            ends.at_target = (
-                ends.at_target + robot.cycles_per_pose
-                if errors[0] <= POSITION_TOLERANCE_M and errors[1] <= ORIENTATION_TOLERANCE_RAD
-                else 0
-            )
+            errors = law.target_errors(robot.robots.q[0])
+            is_at_target = errors[0] <= POSITION_TOLERANCE_M and errors[1] <= ORIENTATION_TOLERANCE_RAD
+            cycles_at_target = cycles_at_target + robot.cycles_per_pose if is_at_target else 0
         if react == "known":
             for event in robot.injector.active:
                 controller.on_known_fault(time, event.kind, event.joint, robot.began[event])
@@ -294,19 +256,17 @@ def _run_cycles(
         rates = controller.rates(time, q_measured)
         q = controller.trusted_positions(q_measured)
         torque = robot.advance_cycle(q, rates, law.mask)
-        robot.record_cycle(true, q_measured, torque, pose, errors)
+        robot.record_cycle(q_measured, torque, pose, errors)
         if monitor is not None and not controller.is_stopped:
             verdict = monitor.step(q, robot.reference, torque, pose=pose)
-            tracking_error = robot.reference - q
-            controller.on_verdict(
-                time, verdict, tracking_error=tracking_error, v=robot.v, commanded_rates=rates, gravity=robot.gravity
-            )
+            tracking_error, gravity = robot.reference - q, robot.robots.gravity[0]
+            controller.on_verdict(time, verdict, tracking_error=tracking_error, v=v, commanded_rates=rates, gravity=gravity)
         speed = float(np.abs(robot.data.qvel).max())
         if not speed < MAX_PHYSICAL_SPEED:
             return "unstable"
-        if ends.at_target * dt >= DWELL_S:
+        if cycles_at_target * dt >= DWELL_S:
             return "reached"
-        ends.idle = ends.idle + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
-        if ends.idle * dt > IDLE_END_S:
-            return "stopped" if controller.is_stopped else "missed"
+        idle_cycles = idle_cycles + 1 if controller.is_idle(rates) and speed < 0.05 and time > last_onset else 0
+        if idle_cycles * dt > IDLE_END_S:
+            break
     return "stopped" if controller.is_stopped else "missed"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise
-
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.laws.law import Law
+from holdfast.control.simulation.system import ColumnLayout
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -47,22 +46,6 @@ def make_masked_kernel(law: Law) -> Kernel:
     return Kernel("law with a mask", [q, position, rotation, mask, pull], [ca.vertcat(rates, *parts)])
 
 
-class _InputColumns:
-    """Columns of an input row of the masked kernel, for n joints."""
-
-    def __init__(self, n: int) -> None:
-        edges = [0, *accumulate((n, 3, 9, n, n))]
-        self.q, self.position, self.rotation, self.mask, self.pull = (slice(*ends) for ends in pairwise(edges))
-        self.width = edges[-1]
-
-
-class _OutputColumns:
-    """Columns of an output row of the masked kernel, for n joints."""
-
-    def __init__(self, n: int) -> None:
-        self.rates, self.position_error, self.orientation_error = slice(n), n, n + 1
-
-
 class MaskedLaw:
     """Control law that computes one step after the other towards a target without the masked joints.
 
@@ -99,26 +82,24 @@ class MaskedLaw:
         self._lower, self._upper = arm.lower + LIMIT_TOLERANCE, arm.upper - LIMIT_TOLERANCE
         self._kernel, self._gain = make_masked_kernel(law), law.gain
         self._run = self._kernel.single_row()
-        self._inputs, self._outputs = _InputColumns(n), _OutputColumns(n)
-        self._row = np.zeros(self._inputs.width)
-        self._row[self._inputs.position] = self.pose[:3, 3]
-        self._row[self._inputs.rotation] = self.pose[:3, :3].ravel()
-        self._row[self._inputs.mask] = 1.0
+        inputs = ColumnLayout(q=n, position=3, rotation=9, mask=n, pull=n)
+        self._inputs = np.zeros(inputs.size)
+        self._parts = inputs.view_parts(self._inputs[None])
+        self._parts["position"][:], self._parts["rotation"][:] = self.pose[:3, 3], self.pose[:3, :3].ravel()
+        self._parts["mask"][:] = 1.0
 
     def rates(self, q: FloatArray, *, mask: FloatArray | None = None) -> FloatArray:
         """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; a joint at its limit is not commanded
         beyond it.
         """
-        row, inputs, outputs = self._row, self._inputs, self._outputs
-        free = self.mask if mask is None else mask
+        parts, free = self._parts, self.mask if mask is None else mask
         # Without redundancy there is no null space, and a damped law with the pull would miss its target.
         pull = self._centring_gains * (self._middle - q) if free.sum() > self._rows else 0.0
-        row[inputs.q], row[inputs.mask], row[inputs.pull] = q, free, pull
-        values = self._run(row)
-        rates = values[outputs.rates].copy()
+        parts["q"][:], parts["mask"][:], parts["pull"][:] = q, free, pull
+        outputs = self._run(self._inputs)
+        rates, (position_error, orientation_error) = outputs[:-2].copy(), outputs[-2:]
         if mask is None:
-            self.position_error = float(values[outputs.position_error])
-            self.orientation_error = float(values[outputs.orientation_error])
+            self.position_error, self.orientation_error = float(position_error), float(orientation_error)
         passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
         if passing.any():
             rates = self.rates(q, mask=np.where(passing, 0.0, free))
@@ -126,9 +107,9 @@ class MaskedLaw:
 
     def target_errors(self, q: FloatArray) -> tuple[float, float]:
         """Return the position error in m and the orientation error in rad at a configuration (n,)."""
-        self._row[self._inputs.q] = q
-        values = self._run(self._row)
-        return float(values[self._outputs.position_error]), float(values[self._outputs.orientation_error])
+        self._parts["q"][:] = q
+        *_, position_error, orientation_error = self._run(self._inputs)
+        return float(position_error), float(orientation_error)
 
     def is_collision_free(self, q: FloatArray) -> NDArray[np.bool_]:
         """Return whether the arm keeps its clearance, (N,) for configurations (N, n), or a scalar for one configuration."""
@@ -162,12 +143,10 @@ class MaskedLaw:
     def _rates_and_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return rates (N, n) as :meth:`rates` does, and the sum of position and orientation error (N,), m and rad."""
         free, position, rotation = np.tile(self.mask, (len(q), 1)), self.pose[:3, 3], self.pose[:3, :3]
-        outputs = self._outputs
         while True:
             pull = np.where(free.sum(axis=1, keepdims=True) > self._rows, self._centring_gains * (self._middle - q), 0.0)
             values = self._kernel.rows(q, position, rotation, free, pull)
-            rates = values[:, outputs.rates]
-            errors = values[:, outputs.position_error] + values[:, outputs.orientation_error]
+            rates, errors = values[:, :-2], values[:, -2] + values[:, -1]
             passing = ((q <= self._lower) & (rates < 0)) | ((q >= self._upper) & (rates > 0))
             if not passing.any():
                 return rates, errors

@@ -14,9 +14,9 @@ import numpy as np
 
 from holdfast.core.errors import HoldfastError
 from holdfast.core.typing import FloatArray
-from holdfast.response.supervisor.joint_motion import JointMotion
+from holdfast.response.supervisor.condition import JointMotion
 from holdfast.response.supervisor.masked_law import MIN_PROGRESS
-from holdfast.response.supervisor.plan import RouteFollower
+from holdfast.response.supervisor.replanning import RouteFollower
 from holdfast.response.supervisor.thresholds import LATE_SAMPLES_WAIT_S, MIN_POSE_SAMPLES, RUNAWAY_TRACKING_RATIO
 
 Attempt = Literal["detour", "plan"]
@@ -28,19 +28,13 @@ Machine = Literal["motion", "supervision", "trial"]
 
 @dataclass
 class FollowingLaw:
-    """The control law, without the braked joints, commands the rates.
+    """The control law, without the braked joints, commands the rates."""
 
-    Attributes:
-        attempts: Ways of replanning that remain after the last brake, in their order; empty for a healthy arm.
-        is_predicted: True once the law has been simulated forward from here.
-        nearest_error: Smallest error so far, m and rad added; infinite before the first cycle after a brake.
-        progress_time: Time in s at which the error last became smaller.
-    """
-
+    # ways of replanning that remain after the last brake, in their order; empty for a healthy arm
     attempts: list[Attempt] = field(default_factory=list)
-    is_predicted: bool = False
-    nearest_error: float = np.inf
-    progress_time: float = 0.0
+    is_predicted: bool = False  # True once the law has been simulated forward from here
+    nearest_error: float = np.inf  # smallest error so far, m and rad added; infinite before the first cycle after a brake
+    progress_time: float = 0.0  # time in s at which the error last became smaller
 
     def add_cycle(self, time: float, error: float) -> None:
         """Add a control cycle at a time in s with an error in m and rad, which is progress if the error became smaller."""
@@ -50,18 +44,12 @@ class FollowingLaw:
 
 @dataclass
 class Waiting:
-    """A joint was braked; the arm is at rest until it has settled and enough tool poses are measured.
+    """A joint was braked; the arm is at rest until it has settled and enough tool poses are measured."""
 
-    Attributes:
-        joint: Index of the braked joint.
-        end_time: Time in s at which the arm has settled.
-        attempts: Ways of replanning for the law that follows.
-        pose_samples: Joint positions (n,) in rad and m with the tool pose (4, 4) measured there.
-    """
-
-    joint: int
-    end_time: float
-    attempts: list[Attempt]
+    joint: int  # index of the braked joint
+    end_time: float  # time in s at which the arm has settled
+    attempts: list[Attempt]  # ways of replanning for the law that follows
+    # joint positions (n,) in rad and m with the tool pose (4, 4) measured there
     pose_samples: list[tuple[FloatArray, FloatArray]] = field(default_factory=list)
 
     def is_over(self, time: float) -> bool:
@@ -72,15 +60,10 @@ class Waiting:
 
 @dataclass
 class OnRoute:
-    """A route, or a motion to an intermediate configuration, commands the rates.
+    """A route, or a motion to an intermediate configuration, commands the rates."""
 
-    Attributes:
-        route: The timed motion and the position along it.
-        law: State of the law before the route; its remaining attempts are kept for the law after the route.
-    """
-
-    route: RouteFollower
-    law: FollowingLaw
+    route: RouteFollower  # the timed motion and the position along it
+    law: FollowingLaw  # state of the law before the route; its remaining attempts are kept for the law after the route
 
 
 # ---- supervision -----------------------------------------------------------------------------------------------------
@@ -93,28 +76,18 @@ class Watching:
 
 @dataclass
 class Alarmed:
-    """The monitor has raised an alarm; the arm may have been slowed, but no joint has been braked for this alarm.
+    """The monitor has raised an alarm; the arm may have been slowed, but no joint has been braked for this alarm."""
 
-    Attributes:
-        start_time: Time of the alarm in s.
-        contact_end: Time in s at which a contact is considered over; infinite if there was no contact.
-        slowed_joint: Name of the joint for which the arm was slowed; None if there is none.
-    """
-
-    start_time: float
-    contact_end: float = np.inf
-    slowed_joint: str | None = None
+    start_time: float  # time of the alarm in s
+    contact_end: float = np.inf  # time in s at which a contact is considered over; infinite if there was no contact
+    slowed_joint: str | None = None  # name of the joint for which the arm was slowed; None if there is none
 
 
 @dataclass
 class Braked:
-    """The alarm was answered by a brake; once the arm has settled the monitor continues without the joint.
+    """The alarm was answered by a brake; once the arm has settled the monitor continues without the joint."""
 
-    Attributes:
-        joint: Name of the joint.
-    """
-
-    joint: str
+    joint: str  # name of the joint
 
 
 @dataclass
@@ -132,17 +105,11 @@ class NoTrial:
 
 @dataclass
 class OnTrial:
-    """The brake of a joint was released because no route exists without the joint.
+    """The brake of a joint was released because no route exists without the joint."""
 
-    Attributes:
-        joint: Index of the joint.
-        verdict_time: Time of the last verdict in s.
-        lost_motion: Commanded minus measured motion in rad or m, summed while the joint did not follow.
-    """
-
-    joint: int
-    verdict_time: float
-    lost_motion: float = 0.0
+    joint: int  # index of the joint
+    verdict_time: float  # time of the last verdict in s
+    lost_motion: float = 0.0  # commanded minus measured motion in rad or m, summed while the joint did not follow
 
     def add_cycle(self, time: float, joint_motion: JointMotion) -> None:
         """Add a control cycle at a time in s; the reference of a joint at its effort limit waits, so lost motion is summed."""
@@ -164,14 +131,7 @@ TrialState = NoTrial | OnTrial
 
 
 class Transition(NamedTuple):
-    """Row of the transition table.
-
-    Attributes:
-        machine: State machine.
-        source: Name of the state before.
-        event: Event that causes the transition.
-        target: Name of the state after.
-    """
+    """Row of the transition table: a machine, the name of a state, an event, and the name of the state after it."""
 
     machine: Machine
     source: str

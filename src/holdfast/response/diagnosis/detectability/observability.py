@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -73,14 +74,10 @@ class Observability(Result):
                 if not joint_detected.any():
                     lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
                     continue
-                median_delay, median_error = (
-                    np.median(self.delays[joint_detected, index]),
-                    np.median(self.strayed[joint_detected, index]),
-                )
+                median_delay, median_error = (np.median(x[joint_detected, index]) for x in (self.delays, self.strayed))
                 lines.append(
-                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool "
-                    f"{1e3 * median_error:.2g} mm off (medians; "
-                    f"{joint_detected.mean():.0%} of the times at which it may lock)"
+                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool {1e3 * median_error:.2g} mm "
+                    f"off (medians; {joint_detected.mean():.0%} of the times at which it may lock)"
                 )
         if self.alike:
             lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(self.alike)}")
@@ -125,10 +122,8 @@ def predict_detection(
         )
     if (stiffness is None) != (damping is None):
         raise InputError("only one of stiffness and damping is given; give both, or neither")
-    sampled, duration = (
-        resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references,
-        (len(references) - 1) / rate,
-    )
+    sampled = resample_motion(references, rate, PLAN_RATE_HZ) if rate > PLAN_RATE_HZ else references
+    duration = (len(references) - 1) / rate
     delays = strayed = alike = None
     if bounds is not None:
         bounds.require(arm, bounds.rate)
@@ -140,22 +135,12 @@ def predict_detection(
         elif stiffness is None:
             stiffness = damping = np.zeros(arm.n)
         onsets = np.unique(np.linspace(0, 0.9 * (len(references) - 2), _ONSET_COUNT).astype(int))
-        delays = np.array(
-            [
-                expected_delays(
-                    bounds,
-                    references,
-                    stiffness=stiffness,
-                    damping=damping,  # type: ignore[arg-type]
-                    onset=onset / bounds.rate,
-                )
-                for onset in onsets
-            ]
-        )
+        gains: dict[str, Any] = {"stiffness": stiffness, "damping": damping}
+        delays = np.array([expected_delays(bounds, references, **gains, onset=onset / bounds.rate) for onset in onsets])
         strayed = _tool_errors(arm, references, onsets, np.where(np.isfinite(delays), delays, 0.0) * bounds.rate)
         if torques:
             has_small_gravity = np.abs(arm.gravity_torque(sampled)).max(axis=0) < _MOVING_FRICTION_FACTOR * bounds.coulomb
-            alike = tuple(name for name, is_ambiguous in zip(arm.joint_names, has_small_gravity, strict=True) if is_ambiguous)
+            alike = tuple(arm.joint_names[joint] for joint in np.flatnonzero(has_small_gravity))
     return Observability(
         arm=arm,
         duration=duration,

@@ -38,10 +38,9 @@ from holdfast.response.diagnosis.sensors import Sensors
 from holdfast.response.faults.log import Log
 
 PLAN_RATE_HZ = 100.0  # Hz, of the plan
-# REST_BEFORE_S, REST_AFTER_S and RAMP_TIME_S: s at rest, s of acceleration
 REST_BEFORE_S = 0.2
 REST_AFTER_S = 0.3
-RAMP_TIME_S = 0.3
+RAMP_TIME_S = 0.3  # of acceleration
 _LIMIT_MARGIN = 0.05  # rad or m from a limit
 _DIRECTION_COUNT = 24
 _MAX_LEGS = 3
@@ -202,25 +201,16 @@ def plan_identification(
     if clearance is not None and not clearance(start) > margin:
         raise InputError("the configuration is not clear of itself or of the cell by the margin; begin elsewhere")
     chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(candidate) for candidate in suspects)
-    rng, motion, best_score = (
-        np.random.default_rng(seed),
-        np.repeat(start[None], round(REST_BEFORE_S * PLAN_RATE_HZ), axis=0),
-        (-1, 0.0),
-    )
+    motion = np.repeat(start[None], round(REST_BEFORE_S * PLAN_RATE_HZ), axis=0)
+    rng, best_score = np.random.default_rng(seed), (-1, 0.0)
     hypothesis_indices = [0, *(candidate_index + 1 for candidate_index in chosen)]
     pairs = len(hypothesis_indices) * (len(hypothesis_indices) - 1) // 2
     for _ in range(_MAX_LEGS):
-        legs = [
-            _time_curve(leg, speed)
-            for leg in _trace_self_motions(arm, required_task, motion[-1], start, (duration - RAMP_TIME_S) * speed, speed, rng)
-        ]
-        trials = [
-            np.concatenate([motion, _truncate_before_collision(arm, motion, leg, chosen, clearance, margin)]) for leg in legs
-        ]
-        scores = [
-            _score_separation(hypothesis_separations(arm, trial, sensors)[np.ix_(hypothesis_indices, hypothesis_indices)])
-            for trial in trials
-        ]
+        curves = _trace_self_motions(arm, required_task, motion[-1], start, (duration - RAMP_TIME_S) * speed, speed, rng)
+        legs = [_time_curve(curve, speed) for curve in curves]
+        legs = [_truncate_before_collision(arm, motion, leg, chosen, clearance, margin) for leg in legs]
+        trials, selection = [np.concatenate([motion, leg]) for leg in legs], np.ix_(hypothesis_indices, hypothesis_indices)
+        scores = [_score_separation(hypothesis_separations(arm, trial, sensors)[selection]) for trial in trials]
         best_trial = max(range(len(trials)), key=lambda k: scores[k])
         if scores[best_trial] <= best_score:
             break
@@ -229,6 +219,7 @@ def plan_identification(
             break
     motion = np.concatenate([motion, np.repeat(motion[-1:], round(REST_AFTER_S * PLAN_RATE_HZ), axis=0)])
     poses = arm.forward_kinematics(motion)
+    tool_errors = project_to_task(arm, required_task, motion, pose_differences(poses, poses[0])[..., None])[..., 0]
     return ProbingMotion(
         arm=arm,
         task=required_task,
@@ -238,11 +229,7 @@ def plan_identification(
         separation=hypothesis_separations(arm, motion, sensors),
         visible=self_motion_rates(arm, start, required_task),
         sensors=sensors,
-        tool=float(
-            np.linalg.norm(
-                project_to_task(arm, required_task, motion, pose_differences(poses, poses[0])[..., None])[..., 0], axis=1
-            ).max()
-        ),
+        tool=float(np.linalg.norm(tool_errors, axis=1).max()),
     )
 
 
@@ -286,23 +273,14 @@ def identify(
     runner_up = np.sort(log_likelihoods, axis=0)[-2]
     is_decided = log_likelihoods.max(axis=0) - runner_up > LOG_LIKELIHOOD_THRESHOLD
     row = int(is_decided.argmax()) if is_decided.any() else len(pose_rows) - 1
-    final_likelihoods, names = (
-        log_likelihoods[:, row],
-        ["none", *(arm.joint_names[candidate_index] for candidate_index in chosen)],
-    )
-    remaining = tuple(
-        name
-        for name, value in zip(names, final_likelihoods, strict=True)
-        if final_likelihoods.max() - value <= LOG_LIKELIHOOD_THRESHOLD
-    )
+    final_likelihoods, names = log_likelihoods[:, row], np.array(["none", *(arm.joint_names[joint] for joint in chosen)])
+    is_remaining = final_likelihoods.max() - final_likelihoods <= LOG_LIKELIHOOD_THRESHOLD
+    is_cleared = final_likelihoods[0] - final_likelihoods[1:] > LOG_LIKELIHOOD_THRESHOLD
+    remaining = tuple(names[is_remaining].tolist())
     return Identification(
         joint=remaining[0] if remaining[1:] == () and remaining[0] != "none" else None,
         remaining=remaining,
-        cleared=tuple(
-            name
-            for name, value in zip(names[1:], final_likelihoods[1:], strict=True)
-            if final_likelihoods[0] - value > LOG_LIKELIHOOD_THRESHOLD
-        ),
+        cleared=tuple(names[1:][is_cleared].tolist()),
         time=float(log.t[pose_rows[row]]),
         displacement=float(np.linalg.norm(log.x[pose_rows[row]] - log.x[resting].mean(axis=0))),
     )
@@ -311,9 +289,8 @@ def identify(
 def _score_separation(separation: FloatArray) -> tuple[int, float]:
     """Return the number of separable pairs of hypotheses, and a measure of how well they are separated."""
     pair_separations = separation[np.triu_indices(len(separation), 1)]
-    return int((pair_separations > LOG_LIKELIHOOD_THRESHOLD).sum()), float(
-        np.minimum(pair_separations, 3 * LOG_LIKELIHOOD_THRESHOLD).sum()
-    )
+    total = float(np.minimum(pair_separations, 3 * LOG_LIKELIHOOD_THRESHOLD).sum())
+    return int((pair_separations > LOG_LIKELIHOOD_THRESHOLD).sum()), total
 
 
 def _trace_self_motions(
@@ -338,14 +315,8 @@ def _trace_self_motions(
         tangents = np.einsum("bnk,bmk,bm->bn", null_basis, null_basis, tangents)
         norms = np.linalg.norm(tangents, axis=1, keepdims=True)
         tangents = tangents / np.maximum(norms, 1e-12)
-        task_errors = project_to_task(
-            arm,
-            task,
-            configurations,
-            pose_differences(np.broadcast_to(tool_pose, (len(configurations), 4, 4)), arm.forward_kinematics(configurations))[
-                ..., None
-            ],
-        )
+        pose_errors = pose_differences(tool_pose, arm.forward_kinematics(configurations))[..., None]
+        task_errors = project_to_task(arm, task, configurations, pose_errors)
         next_q = configurations + step_length * tangents + 0.5 * (inverse @ task_errors)[..., 0]
         is_active &= (norms[:, 0] > 1e-6) & ((next_q >= lower) & (next_q <= upper)).all(axis=1)
         if not is_active.any():

@@ -19,7 +19,6 @@ class _HoldingKind(FaultKind):
     holds_joint = needs_brake = True
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         fault.joint.hold(fault.position, is_still=fault.is_still)
 
 
@@ -30,11 +29,9 @@ class LockedKind(_HoldingKind):
     parameters = ((FaultParameter("at", word="here"),),)
 
     def is_delayed(self, numbers: Numbers) -> bool:
-        """See :meth:`FaultKind.is_delayed`."""
         return numbers.get("at", "here") != "here"
 
     def check(self, joint: ModelJoint, numbers: Numbers) -> None:
-        """See :meth:`FaultKind.check`."""
         if not self.is_delayed(numbers):
             return
         position, (lower, upper) = float(numbers["at"]), joint.limits
@@ -48,7 +45,6 @@ class LockedKind(_HoldingKind):
             fault.is_pending, fault.memory = distance != 0, math.copysign(1.0, distance)
 
     def take_delayed_effect(self, fault: ActiveFault) -> bool:
-        """See :meth:`FaultKind.take_delayed_effect`."""
         position = fault.number("at")
         has_arrived: bool = (fault.joint.q - position) * fault.memory <= 0
         if has_arrived:
@@ -62,11 +58,9 @@ class SlippingClutchKind(_HoldingKind):
     code = 11
 
     def read_sensor(self, reading: SensorReading, fault: ActiveFault) -> float:
-        """See :meth:`FaultKind.read_sensor`."""
         return reading.value if reading.reference is None else reading.reference
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_reading`."""
         step.q_measured = step.select(active, step.q_motor, step.q_measured)
 
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 class _MotorKind(FaultKind):
     def check(self, joint: ModelJoint, numbers: Numbers) -> None:
-        """See :meth:`FaultKind.check`."""
         joint.require_actuator(self.name)
 
 
@@ -27,11 +26,9 @@ class LimpKind(_MotorKind):
     needs_brake = True
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         fault.joint.limit_force(0.0, 0.0)
 
     def torque_fraction(self, numbers: Numbers) -> float:
-        """See :meth:`FaultKind.torque_fraction`."""
         return 0.0
 
 
@@ -45,7 +42,6 @@ class WeakKind(_MotorKind):
     )
 
     def check(self, joint: ModelJoint, numbers: Numbers) -> None:
-        """See :meth:`FaultKind.check`."""
         super().check(joint, numbers)
         if "gain" in numbers and joint.model.jnt_actgravcomp[joint.joint_id]:
             raise InputError(
@@ -56,7 +52,6 @@ class WeakKind(_MotorKind):
             joint.total_effort(self.name)
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         joint = fault.joint
         if "gain" in fault.numbers:
             for field in ("actuator_gainprm", "actuator_biasprm"):
@@ -67,7 +62,6 @@ class WeakKind(_MotorKind):
             joint.limit_force(-max_force, max_force)
 
     def torque_fraction(self, numbers: Numbers) -> float:
-        """See :meth:`FaultKind.torque_fraction`."""
         return float(numbers.get("gain", numbers.get("ceiling", 0.0)))
 
 
@@ -78,7 +72,6 @@ class FrictionKind(FaultKind):
     parameters = ((FaultParameter("coulomb", 0.0), FaultParameter("viscous", 0.0)),)
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         joint, model, dof = fault.joint, fault.joint.model, fault.joint.dof
         joint.write_field("dof_frictionloss", dof, model.dof_frictionloss[dof] + fault.number("coulomb"))
         joint.write_field("dof_damping", dof, model.dof_damping[dof] + fault.number("viscous"))
@@ -91,7 +84,6 @@ class ReducedSpeedKind(_MotorKind):
     parameters = ((FaultParameter("velocity", 0.0, includes_ends=False),),)
 
     def check(self, joint: ModelJoint, numbers: Numbers) -> None:
-        """See :meth:`FaultKind.check`."""
         super().check(joint, numbers)
         joint.total_effort(self.name)
 
@@ -102,12 +94,10 @@ class ReducedSpeedKind(_MotorKind):
         fault.memory = (-effort, driving_effort) if speed > 0 else (-driving_effort, effort)
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         if fault.memory is not None:
             fault.joint.limit_force(*fault.memory)
 
     def change_motion(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_motion`."""
         step.speed_limits = step.select(active, step.minimum(step.first, step.speed_limits), step.speed_limits)
 
 
@@ -122,11 +112,9 @@ class CommandDropoutKind(_MotorKind):
         fault.memory = fault.joint.command
 
     def update(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.update`."""
         fault.joint.write_command(fault.memory)
 
     def change_motion(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_motion`."""
         step.command = step.select(active, step.last_command, step.command)
 
 

@@ -24,11 +24,9 @@ class SensorBiasKind(_SensorKind):
     parameters = ((FaultParameter("bias", 0.0, has_random_sign=True),),)
 
     def read_sensor(self, reading: SensorReading, fault: ActiveFault) -> float:
-        """See :meth:`FaultKind.read_sensor`."""
         return reading.value + fault.number("bias")
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_reading`."""
         step.q_measured += step.select(active, step.first, 0.0)
 
 
@@ -39,11 +37,9 @@ class SensorDriftKind(_SensorKind):
     parameters = ((FaultParameter("rate", 0.0, has_random_sign=True),),)
 
     def read_sensor(self, reading: SensorReading, fault: ActiveFault) -> float:
-        """See :meth:`FaultKind.read_sensor`."""
         return reading.value + fault.number("rate") * max(reading.time - fault.onset, 0.0)
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_reading`."""
         step.q_measured += step.select(active, step.first * (step.time - step.onset), 0.0)
 
 
@@ -53,11 +49,9 @@ class SensorFreezeKind(_SensorKind):
     code = 8
 
     def read_sensor(self, reading: SensorReading, fault: ActiveFault) -> float:
-        """See :meth:`FaultKind.read_sensor`."""
         return fault.position
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_reading`."""
         step.q_measured = step.select(active, step.q_onset, step.q_measured)
 
 
@@ -69,11 +63,9 @@ class SensorNoiseKind(_SensorKind):
     draws_noise = True
 
     def read_sensor(self, reading: SensorReading, fault: ActiveFault) -> float:
-        """See :meth:`FaultKind.read_sensor`."""
         return reading.value + fault.number("deviation") * reading.generator.standard_normal()
 
     def change_reading(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_reading`."""
         step.q_measured += step.select(active, step.first * step.noise, 0.0)
 
 

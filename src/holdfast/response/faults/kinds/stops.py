@@ -24,7 +24,6 @@ class ReducedRangeKind(FaultKind):
     )
 
     def remaining_range(self, limits: tuple[float, float], position: float, numbers: Numbers) -> tuple[float, float]:
-        """See :meth:`FaultKind.remaining_range`."""
         lower, upper = limits
         if "travel" in numbers:
             travel = float(numbers["travel"])
@@ -35,11 +34,9 @@ class ReducedRangeKind(FaultKind):
         return lower, upper
 
     def apply(self, fault: ActiveFault) -> None:
-        """See :meth:`FaultKind.apply`."""
         fault.joint.limit_range(*self.remaining_range(fault.joint.model_limits, fault.position, fault.numbers))
 
     def change_motion(self, step: StepSymbols, active: SX) -> None:
-        """See :meth:`FaultKind.change_motion`."""
         travel, q = step.first, step.q_onset
         lower = step.select(travel < 0, q + travel, step.minimum(step.second, q))
         upper = step.select(step.all_true(travel > 0, step.is_given(travel)), q + travel, step.maximum(step.third, q))

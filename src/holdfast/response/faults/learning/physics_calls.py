@@ -72,11 +72,7 @@ def _find_function_aliases() -> None:
         for name in () if _REPLACED_FUNCTIONS else filter(_PHYSICS_FUNCTIONS.fullmatch, dir(mujoco)):
             function = getattr(mujoco, name)
             _REPLACED_FUNCTIONS[name] = function, _make_replacement(function)
-        pairs_by_id = {
-            id(function_or_replacement): function_pair
-            for function_pair in _REPLACED_FUNCTIONS.values()
-            for function_or_replacement in function_pair
-        }
+        pairs_by_id = {id(function): pair for pair in _REPLACED_FUNCTIONS.values() for function in pair}
         for module in list(sys.modules.values()):
             namespace = vars(module) if isinstance(module, ModuleType) else {}
             for name, value in list(namespace.items()):

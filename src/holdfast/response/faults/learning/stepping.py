@@ -36,21 +36,17 @@ def build_step_kernel(law: Law) -> Kernel:
     ``setting`` is period, horizon and the two tolerances.
     """
     arm, task, n = law.arm, law.task, law.arm.n
-    state, is_over, episode = (
-        ca.SX.sym("state", len(STATE_PARTS) * n + 1),
-        ca.SX.sym("over"),
-        ca.SX.sym("episode", GOAL_NUMBERS + 7 * n),
-    )
-    action, noise = ca.SX.sym("action", n), ca.SX.sym("noise", n)
-    limits, setting = ca.SX.sym("limits", 3 * n), ca.SX.sym("setting", 4)
+    sizes = {"state": len(STATE_PARTS) * n + 1, "over": 1, "episode": GOAL_NUMBERS + 7 * n, "action": n, "noise": n}
+    inputs = [ca.SX.sym(name, size) for name, size in {**sizes, "limits": 3 * n, "setting": 4}.items()]
+    state, is_over, episode, action, noise, limits, setting = inputs
     period, horizon, position_tolerance, orientation_tolerance = ca.vertsplit(setting)
     q_start, target_position, target_rotation, code, onset, end, parameters = ca.vertsplit(
         episode, np.cumsum([0, n, 3, 9, n, n, n, 3 * n]).tolist()
     )
     target_rotation = ca.reshape(target_rotation, 3, 3).T
-    lower, upper, max_speeds = (limits[part * n : (part + 1) * n] for part in range(3))
+    lower, upper, max_speeds = ca.vertsplit(limits, n)
     is_new = is_over > 0
-    *positions, last_command = (state[part * n : (part + 1) * n] for part in range(len(STATE_PARTS)))
+    *positions, last_command = ca.vertsplit(state[:-1], n)
     q, q_measured, q_onset, q_clutch = (ca.if_else(is_new, q_start, value) for value in positions)
     time_before, last_command, time_step = (ca.if_else(is_new, 0.0, value) for value in (state[-1], last_command, period))
     time_after = time_before + time_step
@@ -102,18 +98,9 @@ def build_step_kernel(law: Law) -> Kernel:
     terminated = step.all_true(is_over <= 0, position_error <= position_tolerance, orientation_error <= orientation_tolerance)
     truncated = step.all_true(is_over <= 0, ca.logic_not(terminated), time_after >= horizon - TIME_TOLERANCE_S)
     reward = ca.if_else(is_new, 0.0, -(position_error + orientation_error))
-    return Kernel(
-        "step with faults",
-        [state, is_over, episode, action, noise, limits, setting],
-        [
-            ca.vertcat(q_next, q_measured, q_onset, q_clutch, command, time_after),
-            ca.logic_or(terminated, truncated),
-            ca.vertcat(q_measured, measured_error, command),
-            reward,
-            terminated,
-            truncated,
-        ],
-    )
+    next_state = ca.vertcat(q_next, q_measured, q_onset, q_clutch, command, time_after)
+    observation, is_finished = ca.vertcat(q_measured, measured_error, command), ca.logic_or(terminated, truncated)
+    return Kernel("step with faults", inputs, [next_state, is_finished, observation, reward, terminated, truncated])
 
 
 def make_fault_rows(batch: FaultBatch) -> FloatArray:

@@ -34,10 +34,8 @@ class SuccessRate:
             rate = self.rate(feasible)
             if rate is not None:
                 interval = f"{self.confidence:.0%} interval {rate.low:.1%} to {rate.high:.1%}"
-                lines.append(
-                    f"goal feasible: {feasible}: {success_count} of {episode_count} episodes succeeded, {rate.value:.1%} "
-                    f"({interval})"
-                )
+                counts = f"{success_count} of {episode_count} episodes succeeded, {rate.value:.1%} ({interval})"
+                lines.append(f"goal feasible: {feasible}: {counts}")
         return "\n".join(lines)
 
 

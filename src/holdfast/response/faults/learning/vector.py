@@ -197,10 +197,10 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     def _begin_episodes(self, rows: NDArray[np.int64]) -> None:
         """Draw the next episodes of some rows."""
         arm, count = self.law.arm, len(rows)
-        limit_margins = LIMIT_MARGIN_FRACTION * (self._upper - self._lower)
-        sampled_q = self.np_random.uniform(self._lower + limit_margins, self._upper - limit_margins, (count, arm.n))
+        sampled_q = self._sample_configurations(self.np_random, count)
         q_start = sampled_q if self._start is None else np.broadcast_to(self._start, (count, arm.n))
-        goals = np.asarray((self._goals or self._random_goals)(self.np_random, count), dtype=np.float64)
+        sample_goals = self._goals or (lambda *options: arm.forward_kinematics(self._sample_configurations(*options)))
+        goals = np.asarray(sample_goals(self.np_random, count), dtype=np.float64)
         if goals.shape != (count, 4, 4) or not np.isfinite(goals).all():
             raise InputError(f"goals gave an array of shape {goals.shape}; they must be finite tool poses ({count}, 4, 4), m")
         episodes = self._episode_numbers[rows] + self.num_envs
@@ -213,10 +213,9 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         self._event_ids[rows] = [episode_events.id for episode_events in events]
         self._episode_numbers[rows], self._has_begun = episodes, True
 
-    def _random_goals(self, generator: np.random.Generator, count: int) -> FloatArray:
+    def _sample_configurations(self, generator: np.random.Generator, count: int) -> FloatArray:
         limit_margins = LIMIT_MARGIN_FRACTION * (self._upper - self._lower)
-        q = generator.uniform(self._lower + limit_margins, self._upper - limit_margins, (count, self.law.arm.n))
-        return self.law.arm.forward_kinematics(q)
+        return generator.uniform(self._lower + limit_margins, self._upper - limit_margins, (count, self.law.arm.n))
 
     def _make_info(self) -> dict[str, Any]:
         time = self._time[:, None]

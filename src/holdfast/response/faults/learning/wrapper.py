@@ -61,10 +61,8 @@ class FaultInfo(Mapping[str, Any]):
 
     def __repr__(self) -> str:
         active = self["active"]
-        parts = [
-            f"  {event.sentence()}{', active' if f'{event.joint}: {event.kind}' in active else ''}"
-            for event in self._injector.events
-        ]
+        marks = [", active" if f"{event.joint}: {event.kind}" in active else "" for event in self._injector.events]
+        parts = [f"  {event.sentence()}{mark}" for event, mark in zip(self._injector.events, marks, strict=True)]
         return "\n".join([f"FaultInfo: {len(parts)} {'fault' if len(parts) == 1 else 'faults'} in this episode", *parts])
 
 
@@ -138,17 +136,16 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._episode = int(remaining_options.pop("episode", self._episode + 1))
         self.injector.restore()
         observation, info = self.env.reset(seed=seed, options=remaining_options or None)
-        if not self._has_model():  # some environments load theirs anew
-            model, data = _find_model(self.env.unwrapped)
-            self.injector = FaultInjector(
-                model, data, self.injector.joints, faults=self.injector.faults, horizon=self.injector.horizon
-            )
+        model, data = _find_model(self.env.unwrapped)
+        if model is not self.injector.model:  # some environments load theirs anew
+            old = self.injector
+            self.injector = FaultInjector(model, data, old.joints, faults=old.faults, horizon=old.horizon)
             self._physics = PhysicsInterceptor(self.injector)
         self.injector.reset(self._episode)
         self._prepare_episode()
         if self._has_sensor_faults:
             self._locate_entries(observation)
-        return self._corrupt_observation(observation), self._add_fault_info(info)
+        return self._corrupt_observation(observation), {**info, "fault": self.fault} if self._reveal else info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Step the environment with the faults that have begun."""
@@ -188,12 +185,11 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         assert self._recorder is not None
         injector, model, data = self.injector, self.injector.model, self.injector.data
         reference = np.full(len(injector.joints), np.nan)
+        gains, stiffness = model.actuator_gainprm[:, 0], -model.actuator_biasprm[:, 1]
         for index, name in enumerate(injector.joints):
             for actuator in injector.actuators_of(name):
-                if model.actuator_biasprm[actuator, 1] < 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
-                    reference[index] = (
-                        data.ctrl[actuator] * model.actuator_gainprm[actuator, 0] / -model.actuator_biasprm[actuator, 1]
-                    )
+                if stiffness[actuator] > 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
+                    reference[index] = data.ctrl[actuator] * gains[actuator] / stiffness[actuator]
         injector.time = data.time
         q, torque = injector.read_sensors(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
         self._recorder.record_step(data.time, reference, q, torque, action, reward)
@@ -211,9 +207,6 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             success=self._success,
         )
 
-    def _has_model(self) -> bool:
-        return _find_model(self.env.unwrapped)[0] is self.injector.model
-
     def _prepare_episode(self) -> None:
         """Prepare the state of a new episode."""
         kinds = [find_kind(event.kind) for event in self.injector.events]
@@ -225,9 +218,6 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self.fault: FaultInfo = FaultInfo(self.injector, self._evaluate_feasibility)
         if self._has_dropouts and self.env.action_space.shape != (self.injector.model.nu,):
             raise InputError("a dropout needs actions that are the actuators' controls; this environment has others")
-
-    def _add_fault_info(self, info: dict[str, Any]) -> dict[str, Any]:
-        return {**info, "fault": self.fault} if self._reveal else info
 
     def _evaluate_feasibility(self) -> Feasibility:
         if self._feasibility is not None:
@@ -270,11 +260,8 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
 
     def _locate_entries(self, observation: Any) -> None:
         """Find the entries of the joints whose sensors will fail, once."""
-        joints = [
-            event.joint
-            for event in self.injector.events
-            if find_kind(event.kind).is_sensor and event.joint not in self._observes
-        ]
+        failing = [event.joint for event in self.injector.events if find_kind(event.kind).is_sensor]
+        joints = [joint for joint in failing if joint not in self._observes]
         if self._entries_given or not joints:
             return
         get_observation = getattr(self.env.unwrapped, "_get_obs", None)
