@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps.samples import Column
 from holdfast.model.arms.serial import from_dict
 from holdfast.model.collision.clearance_argument import decode_clearance
 from holdfast.response.recovery.recovery import Answer

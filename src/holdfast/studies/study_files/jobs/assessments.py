@@ -10,10 +10,11 @@ import numpy as np
 
 from holdfast.core.status import Status
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
 from holdfast.studies.assessment.bins import FACT_NAMES, IndexCounts, compute_bin_edges
 from holdfast.studies.assessment.block import compile_plan, evaluate_block, evaluate_worst_cases
-from holdfast.studies.assessment.plan import AssessmentPlan, Rows
+from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.study_files.jobs.process import PlannedJob
 
 Keep = Literal["rows", "counts"]

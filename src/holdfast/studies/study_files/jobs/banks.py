@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
-from holdfast.studies.study_files.jobs.laws import LawJob
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
+from holdfast.studies.study_files.jobs.process import LawJob
 from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.trials.performance import RECORDED_MEASURES
 from holdfast.teleop.trials.scenarios import Scenario
-
-Rows = dict[str, NDArray[Any]]
 
 
 class BankJob(LawJob):
