@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError, StoreError
@@ -259,8 +258,9 @@ class Store:
         if progress is not None:
             progress(finished, self.rows)
         for chunk, columns in compute(missing):
+            start, stop = self.chunk_span(chunk)
             self.commit_chunk(chunk, columns, time.monotonic() - begin)
-            finished, begin = finished + int(np.diff(self.chunk_span(chunk))[0]), time.monotonic()
+            finished, begin = finished + stop - start, time.monotonic()
             if progress is not None:
                 progress(finished, self.rows)
 

@@ -387,10 +387,7 @@ class Assessment(Result):
     def _write_rows(self, folder: Path, rows: Rows) -> None:
         store = self.plan.create_store(folder)
         with store.lock_for_writing():
-            spans = ((chunk, slice(*store.chunk_span(chunk))) for chunk in store.missing_chunks)
-            store.commit_missing(
-                lambda _: ((chunk, {name: values[span] for name, values in rows.items()}) for chunk, span in spans)
-            )
+            store.commit_missing(lambda missing: ((chunk, _take_rows(rows, *store.chunk_span(chunk))) for chunk in missing))
             store.add_notes(**describe_provenance(self.seconds))
 
     @check_arguments
@@ -406,3 +403,7 @@ class Assessment(Result):
             StoreError: The file cannot be written.
         """
         return super().report(path, threshold)
+
+
+def _take_rows(rows: Rows, start: int, stop: int) -> Rows:
+    return {name: values[start:stop] for name, values in rows.items()}

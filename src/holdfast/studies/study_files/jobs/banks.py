@@ -28,18 +28,12 @@ class BankJob(LawJob):
         """See :class:`holdfast.core.sweeps.SweepJob`."""
         law = self.compiled_parts
         joints = ("failing", law.arm.n)
-        cases = ("healthy_or_failed", 2)
+        cases, measures = ("healthy_or_failed", 2), ("measure", RECORDED_MEASURES)
         return [
             Column("q0", "float64", (joints, ("joint", law.arm.n)), units="rad or m", about="configuration at the start"),
             Column("target", "float64", (joints, ("row", law.task.m)), units="m", about="where the end effector should go"),
             Column("end", "uint8", (joints, cases), units="1", about="how the trial ended; 0 arrived"),
-            Column(
-                "measures",
-                "float64",
-                (joints, cases, ("measure", RECORDED_MEASURES)),
-                units="mixed",
-                about="M1 to M11 of Goel et al. 2003",
-            ),
+            Column("measures", "float64", (joints, cases, measures), units="mixed", about="M1 to M11 of Goel et al. 2003"),
         ]
 
     def run(self, chunk: Chunk) -> Rows:
