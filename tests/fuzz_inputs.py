@@ -26,6 +26,7 @@ import tempfile
 import time
 import traceback
 import warnings
+import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
@@ -40,7 +41,7 @@ import yaml
 import holdfast
 from flips import change_digits
 from holdfast.core.errors import HoldfastError
-from sealing import read_unsealed, read_unsealed_study
+from sealing import seal
 
 SEED = 20120831
 MOST_SECONDS = 10.0  # of the processor: other programs may take theirs
@@ -282,12 +283,22 @@ def of_json(data: bytes, rng: np.random.Generator) -> bytes:
         return b"[" * 100_000 + data
 
 
-def of_json_lines(data: bytes, rng: np.random.Generator) -> bytes:
-    """The structure of one line of a file of JSON lines."""
-    lines = data.splitlines()
+def of_sealed_json(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of a JSON file with a digest, which fits the changed content."""
+    changed = of_json(json.dumps({key: value for key, value in json.loads(data).items() if key != "digest"}).encode(), rng)
+    try:
+        found = json.loads(changed)
+    except (RecursionError, ValueError):
+        return changed
+    return seal(found).encode() if isinstance(found, dict) and found else changed
+
+
+def of_checked_lines(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of one line of a file of JSON lines, each with its checksum."""
+    lines = [line.rpartition(b" ")[0] for line in data.splitlines()]
     k = int(rng.integers(len(lines)))
     lines[k] = of_json(lines[k], rng)
-    return b"\n".join(lines) + b"\n"
+    return b"".join(line + b" %08x\n" % zlib.crc32(line) for line in lines)
 
 
 def of_xml(data: bytes, rng: np.random.Generator) -> bytes:
@@ -353,7 +364,7 @@ def of_numbers(data: bytes, rng: np.random.Generator) -> bytes:
     others = (None, float("nan"), float("inf"), -1, 0, -1e308, 1e308, True, "1")
     changed = value[:-1] if isinstance(value, list) else others[rng.integers(len(others))]
     block[key] = changed  # type: ignore[index]
-    return json.dumps(found).encode()
+    return seal({key: value for key, value in found.items() if key != "digest"}).encode()
 
 
 def _entry(data: object, trail: tuple[object, ...]) -> object:
@@ -635,7 +646,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast import sweeps as study
     from holdfast.certificates import verifier
     from holdfast.core.sweeps import ThreadRunner
-    from holdfast.core.sweeps.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
+    from holdfast.core.sweeps.memory import MEMORY_FILE, SearchMemory
     from holdfast.interface.cli.values import read_weights
     from holdfast.interface.studio.motions import read_motion
     from holdfast.kinematics.paths.path import load_path_file as read_path
@@ -682,8 +693,6 @@ def kinds(root: Path) -> dict[str, Kind]:
     (root / "before").mkdir()
     for name in ("search", "before"):
         SearchMemory(root / name, plan).recall_or_compute("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
-    lines = [line.rpartition(b" ")[0] for line in (root / "before" / MEMORY_FILE).read_bytes().splitlines()]
-    (root / "before" / LEGACY_MEMORY_FILE).write_bytes(b"\n".join([*lines, b""]))
 
     def study_of(_: Path) -> object:
         s = study.Study.open(root / "study")
@@ -771,10 +780,6 @@ def kinds(root: Path) -> dict[str, Kind]:
     parquet.write_table(rows, root / "lists.parquet")
 
     cell = next((root / "study" / "cells").iterdir())
-    (root / "study" / "study.json").write_text(json.dumps(read_unsealed_study(root / "study" / "study.json")))
-    (root / "study" / "made.json").write_text(json.dumps(read_unsealed(root / "study" / "made.json")))
-    for file in (run / "run.json", cell / "run.json"):  # without a digest, which would refuse every change
-        file.write_text(json.dumps(read_unsealed(file)))
     found = {
         "DH table": Kind([DH], of_yaml, arm_of, root / "in.yaml"),
         "region": Kind(REGIONS, of_yaml, hf.Region.load, root / "weighted" / "in.yaml"),
@@ -816,17 +821,15 @@ def kinds(root: Path) -> dict[str, Kind]:
         "records": one(root / "experiment" / "records.sqlite", of_records, sound_records_of),
         "records without digests": one(root / "older" / "records.sqlite", of_records, records_of),
         "digits of run.json": Kind([stored], of_digits, sealed_run_of, run / "run.json"),
-        "run.json": one(run / "run.json", of_json, run_of),
+        "run.json": one(run / "run.json", of_sealed_json, run_of),
         "attributes of a group": one(run / "samples.zarr" / "zarr.json", of_json, run_of),
         "attributes of an array": one(run / "samples.zarr" / "index" / "zarr.json", of_json, run_of),
         "chunk of an array": one(next((run / "samples.zarr" / "index" / "c").iterdir()), lambda x, r: of_bytes(x, r), run_of),
-        "study.json": one(root / "study" / "study.json", of_json, study_of),
-        "made.json": one(root / "study" / "made.json", of_json, study_of),
-        "run.json of a cell": one(cell / "run.json", of_json, study_of),
+        "study.json": one(root / "study" / "study.json", of_sealed_json, study_of),
+        "made.json": one(root / "study" / "made.json", of_sealed_json, study_of),
+        "run.json of a cell": one(cell / "run.json", of_sealed_json, study_of),
         "journal of a cell": one(cell / "done.journal", lambda x, r: of_bytes(x, r), study_of),
-        LEGACY_MEMORY_FILE: one(
-            root / "before" / LEGACY_MEMORY_FILE, of_json_lines, lambda path: SearchMemory(path.parent, plan)
-        ),
+        "lines of a search": one(root / "before" / MEMORY_FILE, of_checked_lines, lambda path: SearchMemory(path.parent, plan)),
         MEMORY_FILE: one(
             root / "search" / MEMORY_FILE, lambda x, r: of_bytes(x, r), lambda path: SearchMemory(path.parent, plan)
         ),

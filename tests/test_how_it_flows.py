@@ -63,6 +63,28 @@ def find_code(name):
     raise LookupError(name)
 
 
+def test_an_assessment_is_in_at_most_eight_files(tmp_path):
+    """Every function of the package that runs is in a file that the page names."""
+    named = set(re.findall(r"`(src/holdfast/[\w/]+\.py)`", WALKS["An assessment"]))
+    assert len(named) <= 8
+    package = ROOT / "src/holdfast/studies/assessment"
+    code = f"""import sys, threading
+{SETUP}
+files = set()
+def trace(frame, event, argument):
+    if event == "call" and frame.f_code.co_name != "<module>" and not frame.f_code.co_name[0].isupper():
+        files.add(frame.f_code.co_filename)
+threading.setprofile(trace)
+sys.setprofile(trace)
+{CALLS["An assessment"]}
+sys.setprofile(None)
+print(*files, sep="\\n")
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    used = {Path(file).resolve() for file in done.stdout.split("\n") if Path(file).resolve().parent == package.resolve()}
+    assert {file.relative_to(ROOT.resolve()).as_posix() for file in used} <= named
+
+
 def test_the_page_has_three_walks_of_eight_to_twelve_steps():
     assert set(WALKS) == set(CALLS)
     for title, text in WALKS.items():

@@ -15,7 +15,8 @@ from benchmarks.planners.cases import BenchmarkCase, CaseSampler
 from benchmarks.planners.verdicts import find_violation
 from numpy.typing import NDArray
 
-from holdfast.core.sweeps import Chunk, Column
+from holdfast.core.sweeps.job import Chunk
+from holdfast.core.sweeps.samples import Column
 from holdfast.model.arms.serial import from_dict
 from holdfast.model.collision.clearance_argument import decode_clearance
 from holdfast.response.recovery.recovery import Answer

@@ -20,7 +20,7 @@ import zarr
 
 from holdfast.core.errors import StoreError
 from holdfast.core.files.digest import seal_document
-from holdfast.core.sweeps import Column, Store, store
+from holdfast.core.sweeps import Column, Store
 
 COLUMNS = [
     Column("x", "float64", (("axis", 2),), units="m", about="where"),
@@ -54,7 +54,11 @@ def snapshot(folder: Path) -> dict[str, bytes]:
 
 def read_unsealed(file: Path):
     """As tests/sealing.py, which the programs of this file cannot import."""
-    return {key: value for key, value in json.loads(file.read_text()).items() if key not in ("digest", "sealed")}
+    return {key: value for key, value in json.loads(file.read_text()).items() if key != "digest"}
+
+
+def write_sealed(file: Path, data):
+    file.write_text(seal_document(data))
 
 
 def sentence(error) -> str:
@@ -102,24 +106,17 @@ def test_going_on_computes_only_what_is_missing(folder):
         np.testing.assert_array_equal(s.dataset()[name].values, values)
 
 
-def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
-    """Its last digits differ: rows of both in one folder would be neither's."""
+@pytest.mark.parametrize("version", [1, 2, 3])
+def test_a_run_in_an_earlier_format_is_refused_with_the_way_to_convert_it(folder, version):
     fill(folder, [0, 1])
     file = folder / "run.json"
-    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
+    write_sealed(file, read_unsealed(file) | {"version": version})
     before = snapshot(folder)
-    with pytest.raises(StoreError) as error:
-        make(folder)
-    assert "computed by an earlier holdfast" in sentence(error)
+    for ask in (lambda: make(folder), lambda: Store.open(folder)):
+        with pytest.raises(StoreError, match=r"holdfast\.studies\.convert_folder converts earlier formats") as error:
+            ask()
+        assert f"format {version}" in sentence(error)
     assert snapshot(folder) == before
-    np.testing.assert_array_equal(Store.open(folder).read_chunk(0, ["x"])["x"], rows(0, CHUNK)["x"])
-
-
-def test_a_finished_run_of_the_earlier_backend_is_there(folder):
-    fill(folder)
-    file = folder / "run.json"
-    file.write_text(json.dumps(read_unsealed(file) | {"version": 1}))
-    assert make(folder).is_complete
 
 
 def test_the_plan_is_what_json_makes_of_it(folder):
@@ -219,7 +216,7 @@ def test_an_interrupt_during_the_commit_leaves_no_rubbish(folder, monkeypatch):
 
     s = Store.open(folder)
     with monkeypatch.context() as patch:
-        patch.setattr(store.os, "fsync", stop)
+        patch.setattr(os, "fsync", stop)
         with pytest.raises(KeyboardInterrupt):
             s.add_notes(a=1)
     assert set(snapshot(folder)) == before
@@ -277,7 +274,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: seal_document({**{k: v for k, v in json.loads(text).items() if k != "digest"}, "version": 4}),
+    "other version": lambda text: seal_document({**{k: v for k, v in json.loads(text).items() if k != "digest"}, "version": 5}),
     "nested too deep": lambda text: "[" * 100_000,
 }
 
@@ -295,18 +292,18 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
         message = sentence(caught)
         assert str(folder) in message
         if how == "other version":
-            assert "format 4" in message
-            assert "formats up to 3" in message
+            assert "format 5" in message
+            assert "reads format 4" in message
     assert snapshot(folder) == before
 
 
-@pytest.mark.parametrize("key", ["plan", "rows", "chunk", "done", "notes"])
+@pytest.mark.parametrize("key", ["plan", "rows", "chunk", "notes"])
 def test_a_run_file_without_a_key_is_damaged(key, folder):
     fill(folder, [0])
     file = folder / "run.json"
     run = read_unsealed(file)
     del run[key]
-    file.write_text(json.dumps(run))
+    write_sealed(file, run)
     for ask in (lambda: Store.open(folder), lambda: make(folder)):
         with pytest.raises(StoreError, match=f"damaged.*{key}|{key}.*damaged"):
             ask()
@@ -314,12 +311,12 @@ def test_a_run_file_without_a_key_is_damaged(key, folder):
 
 @pytest.mark.parametrize(
     "change",
-    [{"done": [0, 99]}, {"done": "all"}, {"rows": "many"}, {"rows": -1}, {"chunk": 0}, {"plan": []}, {"notes": None}],
+    [{"columns": "all"}, {"rows": "many"}, {"rows": -1}, {"chunk": 0}, {"plan": []}, {"notes": None}],
 )
 def test_a_run_file_with_nonsense_is_damaged(change, folder):
     fill(folder, [0])
     file = folder / "run.json"
-    file.write_text(json.dumps({**read_unsealed(file), **change}))
+    write_sealed(file, {**read_unsealed(file), **change})
     with pytest.raises(StoreError, match="damaged"):
         Store.open(folder)
 
@@ -411,7 +408,7 @@ def test_a_full_disk_while_committing(folder, monkeypatch):
     s = fill(folder, [0])
     files = set(snapshot(folder))
     with monkeypatch.context() as patch, s.lock_for_writing():
-        patch.setattr(store.os, "replace", full)
+        patch.setattr(os, "replace", full)
         with pytest.raises(StoreError, match=r"chunk 2 .*No space left on device.*make room") as caught:
             s.commit_chunk(1, rows(5, 10))
         sentence(caught)
@@ -434,7 +431,7 @@ def test_a_full_disk_while_writing_rows(folder, monkeypatch):
 def test_a_full_disk_while_noting_or_beginning(folder, tmp_path, monkeypatch):
     s = fill(folder)
     with monkeypatch.context() as patch:
-        patch.setattr(store.os, "fsync", full)
+        patch.setattr(os, "fsync", full)
         with pytest.raises(StoreError, match="No space left"):
             s.add_notes(seconds=1)
         with pytest.raises(StoreError, match="No space left"):

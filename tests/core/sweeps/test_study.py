@@ -19,7 +19,7 @@ from holdfast.core.errors import StoreError
 from holdfast.core.sweeps import Column, Store, Study, SweepCell, ThreadRunner, journal, merge_studies
 from holdfast.core.sweeps.folder import digest_columns, lock_folder
 from holdfast.core.sweeps.journal import ChecksumLines, Journal, JournalEntry
-from sealing import read_unsealed, read_unsealed_study
+from sealing import read_unsealed, write_sealed
 
 HERE = str(Path(__file__).parent)
 
@@ -92,7 +92,7 @@ def test_shares_for_machines_that_never_meet_merge_to_the_whole(tmp_path, straig
     assert sum(len(bits(p)) for p in parts) == 10
     other = read_unsealed(parts[1].path / "made.json")
     other["makers"][0]["processor"] = "another kind"
-    (parts[1].path / "made.json").write_text(json.dumps(other))
+    write_sealed(parts[1].path / "made.json", other)
     found = merge_studies(tmp_path / "whole", [p.path for p in parts])
     whole = Study.open(tmp_path / "whole")
     assert (found.added, found.both, found.apart) == (10, 0, ())
@@ -250,9 +250,9 @@ DAMAGED = {
 def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
     make(tmp_path / "s")
     file = tmp_path / "s" / "study.json"
-    data = read_unsealed_study(file)
+    data = read_unsealed(file)
     DAMAGED[what](data["cells"][1])
-    file.write_text(json.dumps(data))
+    write_sealed(file, data)
     with pytest.raises(StoreError, match=r"is damaged: its cell 2 is missing or wrong"):
         Study.open(tmp_path / "s")
 
@@ -261,13 +261,13 @@ def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
     ("key", "value"),
     [("rows", 2**62), ("rows", -1), ("chunk", 0), ("columns", [["../x", "float64", [], "1", ""]]), ("columns", [["x"]]),
      ("columns", [["x", "no type", [], "1", ""]]), ("columns", [["x", "a", [], "1", ""]]),
-     ("columns", [["x", "O", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
+     ("columns", [["x", "O", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]])],
 )  # fmt: skip
 def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
     store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10, chunk=5)
     assert store.missing_chunks == [0, 1]
     file = tmp_path / "s" / "run.json"
-    file.write_text(json.dumps(read_unsealed(file) | {key: value}))
+    write_sealed(file, read_unsealed(file) | {key: value})
     with pytest.raises(StoreError, match="is damaged: its"):
         Store.open(tmp_path / "s")
 
@@ -275,7 +275,7 @@ def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
 def test_chunks_of_one_row_of_a_large_run_are_no_hang(tmp_path):
     Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10**9, chunk=10**6)
     file = tmp_path / "s" / "run.json"
-    file.write_text(json.dumps(read_unsealed(file) | {"chunk": 1}))
+    write_sealed(file, read_unsealed(file) | {"chunk": 1})
     with pytest.raises(StoreError, match="its chunk is missing or wrong"):
         Store.open(tmp_path / "s")
 
@@ -337,11 +337,11 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
         make("/proc/holdfast")
 
 
-@pytest.mark.parametrize("change", [{"cells": None}, {"seed": 5}, {"format": "x"}, {"version": 9}, {"digest": "0"}])
+@pytest.mark.parametrize("change", [{"cells": None}, {"seed": "5"}, {"format": "x"}, {"version": 9}])
 def test_a_damaged_study_file_is_a_sentence(change, tmp_path):
     study = make(tmp_path / "s")
     file = study.path / "study.json"
-    file.write_text(json.dumps({**read_unsealed_study(file), **change}))
+    write_sealed(file, {**read_unsealed(file), **change})
     with pytest.raises(StoreError):
         Study.open(study.path)
     file.write_text("{")
@@ -352,9 +352,9 @@ def test_a_damaged_study_file_is_a_sentence(change, tmp_path):
 @pytest.mark.parametrize("key", ["labels", "rows", "chunk", "name", "digest"])
 def test_a_cell_that_lacks_something_is_named(key, tmp_path):
     study = make(tmp_path / "s")
-    data = read_unsealed_study(study.path / "study.json")
+    data = read_unsealed(study.path / "study.json")
     del data["cells"][1][key]
-    (study.path / "study.json").write_text(json.dumps(data))
+    write_sealed(study.path / "study.json", data)
     with pytest.raises(StoreError, match=r"its cell 2 is missing or wrong"):
         Study.open(study.path)
 

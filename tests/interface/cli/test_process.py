@@ -45,7 +45,7 @@ def start(folder, joints, poses):
     end = time.monotonic() + 60
     while time.monotonic() < end:
         assert process.poll() is None, process.communicate()
-        if (folder / "run.json").exists() and json.loads((folder / "run.json").read_text())["done"]:
+        if (folder / "done.journal").exists() and Store.open(folder).committed_chunks:
             return process
         time.sleep(0.005)
     process.kill()

@@ -22,7 +22,7 @@ from holdfast.kernels import set_threads, shared_pool
 from holdfast.kinematics.regions.region import Region, default_region
 from holdfast.studies import read_study_file
 from holdfast.studies.study_files.results import read_assessment
-from sealing import read_unsealed_study
+from sealing import read_unsealed, write_sealed
 
 TEXT = """
 name: small
@@ -245,9 +245,9 @@ def test_labels_of_a_damaged_study_are_named_and_mended(cli, ask, file, folder, 
     whole = tmp_path / "copy"
     assert cli("study", "merge", whole, folder)[0] == 0
     study = whole / "study.json"
-    data = read_unsealed_study(study)
+    data = read_unsealed(study)
     del data["cells"][0]["labels"]["arm"]
-    study.write_text(json.dumps(data))
+    write_sealed(study, data)
     code, _, err = cli("study", "report", whole)
     assert code == 2
     assert "has no label 'arm'" in err
@@ -373,8 +373,8 @@ def test_wrong_calls_are_sentences(refused, file, folder, tmp_path):
     assert "its seed is 3, asked for is 4" in refused("study", "run", file, "--out", folder)
     for command in ("status", "verify", "report"):
         assert "is not a study" in refused("study", command, tmp_path)
-    data = read_unsealed_study(folder / "study.json")
+    data = read_unsealed(folder / "study.json")
     copy = tmp_path / "copy"
     copy.mkdir()
     (copy / "study.json").write_text(json.dumps({**data, "seed": 8}))
-    assert "damaged: its digest" in refused("study", "status", copy)
+    assert "it has no digest" in refused("study", "status", copy)

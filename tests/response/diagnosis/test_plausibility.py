@@ -14,6 +14,7 @@ from holdfast.core.errors import InputError
 from holdfast.interface.presentation import call_presenter
 from holdfast.response.diagnosis.observer import accumulate_excess
 from holdfast.response.faults import Log
+from sealing import write_sealed
 
 LINK = """<link name="{0}"><inertial><origin xyz="0.02 0 0.15"/><mass value="{1}"/>
 <inertia ixx="0.03" iyy="0.04" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
@@ -142,17 +143,16 @@ def test_a_lock_is_detected_no_later_than_calibration_prints(crane, healthy, spe
 def damage(file, key, value):
     data = json.loads(file.read_text(encoding="utf-8"))
     data.pop("digest")
-    data["format"] = 1
     if isinstance(data[key], list) and not isinstance(value, list):
         data[key][1] = value
     else:
         data[key] = value
-    file.write_text(json.dumps(data), encoding="utf-8")
+    write_sealed(file, data)
 
 
 @pytest.mark.parametrize("value", [float("nan"), -1, 0, 1e308, "x", [1.0], [], True, 10**400])
 @pytest.mark.parametrize("key", ["torque", "change", "tracking", "scales", "rate", "position", "hours"])
-def test_damaged_bounds_without_a_digest_are_refused(crane, healthy, tmp_path, key, value):
+def test_damaged_bounds_with_a_fitting_digest_are_refused(crane, healthy, tmp_path, key, value):
     file = dataclasses.replace(calibrated(crane, healthy), position=0.01, angle=0.01).to_json(tmp_path / "bounds.json")
     damage(file, key, value)
     with pytest.raises(InputError, match="bounds '"):
@@ -175,7 +175,7 @@ def test_no_changed_bit_or_digit_of_bounds_is_accepted(crane, healthy, tmp_path,
         with pytest.raises(InputError, match="bounds '"):
             hf.diagnosis.load(file)
     file.write_bytes(sound.partition(b',\n  "digest"')[0] + b"\n}\n")
-    with pytest.raises(InputError, match="digest does not match"):
+    with pytest.raises(InputError, match="it has no digest"):
         hf.diagnosis.load(file)
     file.write_bytes(sound)
     assert np.array_equal(hf.diagnosis.load(file).torque, bounds.torque)

@@ -19,7 +19,7 @@ from holdfast.core.status import Status
 from holdfast.kinematics.indices import CustomIndex, by_name
 from holdfast.kinematics.regions.region import builtin_region
 from holdfast.model.arm.task import as_task
-from sealing import read_unsealed
+from sealing import read_unsealed, write_sealed
 
 PAPER = builtin_region("pa10-9dof")
 FAR = Region.box([10, 0, 0], 0.1)
@@ -437,7 +437,7 @@ def test_a_lost_column_is_noticed(name, three, tmp_path):
     file = tmp_path / "run" / "run.json"
     run = read_unsealed(file)
     run["columns"] = [c for c in run["columns"] if c[0] != name]
-    file.write_text(json.dumps(run))
+    write_sealed(file, run)
     with pytest.raises(StoreError, match=f"its column '{name}' is lost"):
         load(tmp_path / "run")
 
@@ -481,7 +481,7 @@ def test_a_plan_without_a_part_is_called_damaged_or_foreign(key, three, tmp_path
     file = tmp_path / "run" / "run.json"
     run = read_unsealed(file)
     del run["plan"][key]
-    file.write_text(json.dumps(run))
+    write_sealed(file, run)
     with pytest.raises(StoreError, match="not an assessment" if key == "kind" else f"damaged.*{key}"):
         load(tmp_path / "run")
 
@@ -504,7 +504,7 @@ def test_a_plan_with_nonsense_gives_a_sentence(change, three, tmp_path):
     file = tmp_path / "run" / "run.json"
     run = read_unsealed(file)
     change(run["plan"])
-    file.write_text(json.dumps(run))
+    write_sealed(file, run)
     with pytest.raises(HoldfastError) as caught:
         load(tmp_path / "run")
     assert "\n" not in str(caught.value)

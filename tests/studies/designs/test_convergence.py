@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import sys
 from html import unescape
@@ -17,7 +16,6 @@ from cards import check_card
 from holdfast.control.convergence.places import read_places
 from holdfast.control.simulation import Reason
 from holdfast.core.formatting import format_percent
-from holdfast.core.sweeps.memory import LEGACY_MEMORY_FILE, MEMORY_FILE
 from holdfast.studies.designs import DesignJoints, LawOfDesigns, PlanarStationarySets, design_for_convergence, design_space
 from holdfast.studies.designs.failures import FailureTrials
 
@@ -202,18 +200,6 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     near = hf.control.damped(hf.arms.load("planar-3r"), 0.10000001, "planar")
     with pytest.raises(hf.StoreError, match="its law is"):
         design_for_convergence(near, vary, 3, **options, store=tmp_path)
-    # A search of holdfast 0.1, whose lines have no checksums and whose law has six digits.
-    plan, *lines = [line.rpartition(b" ")[0] for line in (tmp_path / MEMORY_FILE).read_bytes().splitlines()]
-    data = json.loads(plan)
-    task = [law.task.rows.tolist(), law.task.frame, law.task.length]
-    data["search"] |= {"law": [law.label, law.describe()], "gain": None, "speed_limit": None, "task": task}
-    (tmp_path / "before").mkdir()
-    (tmp_path / "before" / LEGACY_MEMORY_FILE).write_bytes(b"\n".join([json.dumps(data).encode(), *lines, b""]))
-    looked.clear()
-    assert design_for_convergence(law, vary, 3, **options, store=tmp_path / "before").checked == whole.checked
-    assert not looked
-    with pytest.raises(hf.StoreError, match="its gain is null"):
-        design_for_convergence(near, vary, 3, **options, store=tmp_path / "before")
 
 
 def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):

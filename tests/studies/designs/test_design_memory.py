@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.core.sweeps.memory import LEGACY_MEMORY_FILE, MEMORY_FILE, SearchMemory
+from holdfast.core.sweeps.journal import ChecksumLines
+from holdfast.core.sweeps.memory import MEMORY_FILE, SearchMemory
+from holdfast.studies import convert_folder
 
 PLAN = {"arm": "abc", "seed": 3, "vary": ["a3=0..1m"]}
 
@@ -68,16 +70,19 @@ def test_a_part_that_is_not_as_it_was_is_made_again(tmp_path: Path, rng: np.rand
     )
 
 
-def test_a_search_of_holdfast_0_1_is_resumed_in_its_file(tmp_path: Path, rng: np.random.Generator) -> None:
+def test_a_search_of_holdfast_0_1_is_converted(tmp_path: Path, rng: np.random.Generator) -> None:
     lines = [{"search": PLAN}, {"part": "one", "arrays": {"x": ["float64", [2], [1.5, -0.25]]}}]
-    (tmp_path / LEGACY_MEMORY_FILE).write_text("".join(json.dumps(line) + "\n" for line in lines) + '{"part": "tw')
+    (tmp_path / "search.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines) + '{"part": "tw')
+    with pytest.raises(hf.StoreError, match="is not empty and holds no search"):
+        SearchMemory(tmp_path, PLAN)
+    assert convert_folder(tmp_path) == tmp_path
     made = parts(rng)
     for _ in range(2):
         memory = SearchMemory(tmp_path, PLAN)
         np.testing.assert_array_equal(memory.recall_or_compute("one", lambda: pytest.fail("remembered"))["x"], [1.5, -0.25])
         found = memory.recall_or_compute("two", lambda: made)
     np.testing.assert_array_equal(found["value"], made["value"])
-    assert [file.name for file in tmp_path.iterdir()] == [LEGACY_MEMORY_FILE]
+    assert [file.name for file in tmp_path.iterdir()] == [MEMORY_FILE]
 
 
 def test_refusals(tmp_path: Path) -> None:
@@ -91,8 +96,9 @@ def test_refusals(tmp_path: Path) -> None:
         *('["int64", [1], [1' + "0" * 30 + "]]", '["float64", [1], [1' + "0" * 400 + "]]", '["float32", [1], [1e308]]'),
         *('["a", [1], ["x"]]', '["O", [1], [{}]]', '["S2000000000", [1], ["x"]]', "[" * 100_000 + "]" * 100_000),
     ):
-        line = json.dumps({"search": PLAN}) + '\n{"part": "one", "arrays": {"x": ' + part + "}}\n"
-        (tmp_path / "run" / LEGACY_MEMORY_FILE).write_text(line)
+        (tmp_path / "run" / MEMORY_FILE).unlink()
+        line = '{"part": "one", "arrays": {"x": ' + part + "}}"
+        ChecksumLines(tmp_path / "run" / MEMORY_FILE).append(json.dumps({"search": PLAN}).encode(), line.encode())
         with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
             SearchMemory(tmp_path / "run", PLAN)
     (tmp_path / "other").mkdir()

@@ -25,8 +25,8 @@ from holdfast.control.laws.law import Law
 from holdfast.control.simulation.closed_loop import simulate
 from holdfast.control.simulation.runs import Reason
 from holdfast.core.errors import InputError, TaskError
-from holdfast.core.sweeps.store import Column
-from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kinematics.workspace.bounds import joint_bounds
 
 Method = Literal["brute", "procedure", "sampled"]
@@ -130,7 +130,7 @@ class TargetAnalysis:
             Column("ends", "int64", (("end", len(FAILURE_ENDS)),), units="1", about=", ".join(FAILURE_ENDS)),
         ]
 
-    def analyse(self, start_index: IndexArray, q0: FloatArray, count: int) -> dict[str, NDArray[Any]]:
+    def analyse(self, start_index: IndexArray, q0: FloatArray, count: int) -> Rows:
         """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``start_index`` (R,), and return
         all results.
         """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -33,7 +33,7 @@ from holdfast.core.progress import reports_progress
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.result import Result
 from holdfast.core.sweeps.store import Store
-from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.core.typing import FloatArray, IndexArray, Rows
 from holdfast.core.validation import check_arguments
 
 if TYPE_CHECKING:
@@ -275,29 +275,21 @@ def compute_workspace(
 ) -> Workspace:
     """Analyse one target, some starts at a time."""
     places, count = starts.places, len(starts.places)
-    folder = None
-    if store is not None:
-        folder = Store.create(
-            store,
-            job.plan(places),
-            job.store_columns(),
-            rows=count,
-            chunk=_CHUNK_STARTS,
-            formerly=job.law.formerly(job.law.describe()),
-        )
-    chunks: list[dict[str, NDArray[Any]]] = []
-    for chunk, first in enumerate(range(0, count, _CHUNK_STARTS)):
-        stop = min(first + _CHUNK_STARTS, count)
-        if folder is not None and chunk in folder.committed_chunks:
-            results = folder.read_chunk(chunk, job.names)
-        else:
-            results = job.analyse(*starts.find_configurations(first, stop), stop - first)
-            if folder is not None:
-                with folder.lock_for_writing():
-                    folder.commit_chunk(chunk, results)
-        chunks.append(results)
-        if progress is not None:
-            progress(stop, count)
+
+    def analyse_chunks(numbers: Iterable[int]) -> Iterator[tuple[int, Rows]]:
+        for number in numbers:
+            first, stop = number * _CHUNK_STARTS, min((number + 1) * _CHUNK_STARTS, count)
+            yield number, job.analyse(*starts.find_configurations(first, stop), stop - first)
+            if store is None and progress is not None:
+                progress(stop, count)
+
+    if store is None:
+        chunks = [results for _, results in analyse_chunks(range(-(-count // _CHUNK_STARTS)))]
+    else:
+        folder = Store.create(store, job.plan(places), job.store_columns(), rows=count, chunk=_CHUNK_STARTS)
+        with folder.lock_for_writing():
+            folder.commit_missing(analyse_chunks, progress)
+        chunks = list(folder.read_all_checked())
     columns = {name: np.concatenate([results[name] for results in chunks]) for name in job.names}
     return Workspace(
         law=job.law,

@@ -319,17 +319,6 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         limits = {"gain": self.gain, "speed_limit": self.speed_limit}
         return {"law": LAW_REGISTRY.label(self), **limits, "task": self.task.to_dict()}
 
-    def formerly(self, law: Any, task: Any = None) -> dict[str, Any] | None:
-        """Return the value that holdfast 0.1 stored in place of :meth:`to_stored`, or None if its six digits are not unique.
-
-        Args:
-            law: In place of its label.
-            task: In place of its task.
-        """
-        numbers = [self.gain, self.speed_limit or 0.0, *np.hstack([np.empty(0), *map(np.ravel, self.settings.values())])]
-        is_exact = all(float(f"{number:g}") == number for number in numbers)
-        return {"law": law, "gain": None, "speed_limit": None, "task": task} if is_exact else None
-
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
 

@@ -17,18 +17,15 @@ def seal_document(data: dict[str, Any]) -> str:
     return f'{body}{_DIGEST_KEY}{_text_digest(body)}"\n}}\n'
 
 
-def is_sealed(text: str) -> bool:
-    """Return whether a text ends like one of :func:`seal_document`."""
-    return _DIGEST_KEY in text
-
-
 def check_seal(text: str) -> None:
     """Refuse a text that differs from the one that :func:`seal_document` returned.
 
     Raises:
         InputError: The digest is missing or does not match.
     """
-    body, _, _ = text.rpartition(_DIGEST_KEY)
+    body, key, _ = text.rpartition(_DIGEST_KEY)
+    if not key:
+        raise InputError("it has no digest, so it was changed, or an early version wrote it")
     if text != f'{body}{_DIGEST_KEY}{_text_digest(body)}"\n}}\n':
         raise InputError("its digest does not match its content; the file was changed after it was written")
 

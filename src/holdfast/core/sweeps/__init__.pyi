@@ -1,14 +1,14 @@
 from holdfast.core.sweeps.cluster import Cluster as Cluster
+from holdfast.core.sweeps.job import CellStatus as CellStatus
 from holdfast.core.sweeps.job import Chunk as Chunk
+from holdfast.core.sweeps.job import DamagedChunk as DamagedChunk
 from holdfast.core.sweeps.job import SweepCell as SweepCell
 from holdfast.core.sweeps.job import SweepJob as SweepJob
 from holdfast.core.sweeps.runner import ChunkResult as ChunkResult
 from holdfast.core.sweeps.runner import ChunkTask as ChunkTask
 from holdfast.core.sweeps.runner import Runner as Runner
 from holdfast.core.sweeps.runner import ThreadRunner as ThreadRunner
-from holdfast.core.sweeps.state import CellStatus as CellStatus
-from holdfast.core.sweeps.state import DamagedChunk as DamagedChunk
-from holdfast.core.sweeps.store import Column as Column
+from holdfast.core.sweeps.samples import Column as Column
 from holdfast.core.sweeps.store import Store as Store
 from holdfast.core.sweeps.study import Study as Study
 from holdfast.core.sweeps.study_merge import MergeReport as MergeReport

@@ -18,6 +18,7 @@ from holdfast.core.errors import StoreError
 from holdfast.core.files.output import guard_writing
 
 RESUME_ADVICE = "what was committed is safe: make room and run the same command again"
+STUDY_FILE = "study.json"
 MAX_ROWS = 10**15
 MAX_CHUNKS = 10**7
 
@@ -37,24 +38,16 @@ def is_valid_folder_name(name: object) -> bool:
     )
 
 
-def upgrade_stored_plan(
-    plan: Mapping[str, Any], stored_plan: Mapping[str, Any], formerly: Mapping[str, Any] | None
-) -> Mapping[str, Any]:
-    """Return the plan of a folder as this version writes it.
+def own_study_folder(cell_folder: Path) -> Path | None:
+    """Return the folder of the study to which a results folder belongs, or None for a results folder outside a study."""
+    parents = cell_folder.resolve().parents
+    return parents[1] if len(parents) > 1 and (parents[1] / STUDY_FILE).exists() else None
 
-    Args:
-        plan: What is asked for.
-        stored_plan: What the folder holds.
-        formerly: Entries of ``plan`` as earlier versions wrote them, None for those that they did not have.
-    """
-    content = plan_content(plan)
-    stored_plan = {
-        **stored_plan,
-        **{key: plan[key] for key, value in plan_content(stored_plan).items() if value == content.get(key)},
-    }
-    if formerly is None or any(stored_plan.get(key) != value for key, value in formerly.items()):
-        return stored_plan
-    return {**stored_plan, **{key: plan[key] for key in formerly}}
+
+def relocate_stored_plan(plan: Mapping[str, Any], stored_plan: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a stored plan with the places of the files of the requested plan where their content is the same."""
+    content, stored_content = plan_content(plan), plan_content(stored_plan)
+    return {key: plan[key] if key in plan and content[key] == stored_content[key] else x for key, x in stored_plan.items()}
 
 
 def plan_content(plan: Mapping[str, Any]) -> dict[str, Any]:

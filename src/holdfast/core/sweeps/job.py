@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from hashlib import sha256
 from typing import Any, Protocol
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.sweeps.folder import plan_content
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps.samples import Column
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,4 +117,47 @@ class SweepCell:
 
     def with_rows(self, rows: int) -> SweepCell:
         """Return the same cell with fewer rows, to try it."""
-        return SweepCell(self.name, self.job, self.plan, rows=rows, chunk=rows, summed=self.summed, labels=self.labels)
+        return replace(self, rows=rows, chunk=rows)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellStatus:
+    """Progress of a cell.
+
+    Attributes:
+        name: Name of the cell.
+        labels: Position of the cell in the sweep.
+        chunks, rows: Numbers in all.
+        chunks_done, rows_done: Numbers of committed chunks and rows.
+        seconds: Time that these took where they were computed.
+        makers: Numbers of what computed them, of :attr:`holdfast.core.sweeps.Study.makers`.
+    """
+
+    name: str
+    labels: Mapping[str, Any]
+    chunks: int
+    rows: int
+    chunks_done: int
+    rows_done: int
+    seconds: float
+    makers: tuple[int, ...]
+
+    @property
+    def is_complete(self) -> bool:
+        """True if all chunks of the cell are stored."""
+        return self.chunks_done == self.chunks
+
+
+@dataclass(frozen=True)
+class DamagedChunk:
+    """Committed chunk that differs from what was written.
+
+    Attributes:
+        cell: Name of its cell, None in a folder that is not part of a study.
+        chunk: Number from 0, None for a whole cell that was begun and is missing.
+        what: Description of the damage.
+    """
+
+    cell: str | None
+    chunk: int | None
+    what: str

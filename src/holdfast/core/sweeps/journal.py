@@ -1,8 +1,8 @@
 """Journal of finished chunks: lines appended with their own checksums, so that a commit costs the same at any length.
 
-A line that a crash cut short does not count, and is taken away before the next is added. Studies keep one line for each chunk
-in them: later lines of a chunk replace earlier ones, and one with ``-`` says that the chunk is lost. Searches for designs keep
-their parts themselves; see :mod:`holdfast.core.sweeps.memory`.
+A line that a crash cut short does not count, and is removed before the next line is added. Results folders keep one line for
+each chunk: later lines of a chunk replace earlier ones, and a line with ``-`` states that the chunk is lost. Searches keep the
+values themselves in the lines; see :mod:`holdfast.core.sweeps.memory`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class ChecksumLines:
         """
         data = b"".join(text + b" %08x\n" % zlib.crc32(text) for text in texts)
         with guard_writing(self.path, advice=RESUME_ADVICE):
-            handle = os.open(self.path, os.O_CREAT | os.O_RDWR, 0o644)
+            handle = os.open(self.path, os.O_CREAT | os.O_RDWR | getattr(os, "O_BINARY", 0), 0o644)
             try:
                 end = _complete_lines_size(handle)
                 try:

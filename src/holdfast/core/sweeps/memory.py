@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from holdfast.core.errors import StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.output import guard_writing
-from holdfast.core.sweeps.folder import describe_difference, upgrade_stored_plan
+from holdfast.core.sweeps.folder import describe_difference, relocate_stored_plan
 from holdfast.core.sweeps.journal import ChecksumLines
+from holdfast.core.typing import Rows
 
 MEMORY_FILE = "search.journal"
-LEGACY_MEMORY_FILE = "search.jsonl"  # of holdfast 0.1, whose lines have no checksums; it is resumed in the same file
-Parts = dict[str, NDArray[Any]]
+Parts = Rows
 
 
 class SearchMemory:
@@ -30,24 +30,22 @@ class SearchMemory:
     with the same bits, so a search that was stopped ends with the same result as one that was not.
     """
 
-    def __init__(self, folder: str | Path, plan: dict[str, Any], formerly: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, folder: str | Path, plan: dict[str, Any]) -> None:
         """Open the memory of a search in a folder, creating it if necessary.
 
         Args:
             folder: Where results are kept.
             plan: JSON data that defines the search.
-            formerly: Entries of it as earlier versions wrote them; see :meth:`holdfast.core.sweeps.Store.create`.
 
         Raises:
             StoreError: The folder holds another search or something else, or cannot be written.
         """
         place = Path(folder)
-        self._before = reading.path_exists(place / LEGACY_MEMORY_FILE)
-        self._lines = ChecksumLines(place / (LEGACY_MEMORY_FILE if self._before else MEMORY_FILE))
+        self._lines = ChecksumLines(place / MEMORY_FILE)
         self._plan: dict[str, Any] = json.loads(json.dumps(plan))
         self._parts: dict[str, Parts] = {}
         if reading.path_exists(self._lines.path):
-            self._read_journal(formerly)
+            self._read_journal()
             return
         with guard_writing(place):
             occupied = place.exists() and any(place.iterdir())
@@ -81,10 +79,10 @@ class SearchMemory:
         )
         self._parts[name] = arrays
 
-    def _read_journal(self, formerly: Mapping[str, Any] | None) -> None:
+    def _read_journal(self) -> None:
         try:
-            first, *lines = [json.loads(text) for text, sound in self._lines.read_lines() if sound or self._before]
-            plan = upgrade_stored_plan(self._plan, dict(first["search"]), formerly)
+            first, *lines = [json.loads(text) for text, sound in self._lines.read_lines() if sound]
+            plan = relocate_stored_plan(self._plan, dict(first["search"]))
             for line in lines:
                 self._parts[line["part"]] = {
                     key: _make_array(kind, values).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()

@@ -64,4 +64,4 @@ class RunLog:
             raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
 
     def _write_file(self, data: dict[str, list[Any]]) -> None:
-        replace_file(self._folder / _RUN_LOG_FILE, seal_document({**data, "sealed": True}), advice=RESUME_ADVICE)
+        replace_file(self._folder / _RUN_LOG_FILE, seal_document(data), advice=RESUME_ADVICE)

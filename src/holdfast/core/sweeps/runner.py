@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import platform
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import NDArray
 
 from holdfast.core.errors import HoldfastError
 from holdfast.core.progress import ignore_progress, report_work
-from holdfast.core.sweeps.hardware import describe_machine
+from holdfast.core.provenance import versions
 from holdfast.core.sweeps.job import Chunk, SweepJob
 
 Stop = Callable[[], bool]
+_RECORDED_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "llvmlite", "zarr", "mujoco")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +75,22 @@ def compute_chunk(task: ChunkTask, alone: bool = True) -> ChunkResult:
     except HoldfastError as error:
         return ChunkResult(task=task, columns=None, seconds=time.thread_time() - begin, made=describe_machine(), problem=error)
     return ChunkResult(task=task, columns=columns, seconds=time.thread_time() - begin, made=describe_machine())
+
+
+@lru_cache(maxsize=1)
+def describe_machine() -> dict[str, Any]:
+    """Return versions and processor of this process; equal ones give equal bits."""
+    return {"processor": _processor_name(), "python": platform.python_version(), "versions": versions(*_RECORDED_PACKAGES)}
+
+
+def _processor_name() -> str:
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
+            if line.startswith("model name"):
+                return " ".join(line.partition(":")[2].split())
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
 
 
 class ThreadRunner:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
@@ -16,22 +17,20 @@ from holdfast.core.files.sealed import read_sealed
 from holdfast.core.formatting import format_duration
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.sweeps.folder import has_too_many_rows, is_valid_folder_name, lock_folder
-from holdfast.core.sweeps.job import SweepCell
+from holdfast.core.sweeps.folder import STUDY_FILE, has_too_many_rows, is_valid_folder_name, lock_folder
+from holdfast.core.sweeps.job import CellStatus, DamagedChunk, SweepCell
 from holdfast.core.sweeps.journal import Journal, JournalEntry
 from holdfast.core.sweeps.run_log import RunLog
 from holdfast.core.sweeps.runner import Runner, Stop
-from holdfast.core.sweeps.state import CellStatus, DamagedChunk
 from holdfast.core.sweeps.store import Store
 from holdfast.core.sweeps.work import Progress, StudyRun
 
 _STUDY_FORMAT = "holdfast-study"
 _STUDY_VERSION = 1
-STUDY_FILE = "study.json"
 STUDY_LOCK_FILE = "study.lock"
 _CELLS_FOLDER = "cells"
 _BEGUN_FILE = "begun.journal"
-_KINDS_BY_KEY = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
+_KINDS_BY_KEY = {"name": str, "seed": int, "source": str, "cells": list}
 
 
 class Study(Result):
@@ -68,7 +67,7 @@ class Study(Result):
         data = study_document(name, seed, cells, source)
         if reading.path_exists(folder / STUDY_FILE):
             study = cls.open(folder)
-            if study.digest != data["digest"]:
+            if study.digest != _study_digest(data):
                 raise StoreError(
                     f"'{folder}' holds another study ({study._describe_difference(data)}); give another folder, or the "
                     f"same study file to "
@@ -102,11 +101,12 @@ class Study(Result):
                 f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = read_sealed(file, own_digest=True)
-            if data.pop("sealed", False):
-                data["digest"] = _study_digest(data)
+            data = read_sealed(file)
         except (OSError, ValueError, InputError) as error:
-            raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
+            raise StoreError(
+                f"'{file}' cannot be read ({error}); run the study file again with a new folder, or convert a folder of an "
+                "early version with holdfast.studies.convert_folder"
+            ) from error
         if not isinstance(data, dict) or data.get("format") != _STUDY_FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
         if data.get("version") != _STUDY_VERSION:
@@ -116,7 +116,6 @@ class Study(Result):
         wrong = next((k for k, kind in _KINDS_BY_KEY.items() if not isinstance(data.get(k), kind)), None)
         wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
         wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
-        wrong = wrong or ("digest" if _study_digest(data) != data["digest"] else None)
         if wrong:
             raise StoreError(
                 f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
@@ -137,8 +136,7 @@ class Study(Result):
         return study
 
     def _write_study_file(self, data: dict[str, Any]) -> None:
-        entries = {key: value for key, value in data.items() if key != "digest"}
-        replace_file(self.path / STUDY_FILE, seal_document({**entries, "sealed": True}))
+        replace_file(self.path / STUDY_FILE, seal_document(data))
         self._data = data
 
     def check_same(self, other: Study) -> None:
@@ -181,7 +179,7 @@ class Study(Result):
     @property
     def digest(self) -> str:
         """Digest of everything that defines the values of the study; folders with the same digest belong together."""
-        return str(self._data["digest"])
+        return _study_digest(self._data)
 
     @property
     def source(self) -> str:
@@ -310,7 +308,7 @@ class Study(Result):
             StoreError: The folder belongs to other cells, another program is at work in it, the disk is full, or the cluster
                 is gone. What was committed is safe.
         """
-        if study_document(self.name, self.seed, cells, "")["digest"] != self.digest:
+        if _study_digest(study_document(self.name, self.seed, cells, "")) != self.digest:
             raise StoreError(f"'{self.path}' holds another study; give another folder")
         with lock_folder(self.path, STUDY_LOCK_FILE):
             return StudyRun(self, cells, progress).run(runner, stop, part)
@@ -329,8 +327,13 @@ class Study(Result):
         """
         damaged: list[DamagedChunk] = []
         with lock_folder(self.path, STUDY_LOCK_FILE):
-            total, position = sum(s.chunks_done for s in self.status()), 0
+            total, position = sum(s.chunks_done for s in self.status()), itertools.count(1)
             begun = self.begun_cells
+
+            def report() -> None:
+                if progress is not None:
+                    progress(next(position), total, None)
+
             for number, cell in enumerate(self._data["cells"]):
                 if number in begun and not self.cell_entries(number):
                     damaged.append(DamagedChunk(cell["name"], None, "it was begun, and nothing of it is left"))
@@ -338,26 +341,16 @@ class Study(Result):
                 if not reading.path_exists(self.cell_folder(number)):
                     continue
                 store = self.cell_store(number)
-                bad_chunks = []
-                for chunk in store.committed_chunks:
-                    try:
-                        store.read_checked(chunk)
-                    except StoreError as error:
-                        bad_chunks.append(chunk)
-                        damaged.append(DamagedChunk(cell["name"], chunk, str(error)))
-                    position += 1
-                    if progress is not None:
-                        progress(position, total, None)
-                if bad_chunks:
-                    store.drop_chunks(bad_chunks)
-                    if not store.committed_chunks:
-                        self._begun.drop([number])
+                found = store.drop_damaged_chunks(cell["name"], report)
+                damaged += found
+                if found and not store.committed_chunks:
+                    self._begun.drop([number])
         return damaged
 
 
 def study_document(name: str, seed: int, cells: Sequence[SweepCell], source: str) -> dict[str, Any]:
     """Return the content of the study file."""
-    data: dict[str, Any] = {
+    return {
         "format": _STUDY_FORMAT,
         "version": _STUDY_VERSION,
         "name": name,
@@ -369,7 +362,6 @@ def study_document(name: str, seed: int, cells: Sequence[SweepCell], source: str
             for cell in cells
         ],
     }
-    return {**data, "digest": _study_digest(data)}
 
 
 def _is_cell(data: Any) -> bool:
@@ -385,8 +377,6 @@ def _is_cell(data: Any) -> bool:
 
 
 def _study_digest(data: Mapping[str, Any]) -> str:
-    try:
-        text = json.dumps([data["seed"], [[c["name"], c["rows"], c["chunk"], c["digest"]] for c in data["cells"]]])
-    except (KeyError, TypeError):
-        return ""
+    """Return the digest of everything that defines the values of a study."""
+    text = json.dumps([data["seed"], [[c["name"], c["rows"], c["chunk"], c["digest"]] for c in data["cells"]]])
     return sha256(text.encode()).hexdigest()[:16]

@@ -110,11 +110,8 @@ class _Merging:
             if not other.cell_entries(number):
                 continue
             source = other.cell_store(number)
-            source.check_current()
             rows, chunk = source.shape
-            mine = Store.create(
-                self._study.cell_folder(number), source.plan, source.columns, rows=rows, chunk=chunk, journal=True
-            )
+            mine = Store.create(self._study.cell_folder(number), source.plan, source.columns, rows=rows, chunk=chunk)
             if source.committed_chunks and number not in self._study.begun_cells:
                 self._study.record_begun(number)
             for part in source.committed_chunks:
@@ -128,13 +125,7 @@ class _Merging:
         if own_entry is not None and own_entry.digest == entry.digest:
             self.both += 1
             return
-        try:
-            values = source.read_checked(chunk)
-        except StoreError as error:
-            raise StoreError(
-                f"chunk {chunk + 1} of cell '{cell}' in '{source.path}' is damaged ({error}); give 'holdfast study verify' "
-                "with that folder, then compute it again"
-            ) from error
+        values = source.read_checked(chunk)
         if own_entry is None:
             maker = machine_numbers[entry.maker] if entry.maker < len(machine_numbers) else 0
             target.commit_chunk(chunk, values, entry.seconds, maker=maker)

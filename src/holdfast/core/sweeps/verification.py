@@ -1,4 +1,4 @@
-"""Check that the chunks of studies are unchanged."""
+"""Check that the chunks of studies and results folders are unchanged."""
 
 from __future__ import annotations
 
@@ -8,30 +8,33 @@ from pathlib import Path
 from typing import Any, Self
 
 from holdfast.core.errors import StoreError
+from holdfast.core.files import reading
 from holdfast.core.formatting import format_count
 from holdfast.core.result import Result
-from holdfast.core.sweeps.state import DamagedChunk
+from holdfast.core.sweeps.folder import STUDY_FILE
+from holdfast.core.sweeps.job import DamagedChunk
+from holdfast.core.sweeps.store import RUN_FILE, Store
 from holdfast.core.sweeps.study import Study
 from holdfast.core.sweeps.work import Progress
 
 
 @dataclass(frozen=True, kw_only=True)
 class StudyVerification(Result):
-    """Result of the verification of studies.
+    """Result of the verification of studies and results folders.
 
     Attributes:
-        studies: Those that were read, as they are now.
-        damage: What is damaged of each.
+        studies: Folders that were read, as they are now.
+        damage: Damaged chunks of each.
     """
 
-    studies: tuple[Study, ...]
+    studies: tuple[Study | Store, ...]
     damage: tuple[tuple[DamagedChunk, ...], ...]
 
     def describe(self) -> list[str]:
         """Return for each study its damage, or that it is sound and which chunks are missing."""
         lines = []
         for study, damage in zip(self.studies, self.damage, strict=True):
-            lines += [f"{study.path}: {_describe_damage(d)}" for d in damage] or _describe_undamaged_study(study)
+            lines += [f"{study.path}: {_describe_damage(d)}" for d in damage] or _describe_undamaged(study)
         return lines
 
     def to_dict(self) -> dict[str, Any]:
@@ -53,35 +56,46 @@ class StudyVerification(Result):
         count = sum(map(len, self.damage))
         if count:
             raise StoreError(
-                f"{format_count(count, 'damaged chunk')}, missing from now on; 'holdfast study run' computes them again"
+                f"{format_count(count, 'damaged chunk')}, missing from now on; the command that wrote the folder computes them "
+                "again"
             )
         return self
 
 
 def verify_studies(folders: Sequence[str | Path], progress: Progress | None = None) -> StudyVerification:
-    """Call :meth:`Study.verify` for each folder.
+    """Read every committed chunk of studies and results folders and compare its checksum; see :meth:`Study.verify`.
 
     Args:
-        folders: Of the studies.
+        folders: Folders of studies, or results folders such as those of :func:`holdfast.assess`.
         progress: Called after every chunk.
 
     Raises:
-        StoreError: A folder is no study, another program is at work in it, or it is not writable.
+        StoreError: A folder is neither, another program is at work in it, or it is not writable.
     """
-    studies = tuple(Study.open(folder) for folder in folders)
+    studies = tuple(map(_open_folder, folders))
     return StudyVerification(studies=studies, damage=tuple(tuple(study.verify(progress)) for study in studies))
 
 
+def _open_folder(folder: str | Path) -> Study | Store:
+    is_run = reading.path_exists(Path(folder) / RUN_FILE) and not reading.path_exists(Path(folder) / STUDY_FILE)
+    return Store.open(folder) if is_run else Study.open(folder)
+
+
 def _describe_damage(d: DamagedChunk) -> str:
-    which = f"cell '{d.cell}' is lost" if d.chunk is None else f"chunk {d.chunk + 1} of cell '{d.cell}' is damaged"
-    return f"{which}: {d.what}"
+    if d.chunk is None:
+        return f"cell '{d.cell}' is lost: {d.what}"
+    cell = "" if d.cell is None else f" of cell '{d.cell}'"
+    return f"chunk {d.chunk + 1}{cell} is damaged: {d.what}"
 
 
-def _describe_undamaged_study(study: Study) -> list[str]:
-    cells = study.status()
-    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+def _describe_undamaged(study: Study | Store) -> list[str]:
+    if isinstance(study, Store):
+        done, total, empty_cells = len(study.committed_chunks), study.count, []
+    else:
+        cells = study.status()
+        done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+        empty_cells = [s.name for s in cells if not s.chunks_done]
     missing_text = "" if done == total else f"; {total - done} of {total} are not computed"
-    empty_cells = [s.name for s in cells if not s.chunks_done]
     more_text = f" and {len(empty_cells) - 3} more" if len(empty_cells) > 3 else ""
     nothing = f"nothing is computed of {format_count(len(empty_cells), 'cell')}: {', '.join(empty_cells[:3])}{more_text}"
     return [f"{study.path}: {done} chunks, all sound{missing_text}", *([nothing] if empty_cells else [])]

@@ -273,14 +273,10 @@ class Cell:
         from holdfast.core.files import reading
         from holdfast.model.cell import cell_file
 
-        if self.shape in cell_file.SHAPE_WORDS:
-            return self.digest_with(self.shape)
-        with reading.guard_reading(f"capsule file '{self.shape}'"):
-            return self.digest_with(hashlib.sha256(reading.read_bytes(Path(self.shape))).hexdigest())
-
-    def digest_with(self, shape: str) -> str:
-        """Return the digest with another text for the shape of the arm, because older folders have the path of its capsules."""
-        from holdfast.model.cell import cell_file
+        shape = self.shape
+        if shape not in cell_file.SHAPE_WORDS:
+            with reading.guard_reading(f"capsule file '{shape}'"):
+                shape = hashlib.sha256(reading.read_bytes(Path(shape))).hexdigest()
 
         def describe_solid(solid: Solid) -> Any:
             if not isinstance(solid, (Mesh, Points)):

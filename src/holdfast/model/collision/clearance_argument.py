@@ -79,10 +79,10 @@ def decode_clearance(arm: Arm, data: dict[str, Any], shape: CollisionModel | Non
     stored_clearance, stored_cell = data.get("clearance"), data.get("cell")
     if stored_clearance is None:
         return None
-    cell = None if stored_cell is None else Cell.from_dict(stored_cell["data"])
-    if cell is not None and stored_cell is not None:
-        former_digest = cell.digest_with(stored_cell["data"].get("arm", {}).get("shape", ""))
-        if stored_cell["sha256"] != former_digest and stored_cell["sha256"] != cell.digest:
+    cell = None
+    if stored_cell is not None:
+        cell = Cell.from_dict(stored_cell["data"])
+        if stored_cell["sha256"] != cell.digest:
             raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
     capsules = replace(Capsules.from_dict(stored_clearance["capsules"], arm), shape=shape)
     return Clearance(arm, capsules, cell, itself=stored_clearance.get("itself", True))

@@ -28,8 +28,7 @@ BOUND_FACTOR = 1.5  # on the largest healthy residual
 BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
 RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
 _SECONDS_PER_HOUR = 3600.0
-_UNSEALED_FORMAT = 1  # without a digest
-_SEALED_FORMAT = 2
+_FILE_FORMAT = 2
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
 _MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
@@ -137,7 +136,7 @@ class Bounds(Result):
         Raises:
             StoreError: It cannot be written.
         """
-        data: dict[str, Any] = {"format": _SEALED_FORMAT}
+        data: dict[str, Any] = {"format": _FILE_FORMAT}
         for name, value in vars(self).items():
             if isinstance(value, np.ndarray):
                 data[name] = [number if np.isfinite(number) else None for number in value.tolist()]
@@ -192,12 +191,9 @@ def load(file: str | Path) -> Bounds:
         InputError: Unreadable, or no such file.
     """
     try:
-        data = read_sealed(file, _SEALED_FORMAT)
-        if data.pop("format") not in (_SEALED_FORMAT, _UNSEALED_FORMAT):
+        data = read_sealed(file)
+        if data.pop("format") != _FILE_FORMAT:
             raise ValueError
-        if "scales" not in data:  # files of earlier versions
-            data["scales"] = [1.0] * len(data["joints"])
-        data.setdefault("change", data["torque"])
         for name in _JOINT_VECTORS:
             data[name] = np.array([_read_number(number) for number in data[name]], dtype=np.float64)
         for name in ("position", "angle", "rate", "factor", "hours"):

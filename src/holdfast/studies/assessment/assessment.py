@@ -17,14 +17,14 @@ from holdfast.core.probability.intervals import check_confidence
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
 from holdfast.core.sweeps.store import Store
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, Rows
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.regions.region import Region, Sampling
 from holdfast.model.arm.model import Arm
 from holdfast.studies.assessment import upgrade
 from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
-from holdfast.studies.assessment.plan import AssessmentPlan, Rows
+from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.rows import Collisions, describe_provenance
 from holdfast.studies.assessment.upgrade import RunSample, Upgrade, check_failure_rates, make_run_sample
 
@@ -59,10 +59,10 @@ class Assessment(Result):
     worst_counts: NDArray[Any]
     optimised: Distribution | None
     optimised_worst_counts: NDArray[Any] | None
-    survivors: NDArray[Any] | None
-    collisions: Collisions | None
-    clear: float | None
-    store: Store | None
+    survivors: NDArray[Any] | None = None
+    collisions: Collisions | None = None
+    clear: float | None = None
+    store: Store | None = None
     seconds: float | None
     complete: bool
     _rows: Rows | None = None
@@ -387,9 +387,7 @@ class Assessment(Result):
     def _write_rows(self, folder: Path, rows: Rows) -> None:
         store = self.plan.create_store(folder)
         with store.lock_for_writing():
-            for chunk in store.missing_chunks:
-                start, stop = store.chunks[chunk]
-                store.commit_chunk(chunk, {name: values[start:stop] for name, values in rows.items()})
+            store.commit_missing(lambda missing: ((chunk, _take_rows(rows, *store.chunk_span(chunk))) for chunk in missing))
             store.add_notes(**describe_provenance(self.seconds))
 
     @check_arguments
@@ -405,3 +403,7 @@ class Assessment(Result):
             StoreError: The file cannot be written.
         """
         return super().report(path, threshold)
+
+
+def _take_rows(rows: Rows, start: int, stop: int) -> Rows:
+    return {name: values[start:stop] for name, values in rows.items()}

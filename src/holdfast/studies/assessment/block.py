@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, Rows
 from holdfast.kinematics.indices.index import IndexEvaluation, WorstCase
 from holdfast.kinematics.solvers.inverse_kinematics import Accept, solver
 from holdfast.kinematics.solvers.optimum import Ascent, default_starts, get_cached_ascent
-from holdfast.studies.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, AssessmentPlan, Rows
+from holdfast.studies.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, AssessmentPlan
 
 POSE_TOLERANCE = 1e-6  # of the pose, m and rad
 

@@ -222,9 +222,7 @@ class Comparison(Result):
         for name, run in zip(self.names, self.assessments, strict=True):
             run.save(target / name, self.threshold)
         candidates = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
-        replace_file(
-            target / COMPARISON_FILE, seal_document({"format": "holdfast-comparison", "sealed": True, "candidates": candidates})
-        )
+        replace_file(target / COMPARISON_FILE, seal_document({"format": "holdfast-comparison", "candidates": candidates}))
         return [target / COMPARISON_FILE, self.report(target / "report.html")]
 
 

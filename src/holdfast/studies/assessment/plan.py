@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.errors import HoldfastError, InputError, StoreError
 from holdfast.core.registry import INDEX_REGISTRY
-from holdfast.core.sweeps.store import Column, Store
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.sweeps.store import Store
 from holdfast.kinematics.indices.index import Index, by_name
 from holdfast.kinematics.indices.own_file import check_function_digest, plan_entries
 from holdfast.kinematics.regions.region import Region, Sampling
@@ -26,8 +26,6 @@ from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance, decode_clearance, encode_clearance
 from holdfast.model.failure_modes import locks_at
-
-Rows = dict[str, NDArray[Any]]
 
 _DEFAULT_POSES = 2000  # unless asked otherwise
 _CHUNK_BLOCKS = 8
@@ -43,6 +41,14 @@ _SURVIVES_AT_TEXT = (
     "1 if the pose can still be reached once the joint has locked at the angle that the plan gives, or where it was at another "
     "pose, 0 if not found, -1 unknown or not asked"
 )
+_OPTIMISED_Q_TEXT = "best configuration found; NaN where there is none"
+_AGREEING_TEXT = "share of the starts followed to the end that reached the best value"
+_CLEARANCE_TEXT = "smallest distance between links; below 0: the arm runs through itself"
+_OPTIMISED_STATUS_TEXT = "as status; 4: every configuration found runs the arm through itself"
+_BLOCKED_TEXT = "1 if the best configuration without regard to itself runs the arm through itself"
+_FROM_EACH_TEXT = "smallest distance of the arm from {}; from objects a lower bound"
+_CLEAR_TEXT = "1 if a configuration of the pose was found that is clear of all of these, 0 if not, -1 unknown"
+_BLOCKED_BY_TEXT = "position in {} of what is nearest at the best configuration without regard to it; -1 if that is clear"
 
 
 @dataclass(frozen=True)
@@ -220,9 +226,7 @@ class AssessmentPlan:
             reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
             raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
         expected = {column.name: column.dims for column in plan.columns()} if rows else {}
-        lacking = (
-            expected.keys() - {column.name for column in store.columns} - {"lock_angle"}
-        )  # of which older folders know nothing
+        lacking = expected.keys() - {column.name for column in store.columns}
         if lacking:
             raise StoreError(
                 f"'{store.path}' is damaged: its column '{min(lacking)}' is lost; start the run again in a new folder"
@@ -236,100 +240,43 @@ class AssessmentPlan:
 
     def columns(self) -> list[Column]:
         """Return the columns of each row."""
-        n, failure_count, unit, index_text = self.arm.n, len(self.index.failures), self.index.unit, self.index.describe()
-        pose_columns = [
-            Column("position", "float64", (("axis", 3),), units="m", about="drawn position of the tool in the world"),
-            Column(
-                "quaternion", "float64", (("xyzw", 4),), units="1", about="drawn orientation of the tool in the world, x y z w"
-            ),
-        ]
-        best_columns = [
-            Column(
+        n, unit, index_text = self.arm.n, self.index.unit, self.index.describe()
+        has_poses, failures, partner_names = self.region.kind != "joints", len(self.index.failures), self.collision_partners
+        joint, lock, axis, xyzw = ("joint", n), ("lock", n), ("axis", 3), ("xyzw", 4)
+        other, partners = ("other", len(partner_names)), ", ".join(partner_names)
+        in_clearance, in_cell = self.clearance is not None, self.cell is not None
+        survives_text = _SURVIVES_AT_TEXT if self.lock_at else _SURVIVES_TEXT
+        table: list[tuple[bool, str, str, tuple[tuple[str, int], ...], str, str]] = [
+            (has_poses, "position", "float64", (axis,), "m", "drawn position of the tool in the world"),
+            (has_poses, "quaternion", "float64", (xyzw,), "1", "drawn orientation of the tool in the world, x y z w"),
+            (self.has_weights, "weight", "float64", (), "1", "how much the pose counts"),
+            (True, "q", "float64", (joint,), "rad or m", "configuration; NaN where none was found"),
+            (True, "status", "uint8", (), "1", "0 ok, 1 not found, 3 singular, 255 not computed yet"),
+            (True, "index", "float64", (), unit, index_text),
+            (True, "by_failure", "float64", (("failure", failures),), unit, f"{self.index.name} for each failure"),
+            (True, "worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
+            (
+                self.optimise,
                 "optimised_q",
                 "float64",
-                (("joint", n),),
-                units="rad or m",
-                about="best configuration found; NaN where there is none",
+                (joint,),
+                "rad or m",
+                "best configuration found; NaN where there is none",
             ),
-            Column("optimised_index", "float64", (), units=unit, about=f"{index_text}, at the best configuration found"),
-            Column("optimised_worst", "int16", (), units="1", about="position of the worst failure there; -1 if there is none"),
-            Column(
-                "agreeing",
-                "float64",
-                (),
-                units="1",
-                about="share of the starts followed to the end that reached the best value",
-            ),
+            (self.optimise, "optimised_index", "float64", (), unit, f"{index_text}, at the best configuration found"),
+            (self.optimise, "optimised_worst", "int16", (), "1", "position of the worst failure there; -1 if there is none"),
+            (self.optimise, "agreeing", "float64", (), "1", _AGREEING_TEXT),
+            (in_clearance, "clearance", "float64", (), "m", _CLEARANCE_TEXT),
+            (in_clearance and self.optimise, "optimised_status", "uint8", (), "1", _OPTIMISED_STATUS_TEXT),
+            (in_clearance and self.optimise, "blocked", "int8", (), "1", _BLOCKED_TEXT),
+            (in_cell, "from_each", "float64", (other,), "m", _FROM_EACH_TEXT.format(partners)),
+            (in_cell and has_poses, "clear", "int8", (), "1", _CLEAR_TEXT),
+            (in_cell and self.optimise, "blocked_by", "int16", (), "1", _BLOCKED_BY_TEXT.format(partners)),
+            (bool(self.locks), "survives", "int8", (lock,), "1", survives_text),
+            (bool(self.locks), "lock_angle", "float64", (lock,), "rad or m", "where each joint locked; NaN where none did"),
         ]
-        clearance_columns = [
-            Column(
-                "clearance",
-                "float64",
-                (),
-                units="m",
-                about="smallest distance between links; below 0: the arm runs through itself",
-            )
-        ]
-        if self.optimise:
-            clearance_columns += [
-                Column(
-                    "optimised_status",
-                    "uint8",
-                    (),
-                    units="1",
-                    about="as status; 4: every configuration found runs the arm through itself",
-                ),
-                Column(
-                    "blocked",
-                    "int8",
-                    (),
-                    units="1",
-                    about="1 if the best configuration without regard to itself runs the arm through itself",
-                ),
-            ]
-        partner_names = ", ".join(self.collision_partners)
-        cell_columns = [
-            Column(
-                "from_each",
-                "float64",
-                (("other", len(self.collision_partners)),),
-                units="m",
-                about=f"smallest distance of the arm from {partner_names}; from objects a lower bound",
-            )
-        ]
-        if self.region.kind != "joints":
-            index_text = "1 if a configuration of the pose was found that is clear of all of these, 0 if not, -1 unknown"
-            cell_columns.append(Column("clear", "int8", (), units="1", about=index_text))
-        if self.optimise:
-            index_text = (
-                f"position in {partner_names} of what is nearest at the best configuration without regard to it; "
-                f"-1 if that is clear"
-            )
-            cell_columns.append(Column("blocked_by", "int16", (), units="1", about=index_text))
-        survives_text = _SURVIVES_AT_TEXT if self.lock_at else _SURVIVES_TEXT
-        angle_column = Column(
-            "lock_angle", "float64", (("lock", n),), units="rad or m", about="where each joint locked; NaN where none did"
-        )
         return [
-            *(pose_columns if self.region.kind != "joints" else []),
-            *([Column("weight", "float64", (), units="1", about="how much the pose counts")] if self.has_weights else []),
-            Column("q", "float64", (("joint", n),), units="rad or m", about="configuration; NaN where none was found"),
-            Column("status", "uint8", (), units="1", about="0 ok, 1 not found, 3 singular, 255 not computed yet"),
-            Column("index", "float64", (), units=unit, about=index_text),
-            Column(
-                "by_failure", "float64", (("failure", failure_count),), units=unit, about=f"{self.index.name} for each failure"
-            ),
-            Column(
-                "worst",
-                "int16",
-                (),
-                units="1",
-                about="position of the worst failure in the list of failures; -1 if there is none",
-            ),
-            *(best_columns if self.optimise else []),
-            *(clearance_columns if self.clearance is not None else []),
-            *(cell_columns if self.cell is not None else []),
-            *([Column("survives", "int8", (("lock", n),), units="1", about=survives_text), angle_column] if self.locks else []),
+            Column(name, kind, dims, units=unit, about=about) for is_kept, name, kind, dims, unit, about in table if is_kept
         ]
 
 

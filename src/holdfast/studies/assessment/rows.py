@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.core.errors import StoreError
 from holdfast.core.probability.collector import DistributionCollector
 from holdfast.core.probability.distribution import Distribution
 from holdfast.core.provenance import versions
 from holdfast.core.status import Status
 from holdfast.core.sweeps.store import Store
+from holdfast.core.typing import Rows
 from holdfast.kernels.threads import shared_pool, thread_count
 from holdfast.studies.assessment.block import evaluate_block
-from holdfast.studies.assessment.plan import AssessmentPlan, Rows
+from holdfast.studies.assessment.plan import AssessmentPlan
 
 Progress = Callable[[int, int], None]
 
@@ -55,78 +55,19 @@ def compute_blocks(plan: AssessmentPlan, first_block: int, end_row: int) -> Gene
             task.cancel()
 
 
-def compute_missing_chunks(store: Store, plan: AssessmentPlan, progress: Progress | None) -> None:
-    """Compute and commit the chunks that are missing."""
-    missing, chunks = store.missing_chunks, store.chunks
-    finished = plan.poses - sum(chunks[chunk][1] - chunks[chunk][0] for chunk in missing)
-    if progress is not None:
-        progress(finished, plan.poses)
-    while missing:
+def compute_chunks(store: Store, plan: AssessmentPlan, chunks: list[int]) -> Iterator[tuple[int, Rows]]:
+    """Yield the rows of chunks of a folder, each with its number."""
+    block_size = plan.region.block
+    while chunks:
         # Chunks that follow one another share one stream of blocks, so that the workers never wait for a chunk's end.
-        length = next((offset for offset, chunk in enumerate(missing) if chunk != missing[0] + offset), len(missing))
-        span, missing = missing[:length], missing[length:]
-        stream = compute_blocks(plan, chunks[span[0]][0] // plan.region.block, chunks[span[-1]][1])
+        length = next((offset for offset, chunk in enumerate(chunks) if chunk != chunks[0] + offset), len(chunks))
+        span, chunks = chunks[:length], chunks[length:]
+        stream = compute_blocks(plan, store.chunk_span(span[0])[0] // block_size, store.chunk_span(span[-1])[1])
         with closing(stream):
             for chunk in span:
-                start, stop = chunks[chunk]
-                parts = [next(stream)[1] for _ in range(-(-(stop - start) // plan.region.block))]
-                column_names = [column.name for column in store.columns]
-                store.commit_chunk(
-                    chunk, {name: np.concatenate([part[name] for part in parts]) for name in parts[0] if name in column_names}
-                )
-                finished += stop - start
-                if progress is not None:
-                    progress(finished, plan.poses)
-
-
-def read_chunks(store: Store, plan: AssessmentPlan) -> Iterator[Rows]:
-    """Yield the committed chunks of a folder.
-
-    Raises:
-        StoreError: A chunk is damaged or lost.
-    """
-    names = [column.name for column in store.columns]  # an older folder has no 'lock_angle'
-    for chunk in store.committed_chunks:
-        rows = store.read_chunk(chunk, names)
-        lost_column = _find_lost_column(rows, list(plan.locks))
-        if lost_column is not None:
-            raise StoreError(
-                f"'{store.path}' is damaged: chunk {chunk + 1} is marked done but its '{lost_column}' is lost; "
-                "start the run again in a new folder"
-            )
-        yield rows
-
-
-def _find_lost_column(rows: Rows, locks: list[int]) -> str | None:
-    """Return a column that has the fill value where a value is required, because its file is missing; None if there is none."""
-    status = rows["status"]
-    if (status == Status.NOT_COMPUTED).any():
-        return "status"
-    reached = (status == Status.OK) | (status == Status.SINGULAR)
-    has_best, usable = reached, rows["clear"] == 1 if "clear" in rows else reached
-    if "optimised_status" in rows:
-        if (rows["optimised_status"] == Status.NOT_COMPUTED).any():
-            return "optimised_status"
-        if (rows["blocked"] < 0).any():
-            return "blocked"
-        has_best = reached & (rows["optimised_status"] != Status.INFEASIBLE)
-    for name, values in rows.items():
-        if name in ("position", "quaternion", "weight"):
-            required = values
-        elif name == "lock_angle":  # joints not asked for have NaN everywhere
-            required = values[usable][:, locks]
-        else:
-            required = values[has_best if name.startswith("optimised_") else reached]
-        if values.dtype.kind == "f" and np.isnan(required).any():
-            return name
-    # Whole numbers are -1 where there is nothing; at an ordinary configuration, which the best one never undercuts, there is.
-    for name in ("worst", "optimised_worst", "survives", "clear"):
-        if name in rows:
-            values = rows[name][:, locks] if name == "survives" else rows[name]  # joints not asked for have -1 everywhere
-            is_required = {"optimised_worst": has_best, "survives": usable}.get(name, reached)
-            if (values[(status == Status.OK) & is_required] < 0).any():
-                return name
-    return None
+                start, stop = store.chunk_span(chunk)
+                parts = [next(stream)[1] for _ in range(-(-(stop - start) // block_size))]
+                yield chunk, {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 class IndexStatistics:

@@ -12,8 +12,10 @@ import numpy as np
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
 from holdfast.core.progress import reports_progress
+from holdfast.core.sweeps.folder import STUDY_FILE, own_study_folder
 from holdfast.core.sweeps.store import Store
-from holdfast.core.sweeps.study import STUDY_FILE, Study
+from holdfast.core.sweeps.study import Study
+from holdfast.core.typing import Rows
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.indices.index import Index, by_name
 from holdfast.kinematics.regions.region import Region, Sampling, default_region
@@ -24,14 +26,13 @@ from holdfast.model.collision.clearance_argument import CellLike
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.bins import merge_chunk_counts
 from holdfast.studies.assessment.block import compile_plan
-from holdfast.studies.assessment.plan import AssessmentPlan, Rows, make_plan
+from holdfast.studies.assessment.plan import AssessmentPlan, make_plan
 from holdfast.studies.assessment.rows import (
     AssessmentTally,
     Progress,
     compute_blocks,
-    compute_missing_chunks,
+    compute_chunks,
     describe_provenance,
-    read_chunks,
 )
 
 _MAX_ROWS_IN_MEMORY = 2_000_000  # rows held in memory unless asked otherwise
@@ -132,11 +133,11 @@ def assess(
     else:
         with folder.lock_for_writing():
             was_complete = folder.is_complete
-            compute_missing_chunks(folder, plan, progress)
+            folder.commit_missing(lambda missing: compute_chunks(folder, plan, missing), progress)
             if not was_complete:
                 earlier_seconds = folder.notes.get("seconds") or 0.0
                 folder.add_notes(**describe_provenance(earlier_seconds + time.monotonic() - start_time))
-        for rows in read_chunks(folder, plan):
+        for rows in folder.read_all_checked():
             add_rows(rows)
     if plan.cell is not None:
         plan.cell.require_unchanged()
@@ -157,16 +158,19 @@ def load(path: str | Path) -> Assessment:
     Raises:
         StoreError: Not a results folder of an assessment, or damaged, or a study of several cells; the message names them.
     """
-    folder = _find_cell_folder(Path(path))
-    store = Store.open(folder)
+    return read_assessment_store(Store.open(_find_cell_folder(Path(path))))
+
+
+def read_assessment_store(store: Store) -> Assessment:
+    """Read the assessment in an open results folder; see :func:`load`."""
     kind = store.plan.get("kind")
     if kind == "assess-counts":
-        return _load_counted(store)
+        return _read_counts(store)
     if kind != "assess":
-        raise StoreError(f"'{folder}' is not an assessment; give the folder that `holdfast assess --out` wrote")
+        raise StoreError(f"'{store.path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
     plan = AssessmentPlan.from_store(store, store.rows)
     tally = AssessmentTally(plan)
-    for rows in read_chunks(store, plan):
+    for rows in store.read_all_checked():
         tally.add(rows)
     return _make_assessment(plan, tally, store, store.notes.get("seconds"), store.is_complete, None)
 
@@ -183,16 +187,12 @@ def _find_cell_folder(folder: Path) -> Path:
     raise StoreError(f"'{folder}' is a study of {len(study.cells)} cells; load one of them: {', '.join(cells)}{more_text}")
 
 
-def _load_counted(store: Store) -> Assessment:
+def _read_counts(store: Store) -> Assessment:
     """Build the assessment of a study's cell that kept counts instead of rows."""
-    parent = store.path.resolve().parents[1]
-    rows_by_cell = {}
-    if reading.path_exists(parent / STUDY_FILE):
-        rows_by_cell = {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
+    parent = own_study_folder(store.path)
+    rows_by_cell = {} if parent is None else {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
     one_pose_plan = AssessmentPlan.from_store(store, 1, rows=False)
-    parts = merge_chunk_counts(
-        one_pose_plan.index, one_pose_plan.optimise, (store.read_checked(chunk) for chunk in store.committed_chunks)
-    )
+    parts = merge_chunk_counts(one_pose_plan.index, one_pose_plan.optimise, store.read_all_checked())
     samples = int(parts[0][0].facts[:2].sum())
     plan = replace(one_pose_plan, poses=max(rows_by_cell.get(store.path.resolve().name, samples), 1))
     best_counts = parts[1] if plan.optimise else None
@@ -202,10 +202,6 @@ def _load_counted(store: Store) -> Assessment:
         worst_counts=parts[0][1],
         optimised=None if best_counts is None else best_counts[0].finish(),
         optimised_worst_counts=None if best_counts is None else best_counts[1],
-        survivors=None,
-        collisions=None,
-        clear=None,
-        store=None,
         seconds=sum(entry.seconds for entry in store.entries.values()),
         complete=store.is_complete,
     )

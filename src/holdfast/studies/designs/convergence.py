@@ -297,9 +297,7 @@ def _search_by_sampling(
     listed_poses = None if isinstance(requested, (int, np.integer)) else search_targets.poses.tolist()
     memory = None
     if store is not None:
-        task = [law.task.rows.tolist(), law.task.frame, law.task.length]
-        former_plans = law.formerly([law.label, law.describe()], task)
-        memory = SearchMemory(store, _make_search_plan(law, bounds.space, {**options, "places": listed_poses}), former_plans)
+        memory = SearchMemory(store, _make_search_plan(law, bounds.space, {**options, "places": listed_poses}))
     part_numbers = count(1)
 
     def recall_part(name: str, make: Callable[[], Parts]) -> Parts:
@@ -309,14 +307,13 @@ def _search_by_sampling(
         outcomes = trials.simulate_designs(values)
         with np.errstate(invalid="ignore"):
             free_fraction = outcomes.converged.sum(axis=(1, 2, 3)) / (outcomes.known.sum(axis=(1, 2)) * law.arm.n)
-        return {"free": free_fraction, "arrival": outcomes.mean_fraction, "reached": outcomes.reached_fraction}
+        return {"free": free_fraction, "converged": outcomes.mean_fraction, "reached": outcomes.reached_fraction}
 
     def measure_designs(values: FloatArray) -> dict[str, FloatArray]:
         # What a design is worth does not depend on its company, so that a stopped search loses little.
         chunks = [values[start : start + _CHUNK_DESIGNS] for start in range(0, len(values), _CHUNK_DESIGNS)]
         results = [recall_part(f"designs {next(part_numbers)}", lambda c=c: evaluate_chunk(c)) for c in chunks]  # type: ignore[misc]
-        current_names = {"arrival": "converged"}  # stored under its former name
-        return {current_names.get(name, name): np.concatenate([result[name] for result in results]) for name in results[0]}
+        return {name: np.concatenate([result[name] for result in results]) for name in results[0]}
 
     values, measures = search_patterns(bounds, measure_designs, ("converged",), designs, local_searches, seed, progress)
     best = _choose_best(measures, ("converged",))

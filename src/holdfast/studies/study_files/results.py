@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.convergence.maps import NO_CONFIGURATION, average_fraction
 from holdfast.control.convergence.start_workspace import mean_ignoring_nan, mean_intervals
@@ -17,14 +16,11 @@ from holdfast.core.probability.distribution import Distribution
 from holdfast.core.probability.intervals import Difference, Interval
 from holdfast.core.sweeps.store import Store
 from holdfast.core.sweeps.study import Study
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import FloatArray, Rows
 from holdfast.studies.assessment.answer import ZERO_INDEX
-from holdfast.studies.assessment.bins import merge_chunk_counts
 from holdfast.studies.assessment.plan import AssessmentPlan
-from holdfast.studies.assessment.rows import AssessmentTally
+from holdfast.studies.assessment.run import read_assessment_store
 from holdfast.teleop.trials.recordings import End
-
-Rows = dict[str, NDArray[Any]]
 
 
 def read_chunks(study: Study, cell: int) -> Iterator[Rows]:
@@ -33,18 +29,8 @@ def read_chunks(study: Study, cell: int) -> Iterator[Rows]:
     Raises:
         StoreError: A chunk is damaged.
     """
-    if not study.cell_folder(cell).exists():
-        return
-    store = study.cell_store(cell)
-    for chunk in store.committed_chunks:
-        try:
-            rows = store.read_checked(chunk)
-        except StoreError as error:
-            raise StoreError(
-                f"chunk {chunk + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged ({error}); give "
-                f"'holdfast study verify {study.path}', then the run again"
-            ) from error
-        yield rows
+    if study.cell_folder(cell).exists():
+        yield from study.cell_store(cell).read_all_checked()
 
 
 _SWEPT_LABELS = ("index", "task", "region", "failures")
@@ -97,40 +83,15 @@ class AssessedCell:
 
 def read_assessment(study: Study, cell: int) -> AssessedCell:
     """Read the result of an assessment."""
-    labels = read_labels(study, cell)
-    store = study.cell_store(cell)
-    plan = AssessmentPlan.from_store(store, study.cells[cell]["rows"], rows=labels["keep"] == "rows")
-    if labels["keep"] == "counts":
-        return _read_counts(study, cell, labels, plan)
-    tally, has_rows = AssessmentTally(plan), False
-    for rows in read_chunks(study, cell):
-        tally.add(rows)
-        has_rows = True
-    plain = tally.unoptimised.finish() if has_rows else None
-    best = tally.optimised.finish() if has_rows and tally.optimised is not None else None
-    survival_fraction = None
-    if has_rows and tally.survivors is not None and plain is not None:
-        survival_fraction = float(np.mean(tally.survivors) / plain.total_weight())
-    return AssessedCell(labels, plan, plain, best, _find_worst_failure(plan, tally.unoptimised.worst_counts), survival_fraction)
-
-
-def _read_counts(study: Study, cell: int, labels: dict[str, Any], plan: AssessmentPlan) -> AssessedCell:
-    parts = merge_chunk_counts(plan.index, plan.optimise, read_chunks(study, cell))
-    distributions = [counts.finish() if counts.facts[:2].any() else None for counts, _ in parts]
-    return AssessedCell(
-        labels,
-        plan,
-        distributions[0],
-        distributions[1] if plan.optimise else None,
-        _find_worst_failure(plan, parts[0][1]),
-        None,
-    )
-
-
-def _find_worst_failure(plan: AssessmentPlan, counts: NDArray[Any]) -> tuple[str, float] | None:
-    if not counts.sum() > 0:
-        return None
-    return plan.index.failure_names[int(counts.argmax())], float(counts.max() / counts.sum())
+    labels, run = read_labels(study, cell), read_assessment_store(study.cell_store(cell))
+    counts, worst, survival_fraction = run.worst_counts, None, None
+    if counts.sum() > 0:
+        worst = run.index.failure_names[int(counts.argmax())], float(counts.max() / counts.sum())
+    if not run.distribution.samples:
+        return AssessedCell(labels, run.plan, None, None, worst, None)
+    if run.survivors is not None:
+        survival_fraction = float(np.mean(run.survivors) / run.distribution.total_weight())
+    return AssessedCell(labels, run.plan, run.distribution, run.optimised, worst, survival_fraction)
 
 
 def choose_threshold(cells: list[AssessedCell]) -> float:

@@ -20,7 +20,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -36,12 +36,11 @@ from holdfast.model.arms.spec import ArmSpec
 
 if TYPE_CHECKING:
     from holdfast.kinematics.indices.index import Index
+    from holdfast.kinematics.regions.region import Region
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
-    from holdfast.model.failure_modes import FailureSpec
 
 _MAX_CELLS = 100_000
-_EXAMPLE_COMMAND = "'holdfast study new'"
 _Count = Annotated[int, Field(ge=1, strict=True)]
 _Names = Annotated[list[str], Field(min_length=1)]
 _DEFAULT_ENTRY = "default"
@@ -80,9 +79,9 @@ _ARM_TAGS = ("as a name", "as a file", "as designs")
 
 
 def _tag_arm(value: Any) -> str:
-    if isinstance(value, dict):
-        return _ARM_TAGS[2] if "vary" in value or "designs" in value else _ARM_TAGS[1]
-    return _ARM_TAGS[0]
+    if not isinstance(value, dict):
+        return _ARM_TAGS[0]
+    return _ARM_TAGS[2 if value.keys() & {"vary", "designs"} else 1]
 
 
 _ArmEntry = Annotated[
@@ -177,11 +176,12 @@ def read_study_file(path: str | Path) -> StudyFile:
     """
     file = Path(path)
     try:
-        text, model = _parse_file(file)
+        data = read_mapping(file, "'holdfast study new'", "poses, chunk, arms and a job")
+        model = _validate(data)
         cells = tuple(_assign_unique_cell_names(_iterate_cells(model, file.parent)))
     except HoldfastError as error:
         raise InputError(f"study file '{file}': {error}") from error
-    return StudyFile(model.name, model.seed, cells, text=text)
+    return StudyFile(model.name, model.seed, cells, text=reading.read_text(file))
 
 
 def read_thresholds(text: str) -> dict[str, float]:
@@ -190,15 +190,14 @@ def read_thresholds(text: str) -> dict[str, float]:
     return {index: float(value) for index, value in (block.get("thresholds") or {}).items()}
 
 
-def _parse_file(file: Path) -> tuple[str, _StudyModel]:
-    data = read_mapping(file, _EXAMPLE_COMMAND, "poses, chunk, arms and a job")
+def _validate(data: Any) -> _StudyModel:
     try:
         model = _StudyModel.model_validate(data)
     except ValidationError as error:
         raise InputError(describe_validation_error(error, _StudyModel, _ARM_TAGS)) from error
     if not any((model.assess, model.convergence, model.workspace, model.bank)):
         raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
-    return reading.read_text(file), model
+    return model
 
 
 def _assign_unique_cell_names(cells: Iterator[SweepCell]) -> Iterator[SweepCell]:
@@ -219,7 +218,7 @@ def _assign_unique_cell_names(cells: Iterator[SweepCell]) -> Iterator[SweepCell]
             if candidate not in used_names
         )
         used_names.add(unique)
-        yield SweepCell(unique, cell.job, cell.plan, rows=cell.rows, chunk=cell.chunk, summed=cell.summed, labels=cell.labels)
+        yield replace(cell, name=unique)
 
 
 def _iterate_cells(model: _StudyModel, folder: Path) -> Iterator[SweepCell]:
@@ -247,59 +246,53 @@ def _load_arm(arm_entry: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
     return spec, arm, arm.name
 
 
-def _make_assess_cells(
-    model: _StudyModel, block: _Assess, spec: str, arm: Arm, label: str, folder: Path
-) -> Iterator[SweepCell]:
+def _sweep_indices(
+    block: _Assess, job: str, spec: str, arm: Arm, label: str, folder: Path
+) -> Iterator[tuple[str, Index, Region, dict[str, Any]]]:
+    """Yield a name, an index, a region, and labels for each combination of the lists of an assess block."""
     from holdfast.kinematics.regions.region import Region, default_region
     from holdfast.model.arms.spec import read_task
     from holdfast.model.failure_modes import read_failures
+
+    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
+        rows_of_task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, "assess.tasks")
+        options = {"task": rows_of_task, "failures": read_failures(arm, failures), "length": block.length}
+        measure: Index = INDEX_REGISTRY.make(index, arm, option="assess.indices", **options)
+        cell_region = default_region(arm, spec) if region == _DEFAULT_ENTRY else Region.load(folder / region)
+        labels = {"job": job, "arm": label, "index": index, "task": measure.task.name, "region": cell_region.name}
+        name = "-".join([label, index, *_list_unusual_parts(task, region, failures)])
+        yield name, measure, cell_region, labels | {"failures": failures}
+
+
+def _make_assess_cells(
+    model: _StudyModel, block: _Assess, spec: str, arm: Arm, label: str, folder: Path
+) -> Iterator[SweepCell]:
     from holdfast.studies.assessment.plan import make_plan
     from holdfast.studies.study_files.jobs.assessments import AssessJob
 
-    for name in block.thresholds:
-        if name not in block.indices:
-            raise InputError(f"assess.thresholds: '{name}' is not among the indices; name one of {', '.join(block.indices)}")
+    for name in block.thresholds.keys() - set(block.indices):
+        raise InputError(f"assess.thresholds: '{name}' is not among the indices; name one of {', '.join(block.indices)}")
     rows, chunk = block.poses or model.poses, block.chunk or model.chunk
-    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
-        rows_of_task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, "assess.tasks")
-        measure = _make_index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
-        cell_region = default_region(arm, spec) if region == _DEFAULT_ENTRY else Region.load(folder / region)
-        plan = make_plan(
-            arm,
-            cell_region,
-            measure,
-            rows,
-            model.seed,
-            block.sampling,
-            block.restarts,
-            block.optimise,
-            block.after_lock,
-            clearance=block.clearance,
-            cell=None if block.cell is None else folder / block.cell,
-        )
+    for name, measure, region, labels in _sweep_indices(block, "assess", spec, arm, label, folder):
+        settings = rows, model.seed, block.sampling, block.restarts, block.optimise, block.after_lock
+        cell = None if block.cell is None else folder / block.cell
+        plan = make_plan(arm, region, measure, *settings, clearance=block.clearance, cell=cell)
         if block.keep == "counts" and (plan.has_weights or plan.after_lock):
             reason = "poses have weights" if plan.has_weights else "after_lock needs every pose"
             raise InputError(f"assess.keep: counts cannot be kept where {reason}; use keep: rows")
         data = plan.to_dict()
-        if chunk % cell_region.block:
-            data["seeds"] = (
-                f"as for an assessment, blocks of at most {cell_region.block} poses counted anew in chunks of {chunk}"
-            )
+        if chunk % region.block:
+            data["seeds"] = f"as for an assessment, blocks of at most {region.block} poses counted anew in chunks of {chunk}"
         if block.keep == "counts":
             data["kind"] = "assess-counts"
-        labels = {"job": "assess", "arm": label, "index": index, "task": measure.task.name, "region": cell_region.name}
-        options = {"failures": failures, "keep": block.keep, "optimise": block.optimise}
-        name = "-".join([label, index, *_list_unusual_parts(task, region, failures)])
+        labels |= {"keep": block.keep, "optimise": block.optimise}
         job = AssessJob(data, rows, chunk, block.keep)
-        yield SweepCell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels | options)
+        yield SweepCell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels)
 
 
 def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Iterator[SweepCell]:
     from holdfast.kinematics.indices.own_file import plan_entries
-    from holdfast.kinematics.regions.region import Region, default_region
     from holdfast.model.arms.serial import to_dict
-    from holdfast.model.arms.spec import read_task
-    from holdfast.model.failure_modes import read_failures
     from holdfast.studies.designs.search import sample_comparison_poses
     from holdfast.studies.designs.space import DesignSpace, parse_vary
     from holdfast.studies.study_files.jobs.designs import DesignJob
@@ -317,46 +310,27 @@ def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Ite
     spec, arm, label = _load_arm(arm_entry, folder)
     texts = [f"{name}={bounds}" for name, bounds in entry.vary.items()]
     space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))
-    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
-        rows_of_task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, "assess.tasks")
-        measure = _make_index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+    for name, measure, region, labels in _sweep_indices(block, "designs", spec, arm, label, folder):
         if measure.better == "smaller":
             raise InputError(
-                f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
+                f"assess.indices: {labels['index']} is better when smaller, and a guaranteed value must be larger; leave it out"
             )
-        cell_task, cell_region = (
-            measure.task,
-            default_region(arm, spec) if region == _DEFAULT_ENTRY else Region.load(folder / region),
-        )
-        sample_comparison_poses(cell_region, 1, 0)  # says if it has none
+        sample_comparison_poses(region, 1, 0)  # raises an error if it has none
         plan: dict[str, Any] = {
             "kind": "designs",
             "arm": to_dict(arm),
             "fingerprint": arm.fingerprint,
             "vary": [[parameter.name, parameter.lower, parameter.upper, parameter.unit] for parameter in space.parameters],
-            "region": cell_region.to_dict(),
+            "region": region.to_dict(),
             **plan_entries(measure),
-            "task": cell_task.to_dict(),
+            "task": measure.task.to_dict(),
             "failures": [[arm.joint_names[joint] for joint in failed] for failed in measure.failures],
             "level": entry.level,
             "poses": block.poses or model.poses,
             "seed": model.seed,
         }
-        labels = {
-            "job": "designs",
-            "arm": label,
-            "index": index,
-            "task": cell_task.name,
-            "region": cell_region.name,
-            "failures": failures,
-        }
-        name = "-".join(["designs", label, index, *_list_unusual_parts(task, region, failures)])
-        yield SweepCell(name, DesignJob(plan, entry.designs), plan, rows=entry.designs, chunk=entry.chunk, labels=labels)
-
-
-def _make_index(label: str, arm: Arm, task: str | Task, failures: FailureSpec, length: float) -> Index:
-    index: Index = INDEX_REGISTRY.make(label, arm, option="assess.indices", task=task, failures=failures, length=length)
-    return index
+        job = DesignJob(plan, entry.designs)
+        yield SweepCell(f"designs-{name}", job, plan, rows=entry.designs, chunk=entry.chunk, labels=labels)
 
 
 def _list_unusual_parts(task: str, region: str, failures: str) -> list[str]:
@@ -370,14 +344,13 @@ def _make_law_cells(
 ) -> Iterator[SweepCell]:
     from holdfast.model.arm.task import as_task
     from holdfast.model.arms.serial import to_dict
-    from holdfast.model.arms.spec import read_task
     from holdfast.studies.study_files.jobs.banks import BankJob
     from holdfast.studies.study_files.jobs.convergence import ConvergenceJob, describe_surroundings
     from holdfast.studies.study_files.jobs.workspaces import WorkspaceJob
 
     chunk = block.chunk or model.chunk
     for task, text in itertools.product(block.tasks, block.laws):
-        law = LAW_REGISTRY.make(text, arm, option=f"{kind}.laws", task=_resolve_law_task(task, spec, arm, kind, read_task))
+        law = LAW_REGISTRY.make(text, arm, option=f"{kind}.laws", task=_resolve_law_task(task, spec, arm, kind))
         cell_task = as_task(arm, law.task)
         plan: dict[str, Any] = {
             "kind": kind,
@@ -417,11 +390,11 @@ def _make_law_cells(
                 )
 
 
-def _resolve_law_task(task: str, spec: str, arm: Arm, kind: str, read_task: Any) -> str | Task:
+def _resolve_law_task(task: str, spec: str, arm: Arm, kind: str) -> str | Task:
     """Return the task of a law; the default of teleoperated jobs is the motion that a joystick commands."""
     from holdfast.model.arm.task import plane_normal
+    from holdfast.model.arms.spec import read_task
 
     if task == _DEFAULT_ENTRY and kind in ("bank", "workspace"):
         return "planar" if plane_normal(arm) is not None else "position"
-    resolved: str | Task = read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, f"{kind}.tasks")
-    return resolved
+    return read_task(None if task == _DEFAULT_ENTRY else task, spec, arm, f"{kind}.tasks")

@@ -132,7 +132,8 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
 def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """Check the checksums of all chunks.
 
-    Damaged chunks are named, and the next run computes them again.
+    Damaged chunks are named, and the next run computes them again. DIR may also be a results folder, such as that of
+    'holdfast assess --out'.
 
     Example: holdfast study verify tools
     """

@@ -10,10 +10,11 @@ import numpy as np
 
 from holdfast.core.status import Status
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
 from holdfast.studies.assessment.bins import FACT_NAMES, IndexCounts, compute_bin_edges
 from holdfast.studies.assessment.block import compile_plan, evaluate_block, evaluate_worst_cases
-from holdfast.studies.assessment.plan import AssessmentPlan, Rows
+from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.study_files.jobs.process import PlannedJob
 
 Keep = Literal["rows", "counts"]
@@ -48,21 +49,13 @@ class AssessJob(PlannedJob[AssessmentPlan]):
         plan = self.compiled_parts
         if self.keep == "rows":
             return plan.columns()
-        columns = []
-        bins, failures = len(compute_bin_edges(plan.index)) - 1, len(plan.index.failures)
-        for prefix, _, _ in _SAMPLE_COLUMNS[: 1 + plan.optimise]:
-            columns += [
-                Column(f"{prefix}bins", "int64", (("bin", bins),), units="1", about="values in each bin of the index"),
-                Column(f"{prefix}facts", "float64", (("fact", len(FACT_NAMES)),), units="1", about=", ".join(FACT_NAMES)),
-                Column(
-                    f"{prefix}worst_counts",
-                    "int64",
-                    (("failure", failures),),
-                    units="1",
-                    about="how often each failure is the worst",
-                ),
-            ]
-        return columns
+        table = [
+            ("bins", "int64", ("bin", len(compute_bin_edges(plan.index)) - 1), "values in each bin of the index"),
+            ("facts", "float64", ("fact", len(FACT_NAMES)), ", ".join(FACT_NAMES)),
+            ("worst_counts", "int64", ("failure", len(plan.index.failures)), "how often each failure is the worst"),
+        ]
+        prefixes = [prefix for prefix, _, _ in _SAMPLE_COLUMNS[: 1 + plan.optimise]]
+        return [Column(prefix + name, kind, (dim,), about=about) for prefix in prefixes for name, kind, dim, about in table]
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.core.sweeps.SweepJob`."""

@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
-from holdfast.studies.study_files.jobs.laws import LawJob
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
+from holdfast.studies.study_files.jobs.process import LawJob
 from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.trials.performance import RECORDED_MEASURES
 from holdfast.teleop.trials.scenarios import Scenario
-
-Rows = dict[str, NDArray[Any]]
 
 
 class BankJob(LawJob):
@@ -29,18 +28,12 @@ class BankJob(LawJob):
         """See :class:`holdfast.core.sweeps.SweepJob`."""
         law = self.compiled_parts
         joints = ("failing", law.arm.n)
-        cases = ("healthy_or_failed", 2)
+        cases, measures = ("healthy_or_failed", 2), ("measure", RECORDED_MEASURES)
         return [
             Column("q0", "float64", (joints, ("joint", law.arm.n)), units="rad or m", about="configuration at the start"),
             Column("target", "float64", (joints, ("row", law.task.m)), units="m", about="where the end effector should go"),
             Column("end", "uint8", (joints, cases), units="1", about="how the trial ended; 0 arrived"),
-            Column(
-                "measures",
-                "float64",
-                (joints, cases, ("measure", RECORDED_MEASURES)),
-                units="mixed",
-                about="M1 to M11 of Goel et al. 2003",
-            ),
+            Column("measures", "float64", (joints, cases, measures), units="mixed", about="M1 to M11 of Goel et al. 2003"),
         ]
 
     def run(self, chunk: Chunk) -> Rows:

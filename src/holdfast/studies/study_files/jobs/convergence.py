@@ -7,18 +7,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.convergence.maps import convergence_map
 from holdfast.control.laws.law import Law
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import chosen_clearance, decode_clearance, encode_clearance
-from holdfast.studies.study_files.jobs.laws import PlannedLaw
-
-Rows = dict[str, NDArray[Any]]
+from holdfast.studies.study_files.jobs.process import PlannedLaw
 
 
 def describe_surroundings(arm: Arm, cell: Path | None) -> dict[str, Any]:

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
-from holdfast.core.typing import FloatArray
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import FloatArray, Rows
 from holdfast.kinematics.indices.own_file import check_function_digest
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.task import Task
@@ -22,8 +21,6 @@ from holdfast.studies.designs.reach import ReachEvaluator
 from holdfast.studies.designs.search import sample_comparison_poses
 from holdfast.studies.designs.space import DesignParameter, DesignSpace
 from holdfast.studies.study_files.jobs.process import PlannedJob
-
-Rows = dict[str, NDArray[Any]]
 
 
 def read_design_space(plan: dict[str, Any]) -> DesignSpace:

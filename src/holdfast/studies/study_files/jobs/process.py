@@ -12,8 +12,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Generic
 
+from holdfast.control.laws.law import Law
+from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.typing import T
 from holdfast.kernels.threads import set_threads, thread_count
+from holdfast.model.arm.task import Task
+from holdfast.model.arms.serial import from_dict
 
 # _TRIM_THRESHOLD and _MMAP_THRESHOLD: of malloc.h
 _TRIM_THRESHOLD = -1
@@ -83,3 +87,27 @@ class PlannedJob(ABC, Generic[T]):
                 if thread_count() != 1:
                     set_threads(1)
         compile_once(self, self.compile_plan)
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedLaw(PlannedJob[T]):
+    """Job whose plan names a law.
+
+    Attributes:
+        plan: Arm, task, law and what the job itself asks for.
+    """
+
+    def make_law(self) -> Law:
+        """Return the law of the plan."""
+        task = Task.from_dict(self.plan["task"])
+        plan_law: Law = LAW_REGISTRY.make(self.plan["law"], from_dict(self.plan["arm"]), option="laws", task=task)
+        return plan_law
+
+
+@dataclass(frozen=True, eq=False)
+class LawJob(PlannedLaw[Law]):
+    """Job that compiles its law and nothing else."""
+
+    def compile_plan(self) -> Law:
+        """Return the law."""
+        return self.make_law()

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.convergence.analysis import StartConfigurations, TargetAnalysis, choose_method, prepare_analysis
 from holdfast.control.convergence.places import Places, read_places
 from holdfast.core.errors import InputError
 from holdfast.core.sweeps.job import Chunk
-from holdfast.core.sweeps.store import Column
-from holdfast.studies.study_files.jobs.laws import PlannedLaw
-
-Rows = dict[str, NDArray[Any]]
+from holdfast.core.sweeps.samples import Column
+from holdfast.core.typing import Rows
+from holdfast.studies.study_files.jobs.process import PlannedLaw
 
 
 @dataclass(frozen=True, eq=False)
