@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import tempfile
 from html.parser import HTMLParser
-
-import pytest
-
-import __main__
-import holdfast as hf
 
 
 class Card(HTMLParser):
@@ -39,17 +32,8 @@ class Card(HTMLParser):
             self.code += data
 
 
-def check_card(thing, figure=True, **others):
-    """It has a table, a figure or none, and what to ask next runs as it is, with ``mine`` for its name."""
-    with pytest.MonkeyPatch.context() as patch, tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        for name, value in {"mine": thing, **others}.items():
-            patch.setattr(__main__, name, value, raising=False)
-        card = Card(thing._repr_html_())
-        assert "table" in card.seen
-        assert bool({"img", "svg"} & set(card.seen)) == figure
-        steps = [line.partition("  #")[0] for line in card.code.splitlines() if not line.startswith("#")]
-        assert 1 <= len(steps) <= 3
-        assert all("mine" in step for step in steps)
-        for step in steps:
-            if "report(" not in step:  # reports are tested elsewhere
-                exec(step.replace("poses=200", "poses=4"), {"hf": hf, "mine": thing, **others})
+def check_card(thing, figure=True):
+    """It has a table, and a figure or none."""
+    card = Card(thing._repr_html_())
+    assert "table" in card.seen
+    assert bool({"img", "svg"} & set(card.seen)) == figure

@@ -84,8 +84,9 @@ class Result(Presentable):
         return data
 
     def describe(self) -> list[str]:
-        """A few sentences for people."""
-        raise NotImplementedError
+        """Return the answer and its reasons in a few sentences."""
+        sentences: list[str] = self._present("sentences")
+        return sentences
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

@@ -7,6 +7,7 @@ turns the first bad row into an error at the edge.
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,44 +15,48 @@ from numpy.typing import NDArray
 from holdfast.core.errors import HoldfastError
 
 
-class Status(IntEnum):
+class SentenceEnum(IntEnum):
+    """Enumeration whose members carry a sentence for people: ``STUCK = 1, "stops elsewhere"``."""
+
+    sentence: str
+
+    def __new__(cls, code: int, sentence: str = "") -> Self:
+        """Create a member from its number and its sentence."""
+        member = int.__new__(cls, code)
+        member._value_, member.sentence = code, sentence
+        return member
+
+
+class Status(SentenceEnum):
     """Status of one row, or of one joint of it; ``Status(code).sentence`` says what to try. Stored: the numbers stay."""
 
-    OK = 0
-    NOT_FOUND = 1
-    BAD_INPUT = 2
-    SINGULAR = 3
-    INFEASIBLE = 4
-    NO_INERTIA = 5
-    UNDEFINED = 6
-    SLOWED = 7
-    DEGENERATE = 8
-    NOT_DEFINED = 9
-    NOT_COMPUTED = 255
-
-    @property
-    def sentence(self) -> str:
-        """What it means and what to try."""
-        return _STATUS_SENTENCES[self]
-
-
-_STATUS_SENTENCES = {
-    Status.OK: "solved",
-    Status.NOT_FOUND: "no solution was found within the budget: give more restarts or widen the joint limits; "
-    "this does not prove that there is none",
-    Status.BAD_INPUT: "the input held NaN or infinity: look at where it came from",
-    Status.SINGULAR: "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity",
-    Status.INFEASIBLE: "no choice meets the constraint: relax it",
-    Status.NO_INERTIA: "all the mass that a joint carries lies on its axis, so its acceleration is 0/0: give the links their "
-    "inertia or the joint its armature",
-    Status.UNDEFINED: "the formula gives no number at this configuration, which is finite: look at where it divides by zero "
-    "or takes a root or logarithm",
-    Status.SLOWED: "the joints' limits let only a part of the commanded velocity pass: command less, or move off the limits",
-    Status.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not swing, "
-    "so the angle and its gradient are 0 by convention, and near here both change abruptly",
-    Status.NOT_DEFINED: "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention",
-    Status.NOT_COMPUTED: "not computed yet: resume the run",
-}
+    OK = 0, "solved"
+    NOT_FOUND = (
+        1,
+        "no solution was found within the budget: give more restarts or widen the joint limits; this does not prove that there "
+        "is none",
+    )
+    BAD_INPUT = 2, "the input held NaN or infinity: look at where it came from"
+    SINGULAR = 3, "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity"
+    INFEASIBLE = 4, "no choice meets the constraint: relax it"
+    NO_INERTIA = (
+        5,
+        "all the mass that a joint carries lies on its axis, so its acceleration is 0/0: give the links their inertia or the "
+        "joint its armature",
+    )
+    UNDEFINED = (
+        6,
+        "the formula gives no number at this configuration, which is finite: look at where it divides by zero or takes a root "
+        "or logarithm",
+    )
+    SLOWED = 7, "the joints' limits let only a part of the commanded velocity pass: command less, or move off the limits"
+    DEGENERATE = (
+        8,
+        "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not swing, so the angle "
+        "and its gradient are 0 by convention, and near here both change abruptly",
+    )
+    NOT_DEFINED = 9, "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention"
+    NOT_COMPUTED = 255, "not computed yet: resume the run"
 
 
 def require_ok(status: NDArray[np.uint8], what: str) -> None:

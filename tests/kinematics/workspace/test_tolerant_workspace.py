@@ -10,7 +10,6 @@ import oracles
 from holdfast import InputError, TaskError, arms, certify, tolerant_workspace
 from holdfast.certificates import make_workspace_claim
 from holdfast.certificates.suggestions.workspace_claims import find_inner_box
-from holdfast.interface.presentation.workspace.region import next_steps
 from holdfast.kinematics.workspace.samples import with_artificial_limits
 
 
@@ -189,4 +188,3 @@ def test_what_the_sample_suggests_is_proved(unit3):
     assert np.prod(np.diff(claim.box)) > 0.1
     proof = certify(claim, halvings=6)
     assert proof.tolerant > 0.99
-    assert "hf.certificates.make_workspace_claim(region)" in " ".join(next_steps(region, "region"))

@@ -62,8 +62,8 @@ def test_a_fault_is_noticed_and_named(kind, panda, bounds, records):
 
 
 def test_a_notebook_shows_both(panda, bounds, records):
-    check_card(bounds, False, arm=panda, log=records["locked"])
-    check_card(hf.diagnosis.diagnose(panda, records["locked"], bounds), True, arm=panda, log=records["locked"])
+    check_card(bounds, False)
+    check_card(hf.diagnosis.diagnose(panda, records["locked"], bounds), True)
 
 
 def test_a_push_is_nobodys_fault(panda, bounds, healthy):

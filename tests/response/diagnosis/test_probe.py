@@ -115,8 +115,8 @@ def test_a_motion_that_keeps_a_joint_still_does_not_show_it(panda, probe):
 def test_a_notebook_shows_them(rng):
     arm = hf.arms.load("planar-3r")
     plan = hf.diagnosis.plan_identification(arm, [0.3, 0.5, 0.7], task="planar", suspects=[0, 1])
-    check_card(plan, True, arm=arm)
-    check_card(hf.diagnosis.predict_detection(arm, plan.q, rate=100.0), True, arm=arm)
+    check_card(plan, True)
+    check_card(hf.diagnosis.predict_detection(arm, plan.q, rate=100.0), True)
     check_card(plan.decide(measured(arm, plan, None, rng)), False)
 
 

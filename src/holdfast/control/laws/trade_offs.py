@@ -61,19 +61,6 @@ class TradeOff(Result):
         lower_rank = int(stats.binom.ppf((1 - confidence) / 2, len(values), 0.5))
         return values[[max(lower_rank - 1, 0), min(len(values) - lower_rank, len(values) - 1)]]
 
-    def describe(self) -> list[str]:
-        """Return the medians of the trade-off in a few sentences."""
-        median_gains, healthy_errors = np.median(self.gain, axis=0), np.median(self.healthy_error, axis=0)
-        lower, upper = self.median_interval()
-        lines = [f"{self.arm.title}, task {self.task.describe()}, {len(self.gain)} configurations and directions"]
-        for index, allowed_error in enumerate(self.allowed):
-            lines.append(
-                f"pre-failure error up to {allowed_error:.2f}: median peak error after a failure {median_gains[index]:.3f} of "
-                f"the pseudoinverse's (95% interval {lower[index]:.3f} to {upper[index]:.3f}), median error of the healthy arm "
-                f"{healthy_errors[index]:.3f}"
-            )
-        return lines
-
 
 @check_arguments
 def trade_off(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, field
-from enum import IntEnum
 from pathlib import Path as File
 from typing import TYPE_CHECKING, Protocol
 
@@ -17,6 +16,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.formatting import capitalise_first
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
+from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 
@@ -29,61 +29,34 @@ if TYPE_CHECKING:
 CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
 
 
-class RunOutcome(IntEnum):
+class RunOutcome(SentenceEnum):
     """Outcome of one run."""
 
-    CONVERGED = 0
-    STUCK = 1
-    MOVING = 2
-    UNDECIDED = 3
-
-    @property
-    def sentence(self) -> str:
-        """Phrase about the end effector that states the outcome."""
-        return _OUTCOME_PHRASES[self]
+    CONVERGED = 0, "reaches the target"
+    STUCK = 1, "stops elsewhere"
+    MOVING = 2, "never stops: it repeats its motion"
+    UNDECIDED = 3, "is undecided"
 
 
-_OUTCOME_PHRASES = {
-    RunOutcome.CONVERGED: "reaches the target",
-    RunOutcome.STUCK: "stops elsewhere",
-    RunOutcome.MOVING: "never stops: it repeats its motion",
-    RunOutcome.UNDECIDED: "is undecided",
-}
-
-
-class Reason(IntEnum):
+class Reason(SentenceEnum):
     """Reason for which a run is undecided, next to its :class:`RunOutcome`; ``NONE`` where it is decided. It is no status.
 
     ``CONTACT`` is of runs that were stopped where they touched something.
     """
 
-    NONE = 0
-    SINGULAR = 1
-    TIME_LIMIT = 2
-    STEPS = 3
-    BAD_INPUT = 4
-    HALF_TURN = 5
-    CONTACT = 6
-
-    @property
-    def sentence(self) -> str:
-        """Explanation of the reason, and advice."""
-        return _REASON_SENTENCES[self]
-
-
-_REASON_SENTENCES = {
-    Reason.NONE: "decided",
-    Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
-    Reason.TIME_LIMIT: "still moving at the time limit, and not found to repeat the motion: give a longer time_limit",
-    Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
-    Reason.HALF_TURN: (
+    NONE = 0, "decided"
+    SINGULAR = 1, "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing"
+    TIME_LIMIT = 2, "still moving at the time limit, and not found to repeat the motion: give a longer time_limit"
+    STEPS = 3, "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()"
+    BAD_INPUT = 4, "the start, the target or a lock held NaN or infinity: look at where it came from"
+    HALF_TURN = (
+        5,
         "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
         "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
-        "orientation free"
-    ),
-    Reason.CONTACT: "the arm was stopped where it first touched something",
-    Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
-}
+        "orientation free",
+    )
+    CONTACT = 6, "the arm was stopped where it first touched something"
+
 
 UNDECIDED_REASONS = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
 

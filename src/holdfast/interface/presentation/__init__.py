@@ -9,7 +9,7 @@ from typing import Any
 # The modules that present a class, by the class with its module: first the module of its words and numbers (to_dict, show,
 # tables, key_table, next_steps), which draws nothing, then that of its pictures (figures, write, save). What a module does not
 # define is in `results`. For the inputs of an analysis there are words alone, for notebooks.
-PRESENTER_MODULES = {
+PRESENTER_MODULES: dict[str, str | tuple[str, str]] = {
     "model.arm.model.Arm": ("arm.console", "arm.view"),
     "model.arm.task.Task": ("arm.task", ""),
     "studies.assessment.assessment.Assessment": ("assessment.console", "assessment.page"),
@@ -27,7 +27,7 @@ PRESENTER_MODULES = {
     "certificates.tool_paths.proof.PathProof": ("certificates.motions", "certificates.motions"),
     "model.collision.cell_check.CellCheck": ("collision.cell_check", ""),
     "control.laws.law.Law": ("control.law", ""),
-    "control.laws.trade_offs.TradeOff": ("control.console", "control.trade_offs"),
+    "control.laws.trade_offs.TradeOff": "control.trade_off",
     "control.convergence.law_choice.LawChoice": ("convergence.law_choice", "convergence.law_choice"),
     "control.convergence.law_comparison.LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
     "control.convergence.maps.ConvergenceMap": ("convergence.maps", "convergence.maps"),
@@ -80,11 +80,18 @@ _TEXT_FUNCTIONS = {"as_json", "to_dict", "show", "tables", "sentences", "key_tab
 
 
 def find_presenter(presented: type, function: str) -> Callable[..., Any]:
-    """Return the function that presents the results of a class; its module is imported on this call."""
+    """Return the function that presents the results of a class; its module is imported on this call.
+
+    The module of a class need only have ``present``; :mod:`holdfast.interface.presentation.renderers` derives the rest from it.
+    """
     names = [f"{base.__module__}.{base.__name__}".removeprefix("holdfast.") for base in presented.__mro__]
-    text_module, figure_module = next((PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES), ("", ""))
-    for module in (text_module if function in _TEXT_FUNCTIONS else figure_module, "results"):
-        candidate = getattr(import_module(f"holdfast.interface.presentation.{module}"), function, None) if module else None
+    modules = next((PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES), ("", ""))
+    if isinstance(modules, str):
+        candidates = [modules, "renderers"]
+    else:
+        candidates = [modules[0] if function in _TEXT_FUNCTIONS else modules[1], "results"]
+    for module in filter(None, candidates):
+        candidate = getattr(import_module(f"holdfast.interface.presentation.{module}"), function, None)
         if callable(candidate):  # `figures` may be a module that the presenter imports
             return candidate  # type: ignore[no-any-return]
     raise AttributeError(f"nothing in holdfast.interface.presentation has '{function}' for {presented.__name__}")

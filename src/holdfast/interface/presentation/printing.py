@@ -14,6 +14,8 @@ import typer
 if TYPE_CHECKING:
     from rich.console import Console
 
+_ROUNDING_ERROR = 2e-9  # a number below it beside larger ones is 0
+
 
 class TextTable(NamedTuple):
     """Table of texts with column headers and a title, for the console and the page."""
@@ -60,12 +62,12 @@ def format_column(values: Iterable[float], units: str | Sequence[str] = "", digi
     texts = [format_significant(value, digits) for value in numbers]
     for unit_name in dict.fromkeys(units_by_row.tolist()):
         magnitudes = np.abs(numbers[has_unit := (units_by_row == unit_name)])
-        magnitudes = magnitudes[np.isfinite(magnitudes) & (magnitudes > 1e-12)]
+        magnitudes = magnitudes[np.isfinite(magnitudes) & (magnitudes > _ROUNDING_ERROR)]
         if not magnitudes.size or magnitudes.max() > 1e5 * magnitudes.min() or magnitudes.min() < 1e-6:
             continue
         decimals = max(digits - 1 - math.floor(math.log10(magnitudes.max())), 1 - math.floor(math.log10(magnitudes.min())), 0)
         for row in np.flatnonzero(has_unit & np.isfinite(numbers)):
-            texts[row] = f"{numbers[row] + 0.0:.{decimals}f}" if abs(numbers[row]) > 1e-12 else f"{0:.{decimals}f}"
+            texts[row] = f"{numbers[row] + 0.0:.{decimals}f}" if abs(numbers[row]) > _ROUNDING_ERROR else f"{0:.{decimals}f}"
     return [
         f"{text} {unit_text}" if unit_text and unit_text != "1" else text
         for text, unit_text in zip(texts, units_by_row, strict=True)

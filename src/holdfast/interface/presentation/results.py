@@ -210,8 +210,7 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
 
     draw_functions = call_presenter(result, "drawings", **options) if name or options else call_presenter(result, "main_figure")
     if not draw_functions:
-        suggestions = " or ".join(step.partition("  #")[0] for step in call_presenter(result, "next_steps", "result"))
-        raise InputError(f"{type(result).__name__} has no figure; ask {suggestions} instead")
+        raise InputError(f"{type(result).__name__} has no figure; ask result.describe() instead")
     if name and name not in draw_functions:
         raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(draw_functions)}")
     return show_once(draw_functions[name or next(iter(draw_functions))]())
@@ -238,12 +237,6 @@ def key_table(result: Result) -> TextTable:
         [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
     ]
     return TextTable(["", ""], rows)
-
-
-def next_steps(result: Result, name: str) -> list[str]:
-    """Suggest the description of the result."""
-    del result
-    return [f"{name}.describe()"]
 
 
 def picture(thing: Presentable, about: str) -> str:

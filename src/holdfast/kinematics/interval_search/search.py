@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike
 from holdfast.core.errors import InputError
 from holdfast.core.progress import report_work, reports_progress
 from holdfast.core.result import Result
+from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.interval_search.box_bounds import ROUNDING_M_RAD
@@ -28,26 +28,13 @@ _LOOSE_TOLERANCE = 1e-4  # m and rad: what is met within more fills boxes that a
 _SOLUTION_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
 
 
-class SearchOutcome(IntEnum):
+class SearchOutcome(SentenceEnum):
     """Outcome of a search for configurations."""
 
-    NONE = 0
-    ALL = 1
-    SOME = 2
-    OPEN = 3
-
-    @property
-    def sentence(self) -> str:
-        """Explanation of the outcome."""
-        return _OUTCOME_SENTENCES[self]
-
-
-_OUTCOME_SENTENCES = {
-    SearchOutcome.NONE: "there is no configuration, proved up to floating point",
-    SearchOutcome.ALL: "these are all configurations, proved up to floating point",
-    SearchOutcome.SOME: "there are configurations; whether there are others was not asked",
-    SearchOutcome.OPEN: "undecided: time or boxes were spent first",
-}
+    NONE = 0, "there is no configuration, proved up to floating point"
+    ALL = 1, "these are all configurations, proved up to floating point"
+    SOME = 2, "there are configurations; whether there are others was not asked"
+    OPEN = 3, "undecided: time or boxes were spent first"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -12,6 +11,7 @@ import numpy as np
 from holdfast.core.errors import HoldfastError, InputError, StoreError
 from holdfast.core.formatting import capitalise_first
 from holdfast.core.result import Result
+from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.model import Arm
@@ -64,53 +64,42 @@ class RecoveryVerdict:
         return f"{answer_text}: {self.why}" if self.why else answer_text
 
 
-class RecoveryOutcome(IntEnum):
+class RecoveryOutcome(SentenceEnum):
     """Outcome of a recovery as one answer; rows of batches have a :class:`holdfast.Status`.
 
     Only ``GOAL_REACHED`` is success: all that was asked for, nothing dropped.
     """
 
-    GOAL_REACHED = 0
-    GOAL_REACHED_WITH_RELAXED_ROWS = 1
-    PATH_UNFINISHED = 2
-    NO_ROUTE_FOUND = 3
-    NOTHING_FOUND = 4
-    PROVED_UNREACHABLE = 5
-    START_OUTSIDE_LIMITS = 6
-    START_TOO_CLOSE = 7
-    LOCK_MISMATCH = 8
-    START_VIOLATES_CONSTRAINTS = 9
-    PROVED_DISCONNECTED = 10
+    GOAL_REACHED = 0, "the whole goal is met, within limits, locks and clearance"
+    GOAL_REACHED_WITH_RELAXED_ROWS = (
+        1,
+        "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
+    )
+    PATH_UNFINISHED = 2, "the rest of the tool path is NOT finished; if a goal was given too, it is met"
+    NO_ROUTE_FOUND = (
+        3,
+        "configurations of the goal were found, but NO motion to any of them; this does not prove that there is none: give more"
+        " tries",
+    )
+    NOTHING_FOUND = (
+        4,
+        "NO configuration of the goal was found, not even with rows given up; this does not prove that there is none: give more"
+        " starts",
+    )
+    PROVED_UNREACHABLE = 5, "the goal is PROVED out of reach, and no configuration was found with rows given up"
+    START_OUTSIDE_LIMITS = 6, "no motion: the arm is outside its limits"
+    START_TOO_CLOSE = (
+        7,
+        "no motion: the arm, or what covers it, is already closer to itself or its cell than the clearance that must be kept",
+    )
+    LOCK_MISMATCH = 8, "no motion: a joint is not where it is said to be locked"
+    START_VIOLATES_CONSTRAINTS = 9, "no motion: where the arm is breaks a row that must be kept all the way"
+    PROVED_DISCONNECTED = 10, "configurations of the goal exist, and NO motion leads to any of them, which is PROVED"
 
     @property
     def phrase(self) -> str:
         """Name of the outcome in words."""
         return self.name.lower().replace("_", " ")
-
-    @property
-    def sentence(self) -> str:
-        """Meaning of the outcome and advice."""
-        return _OUTCOME_SENTENCES[self]
-
-
-_OUTCOME_SENTENCES = {
-    RecoveryOutcome.GOAL_REACHED: "the whole goal is met, within limits, locks and clearance",
-    RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS: "the goal is NOT met as a whole: a motion was found to a "
-    "configuration that gives rows up",
-    RecoveryOutcome.PATH_UNFINISHED: "the rest of the tool path is NOT finished; if a goal was given too, it is met",
-    RecoveryOutcome.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not "
-    "prove that there is none: give more tries",
-    RecoveryOutcome.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not "
-    "prove that there is none: give more starts",
-    RecoveryOutcome.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
-    RecoveryOutcome.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
-    RecoveryOutcome.START_TOO_CLOSE: "no motion: the arm, or what covers it, is already closer to itself or its cell than "
-    "the clearance that must be kept",
-    RecoveryOutcome.LOCK_MISMATCH: "no motion: a joint is not where it is said to be locked",
-    RecoveryOutcome.START_VIOLATES_CONSTRAINTS: "no motion: where the arm is breaks a row that must be kept all the way",
-    RecoveryOutcome.PROVED_DISCONNECTED: "configurations of the goal exist, and NO motion leads to any of them, "
-    "which is PROVED",
-}
 
 
 _NO_CERTIFICATE_REASONS = {  # why a proof has no certificate, by its kind

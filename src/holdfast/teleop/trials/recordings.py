@@ -4,36 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import FloatArray
 
 
-class End(IntEnum):
+class End(SentenceEnum):
     """End of one trial."""
 
-    ARRIVED = 0
-    STILL = 1
-    TIME = 2
-    ABORTED = 3
-    BROKEN_OFF = 4
-
-    @property
-    def sentence(self) -> str:
-        """Meaning of the end, as a sentence for people."""
-        return _END_SENTENCES[self]
-
-
-_END_SENTENCES = {
-    End.ARRIVED: "the end effector reached the target circle",
-    End.STILL: "the end effector was still although it was commanded to move",
-    End.TIME: "the cycles allowed were over",
-    End.ABORTED: "the operator gave up",
-    End.BROKEN_OFF: "the recording stops before the trial was over",
-}
+    ARRIVED = 0, "the end effector reached the target circle"
+    STILL = 1, "the end effector was still although it was commanded to move"
+    TIME = 2, "the cycles allowed were over"
+    ABORTED = 3, "the operator gave up"
+    BROKEN_OFF = 4, "the recording stops before the trial was over"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

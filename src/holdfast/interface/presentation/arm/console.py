@@ -74,19 +74,6 @@ def key_table(arm: Arm) -> TextTable:
     return TextTable(["joint", "type", "lower", "upper", "link mass"], table_rows)
 
 
-def next_steps(arm: Arm, name: str) -> list[str]:
-    """Suggest a view of the arm, and its fault tolerance for the largest task for which it is redundant."""
-    task = find_redundant_task(arm)
-    view_call = f"{name}.show()  # a view to turn, with a slider for each joint"
-    if task is None:
-        return [view_call]
-    return [
-        view_call,
-        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves",
-        f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
-    ]
-
-
 def find_redundant_task(arm: Arm) -> str | None:
     """Return the largest task of the arm's kind of motion (planar or spatial) with fewer rows than joints; None if there is
     none.

@@ -14,8 +14,3 @@ def key_table(task: Task) -> TextTable:
         [[str(row_number), *map(format_significant, row)] for row_number, row in enumerate(task.rows, 1)],
         f"in the {task.frame} frame",
     )
-
-
-def next_steps(task: Task, name: str) -> list[str]:
-    """Suggest an index of the task."""
-    return [f'hf.indices.relative_manipulability(hf.arms.load("pa10-9dof"), {name})'] if task.m < 9 else []

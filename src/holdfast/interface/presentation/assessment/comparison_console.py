@@ -56,13 +56,6 @@ def key_table(comparison: Comparison) -> TextTable:
     )
 
 
-def next_steps(comparison: Comparison, name: str) -> list[str]:
-    """Suggest the upgrades of the best candidate and the full report."""
-    best_name = comparison.best()
-    steps = [f"{name}.upgrades({best_name!r})[0]  # what to protect first"] if comparison.assessment(best_name).has_rows else []
-    return [*steps, f'{name}.report("comparison.html")']
-
-
 def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, report: Path | None = None) -> None:
     """Print the differences between the candidates, the table, and the joint of each whose protection gains most."""
     from rich.markup import escape

@@ -50,17 +50,6 @@ def key_table(result: Assessment) -> TextTable:
     return TextTable(["", ""], table_rows)
 
 
-def next_steps(result: Assessment, name: str) -> list[str]:
-    """Suggest the most useful upgrade, choosing configurations, a certificate where one is possible, and the full report."""
-    steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.has_rows else []
-    if result.optimised is None and result.region.kind != "joints":
-        command = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
-        steps.append(f"{command}  # what choosing configurations gains")
-    if result.region.kind == "box" and result.index.task.name in ("position", "pose") and not result.distribution.unreached:
-        steps.append(f"hf.certify({name}.claim())  # that every pose of the region is reached, not only a sample")
-    return [*steps, f'{name}.report("report.html")']
-
-
 def to_dict(
     result: Assessment,
     thresholds: Thresholds = None,

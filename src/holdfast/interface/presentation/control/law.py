@@ -18,11 +18,3 @@ def key_table(law: Law) -> TextTable:
         ["source", law.source or "not given"],
     ]
     return TextTable(["", ""], rows)
-
-
-def next_steps(law: Law, name: str) -> list[str]:
-    """Suggest a convergence map with a joint locked, and the C code of the law."""
-    return [
-        f"hf.convergence_map({name}, 5, 4, configurations=1)  # how often it reaches its target after a lock",
-        f'{name}.export_c("controller")  # for the robot\'s own controller',
-    ]

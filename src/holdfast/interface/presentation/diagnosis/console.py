@@ -66,13 +66,6 @@ def key_table(result: Bounds | Diagnosis) -> TextTable:
     return tables(result)[0]
 
 
-def next_steps(result: Bounds | Diagnosis, name: str) -> list[str]:
-    """Suggest a monitor with the bounds; or a plot of the residuals."""
-    if isinstance(result, Bounds):
-        return [f"{name}.to_json('bounds.json')", f"hf.diagnosis.Monitor(arm, {name})"]
-    return [f"{name}.plot()", f"{name}.signals.torque"]
-
-
 def story(result: Diagnosis) -> PageContent:
     """Compose the report of a diagnosis."""
     headline, *remarks = result.describe()

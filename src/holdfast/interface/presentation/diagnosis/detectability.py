@@ -83,15 +83,6 @@ def key_table(result: Observability | ProbingMotion | Identification) -> TextTab
     return tables(result)[0]
 
 
-def next_steps(result: Observability | ProbingMotion | Identification, name: str) -> list[str]:
-    """Suggest a plot of the separations, and the recording of the motion."""
-    if isinstance(result, Identification):
-        return [f"{name}.remaining"]
-    if isinstance(result, ProbingMotion):
-        return [f"{name}.plot()", f"{name}.to_csv('probe.csv')", f"{name}.resample(1000.0)"]
-    return [f"{name}.plot()", f"{name}.unseen"]
-
-
 def story(result: Observability | ProbingMotion) -> PageContent:
     """Compose the report of a predicted or planned motion."""
     headline, *remarks = result.describe()

@@ -125,12 +125,6 @@ def _target_errors(basins: Basins) -> dict[str, str]:
     }
 
 
-def next_steps(basins: Basins, name: str) -> list[str]:
-    """Suggest the stationary points."""
-    del basins
-    return [f"{name}.points  # where they are"]
-
-
 def figures(basins: Basins) -> dict[str, Figure]:
     """Draw ``basins``: a map where the initial configurations are a grid over two joints, else bars."""
     from holdfast.interface.presentation.equilibria.figures import draw_basins

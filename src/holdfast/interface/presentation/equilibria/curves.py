@@ -148,12 +148,6 @@ def story(curves: Curves) -> PageContent:
     )
 
 
-def next_steps(curves: Curves, name: str) -> list[str]:
-    """Suggest the stationary points at one locked value."""
-    locked = {curves.joint: 0.0 if not curves.sink_arcs else round(float(np.mean(curves.sink_arcs[0])), 3)}
-    return [f"hf.stationary_points({name}.law, {name}.target, {locked!r})  # at one value"]
-
-
 def figures(curves: Curves) -> dict[str, Figure]:
     """Draw ``curves``: the error, and the other joints if they are few, over the locked value."""
     from holdfast.interface.presentation.equilibria.figures import draw_curves

@@ -15,12 +15,6 @@ def to_dict(orbit: Orbit) -> dict[str, Any]:
     return {**vars(orbit), "stable": orbit.stable}
 
 
-def next_steps(orbit: Orbit, name: str) -> list[str]:
-    """Suggest the multipliers, which decide the stability."""
-    del orbit
-    return [f"{name}.multipliers  # all inside the unit circle: the orbit attracts"]
-
-
 def tables(orbit: Orbit) -> list[TextTable]:
     """Tabulate the motion of each joint over a period, and the range of the errors."""
     values = zip(orbit.amplitude, orbit.windings, orbit.rates, strict=True)

@@ -158,12 +158,6 @@ def _draw_stationary_arms(points: StationaryPoints, solved: Any, holds: Any) -> 
     return [("The arm where it stops", [picture])]
 
 
-def next_steps(points: StationaryPoints, name: str) -> list[str]:
-    """Suggest the basins of the points."""
-    locked = dict(zip(points.locked, points.at.tolist(), strict=True))
-    return [f"hf.basins({name}.law, {name}.target, {locked!r}, starts=64).plot()  # which starts end at which point"]
-
-
 def show(points: StationaryPoints, out: Console) -> None:
     """Print the sentences, and the first points of each kind."""
     for line in points.describe():

@@ -32,8 +32,3 @@ def tables(batch: FaultBatch) -> list[TextTable]:
 def key_table(batch: FaultBatch) -> TextTable:
     """Return the table of the faults."""
     return tables(batch)[0]
-
-
-def next_steps(batch: FaultBatch, name: str) -> list[str]:
-    """Suggest one episode, and the arrays."""
-    return [f"{name}.episodes[{min(1, len(batch) - 1)}]", f"{name}.onset"]

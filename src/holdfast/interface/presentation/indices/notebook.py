@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from holdfast.interface.presentation.printing import TextTable, format_significant
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
-from holdfast.model.arm.postures import generic_configuration
 
 
 def sentences(objective: Objective) -> list[str]:
@@ -27,14 +24,3 @@ def key_table(objective: Objective) -> TextTable:
     if isinstance(objective, (Index, Susceptibility)):
         rows.append(["source", objective.source or "not given"])
     return TextTable(["", ""], rows)
-
-
-def next_steps(objective: Objective, name: str) -> list[str]:
-    """Suggest the value at one configuration, joint by joint, and a better configuration of the same pose."""
-    q = np.round(generic_configuration(objective.arm), 2).tolist()
-    has_joint_values = isinstance(objective, (Index, Susceptibility))
-    value = f"{name}.by_joint({q})  # whichever joint fails" if has_joint_values else f"{name}({q})"
-    return [
-        value,
-        f"hf.optimise({name}.arm, {name}.arm.forward_kinematics({q}), {name})  # the same pose, a better configuration",
-    ]

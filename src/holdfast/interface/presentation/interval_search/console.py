@@ -21,11 +21,6 @@ def to_dict(configurations: Configurations) -> dict[str, Any]:
     return {**configurations.arm.entry(), **known, **{name: getattr(configurations, name) for name in names}}
 
 
-def next_steps(configurations: Configurations, name: str) -> list[str]:
-    """Suggest a view of the first configuration."""
-    return [f"{name}.arm.show({name}.q[0])"] if len(configurations.q) else [f"{name}.none  # True only if that is proved"]
-
-
 def tables(configurations: Configurations) -> list[TextTable]:
     """Tabulate the configurations, one row for each."""
     prismatic = configurations.arm.prismatic

@@ -94,12 +94,6 @@ def key_table(survival: LockSurvival) -> TextTable:
     return TextTable(["", ""], rows)
 
 
-def next_steps(survival: LockSurvival, name: str) -> list[str]:
-    """Suggest the motion as a table, and the page."""
-    del survival
-    return [f'{name}.to_csv("motion.csv")', f'{name}.report("endurance.html")']
-
-
 def tables(survival: LockSurvival) -> list[TextTable]:
     """Tabulate the survival of each joint, and that of other motions."""
     lock_fractions = survival.rates.each / survival.rates.total

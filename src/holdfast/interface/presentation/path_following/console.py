@@ -72,16 +72,6 @@ def key_table(trajectory: Trajectory) -> TextTable:
     return TextTable(["", ""], rows)
 
 
-def next_steps(trajectory: Trajectory, name: str) -> list[str]:
-    """Suggest a view of the moving arm, the file for a controller, and the page."""
-    del trajectory
-    return [
-        f"{name}.arm.show({name}.q, time={name}.time)  # the arm moving",
-        f'{name}.to_csv("motion.csv")',
-        f'{name}.report("motion.html")',
-    ]
-
-
 def show(trajectory: Trajectory, out: Console) -> None:
     """Print whether the end effector stays on its path, the objective as a table, and the events."""
     from rich.markup import escape

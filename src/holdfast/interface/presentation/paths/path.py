@@ -23,10 +23,3 @@ def key_table(path: Path | TimedPath) -> TextTable:
         for fraction, position in zip(geometry.bounds, positions, strict=True)
     ]
     return TextTable(["fraction of the way", "x, m", "y, m", "z, m"], rows)
-
-
-def next_steps(path: Path | TimedPath, name: str) -> list[str]:
-    """Suggest a timing for the path; for a timed path the pose at a time."""
-    if isinstance(path, TimedPath):
-        return [f"{name}.pose({path.duration / 2:.4g})  # in the middle", f"{name}.stretch(2)  # the same in twice the time"]
-    return [f"hf.paths.TimedPath({name}, hf.paths.Trapezoid(8))  # in 8 s; hf.follow takes that"]

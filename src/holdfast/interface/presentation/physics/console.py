@@ -68,12 +68,6 @@ def _format_first_contact(contacts: Sequence[Contact] | None) -> str:
     return f"{contacts[0].link} & {contacts[0].object}, {format_significant(contacts[0].time)} s" if contacts else "none"
 
 
-def next_steps(run: PhysicalRun, name: str) -> list[str]:
-    """Suggest the plot of the kinematic run, and the report."""
-    del run
-    return [f"{name}.kinematic.plot()", f'{name}.report("run.html")']
-
-
 def show(run: PhysicalRun, out: Console) -> None:
     """Print the kinematic run, then both outcomes side by side."""
     from rich.markup import escape

@@ -83,13 +83,6 @@ def _format_largest_lag(run: Execution) -> str:
     return f"{format_significant(factor * run.tracking_error[joint_index], 3)} {unit} ({joint.name})"
 
 
-def next_steps(run: Execution, name: str) -> list[str]:
-    """Suggest a recovery for an arm that stopped, else the measured motion as a table."""
-    if run.outcome == "stopped":
-        return [f"hf.recover({name}.arm, {name}.degraded, {name}.at, samples=0)  # what it can still do"]
-    return [f'{name}.to_csv("motion.csv")', f'{name}.report("execution.html")']
-
-
 def story(run: Execution) -> PageContent:
     """Compose the report: whether everything requested was done, the numbers, and the moving arm."""
     headline, *remarks = run.describe()

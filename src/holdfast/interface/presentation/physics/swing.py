@@ -73,15 +73,6 @@ def key_table(swing: FreeSwing) -> TextTable:
     return TextTable(["", ""], rows)
 
 
-def next_steps(swing: FreeSwing, name: str) -> list[str]:
-    """Suggest the torques of all joints at this configuration, and the motion as a table."""
-    del swing
-    return [
-        f"hf.susceptibility.torque({name}.arm).by_joint({name}.q)  # which joint would fall how hard",
-        f'{name}.to_csv("swing.csv")',
-    ]
-
-
 def show(swing: FreeSwing, out: Console) -> None:
     """Print the outcome, and a table of the brake times."""
     from rich.markup import escape

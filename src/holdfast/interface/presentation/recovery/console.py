@@ -266,13 +266,6 @@ def resample_path(waypoints: Any, count: int) -> Any:
     return np.stack([np.interp(samples, lengths, column) for column in waypoints.T], axis=1)
 
 
-def next_steps(recovery: Recovery, name: str) -> list[str]:
-    """Suggest the replay and the motion for a controller, or the rows that could be relaxed."""
-    if not len(recovery.q):
-        return [f"{name}.choices  # rows that could be given up"]
-    return [f"{name}.check()  # an independent replay", f'{name}.to_csv("waypoints.csv")']
-
-
 def _relaxed_misses(relaxed_rows: RelaxedRows | None) -> dict[str, float] | None:
     """Return the errors of the relaxed rows by name with their unit."""
     if relaxed_rows is None:

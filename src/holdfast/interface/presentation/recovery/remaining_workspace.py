@@ -76,12 +76,6 @@ def story(remainder: RemainingWorkspace) -> PageContent:
     )
 
 
-def next_steps(remainder: RemainingWorkspace, name: str) -> list[str]:
-    """Suggest the full report."""
-    del remainder
-    return [f'{name}.report("left.html")']
-
-
 def drawings(remainder: RemainingWorkspace) -> Drawings:
     """Draw maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm
     reaches none.

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.interface.presentation.arm.console import find_redundant_task
-from holdfast.interface.presentation.notebook import list_variables
 from holdfast.interface.presentation.printing import TextTable
 from holdfast.kinematics.regions.region import Region
-from holdfast.model import arms
-from holdfast.model.arm.model import Arm
 
 _BOX_COLUMNS = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
 _CONE_COLUMNS = (
@@ -39,27 +35,3 @@ def key_table(region: Region) -> TextTable:
         lower, upper = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
         rows.append([f"{name}{unit and ', '}{unit}", f"{lower:.4g}", f"{upper:.4g}"])
     return TextTable(["" if region.kind in ("box", "cone") else "rad or m", "from", "to"], rows)
-
-
-def picture(region: Region, about: str) -> str:
-    """Draw the region with the notebook's own arm, if there is one and the region is a box."""
-    from holdfast.interface.presentation.arm import view
-
-    notebook_arms = [arm for _, arm in list_variables() if isinstance(arm, Arm)] if region.kind == "box" else []
-    return view.picture(notebook_arms[0], about, region) if notebook_arms else ""
-
-
-def next_steps(region: Region, name: str) -> list[str]:
-    """Suggest an assessment over the region, with the notebook's own arm if there is one, else with a built-in one."""
-    joints = len(region.center) if region.kind == "joints" else None
-    library_arm = next((arm_name for arm_name in arms.names() if arms.about(arm_name).n == (joints or 9)), None)
-    notebook_arms = [
-        (arm_name, arm) for arm_name, arm in list_variables() if isinstance(arm, Arm) and arm.n == (joints or arm.n)
-    ]
-    for text, arm in [
-        *notebook_arms,
-        *([] if library_arm is None else [(f"hf.arms.load({library_arm!r})", arms.load(library_arm))]),
-    ]:
-        if (task := find_redundant_task(arm)) is not None:
-            return [f"hf.assess({text}, {name}, task={task!r}, poses=200)"]
-    return []

@@ -110,15 +110,6 @@ def key_table(runs: Runs) -> TextTable:
     return TextTable(["", ""], rows)
 
 
-def next_steps(runs: Runs, name: str) -> list[str]:
-    """Suggest the sampled motion, and the page with the moving arm."""
-    run_option = "k=0, " if runs.code.ndim else ""
-    return [
-        f"{name}.path({run_option}samples=400)  # joints and tool over time",
-        f'{name}.report("run.html")  # with the arm moving',
-    ]
-
-
 def show(runs: Runs, out: Console) -> None:
     """Print one run as tables; for many runs print the sentences."""
     from rich.markup import escape

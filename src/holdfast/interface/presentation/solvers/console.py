@@ -239,16 +239,6 @@ def _draw_comparison(optima_rows: Optima, reference: str) -> list[tuple[str, lis
     ]
 
 
-def next_steps(optima: Optima, name: str) -> list[str]:
-    """Suggest the objective at the best configurations, joint by joint where it has values for joints."""
-    steps = [f"{name}.objective({name}.q)"]
-    if isinstance(optima.objective, (Index, Susceptibility)):
-        steps = [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
-    if optima.q.ndim == 1 and optima.success:
-        steps.append(f'{name}.arm.show([{name}.q_before, {name}.q], labels=["before", "best"])')
-    return steps
-
-
 def show(optima: Optima, out: Console, asked: str = "") -> None:
     """Print one pose joint by joint, or a line for each pose."""
     from rich.markup import escape

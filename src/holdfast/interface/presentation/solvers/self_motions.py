@@ -69,12 +69,6 @@ def key_table(motion: SelfMotion) -> TextTable:
     )
 
 
-def next_steps(motion: SelfMotion, name: str) -> list[str]:
-    """Suggest the computation of the lock ranges of each joint."""
-    del motion
-    return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
-
-
 def story(motion: SelfMotion) -> PageContent:
     """Compose the report: the number of curves that reach the target, and the locks that it survives."""
     arm, count = motion.arm, len(motion.components)

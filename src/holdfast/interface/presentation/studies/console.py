@@ -44,12 +44,6 @@ def to_dict(study: Study) -> dict[str, Any]:
     }
 
 
-def next_steps(result: Study | MergeReport, name: str) -> list[str]:
-    """Suggest the verification of the stored results."""
-    study = f"{name}.study" if isinstance(result, MergeReport) else name
-    return [f"{study}.verify()  # an empty list: everything that was computed is sound"]
-
-
 def tables(result: Study | MergeReport) -> list[TextTable]:
     """Return a row for each cell; of many cells only those that are not complete."""
     cells = (result.study if isinstance(result, MergeReport) else result).status()

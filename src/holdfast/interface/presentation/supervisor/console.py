@@ -51,13 +51,6 @@ def key_table(run: FaultRun) -> TextTable:
     return TextTable(["time, s", "what", "joint", "why"], [*rows, end], "in order of time")
 
 
-def next_steps(run: FaultRun, name: str) -> list[str]:
-    """Suggest the record, and the degraded arm."""
-    if run.degraded is not None:
-        return [f"{name}.degraded", f'{name}.log().save("run.npz")']
-    return [f'{name}.log().save("run.npz")  # for hf.diagnosis.diagnose', f'{name}.report("run.html")']
-
-
 def story(run: FaultRun) -> PageContent:
     """Compose the report: the outcome, the times of faults and alarms, and the actions."""
     headline, *remarks = run.describe()

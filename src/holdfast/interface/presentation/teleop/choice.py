@@ -63,12 +63,6 @@ def key_table(choice: TaskChoice) -> TextTable:
     return TextTable(["scenario", "not completed", "time, cycles", "CPM"], rows)
 
 
-def next_steps(choice: TaskChoice, name: str) -> list[str]:
-    """Suggest the numbers of the chosen tasks."""
-    del choice
-    return [f"{name}.chosen + 1  # the tasks, from 1"]
-
-
 def show(choice: TaskChoice, out: Console) -> None:
     """Print a row for each scenario, and the chosen tasks."""
     from rich.markup import escape

@@ -26,9 +26,3 @@ def key_table(analysis: Analysis) -> TextTable:
     return TextTable(
         ["law", "mean CPM with the failed arm"], [[law, format_significant(mean)] for law, mean in analysis.law_means().items()]
     )
-
-
-def next_steps(analysis: Analysis, name: str) -> list[str]:
-    """Suggest the comparisons, and the report."""
-    del analysis
-    return [f'{name}.table("comparisons")', f'{name}.report("experiment.html")']

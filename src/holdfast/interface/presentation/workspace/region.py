@@ -128,16 +128,6 @@ def story(region: TolerantWorkspace) -> PageContent:
     )
 
 
-def next_steps(region: TolerantWorkspace, name: str) -> list[str]:
-    """Suggest the data of each point, the report, and a proof for every point of a box."""
-    proof = (
-        [f"hf.certify(hf.certificates.make_workspace_claim({name}))  # for every point of a box, not a sample"]
-        if region.inside.sum() > 1
-        else []
-    )
-    return [f"{name}.to_xarray()  # point by point", f'{name}.report("workspace.html")', *proof]
-
-
 def show(region: TolerantWorkspace, out: Console) -> None:
     """Print a table of the artificial limits, and of the losses by the locks of each joint."""
     from rich.markup import escape

@@ -1,4 +1,4 @@
-"""``holdfast stationary-points``."""
+"""``holdfast stationary-points`` and ``basins``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from holdfast.core.result import Result
 
 
-def command(
+def stationary_points(
     arm: ArmArgument,
     target: TargetOption,
     lock: Annotated[
@@ -39,4 +39,30 @@ def command(
     if output.plot is not None and all("=" in text for text in lock or []):
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(control_law, target_value, locked, seed=seed)
+    output.print_result(result)
+
+
+def basins(
+    arm: ArmArgument,
+    target: TargetOption,
+    lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m; may be given again."] = None,
+    failure: FailureOption = None,
+    starts: Annotated[int, "How many random starts."] = 2000,
+    grid: Annotated[int | None, "With two healthy joints, instead: a map of so many by so many starts."] = None,
+    degrees: LockDegreesOption = False,
+    law: LawOption = "pseudoinverse",
+    task: TaskOption = None,
+    seed: SeedOption = 0,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
+) -> None:
+    """Find which start configurations converge to the target after a lock.
+
+    Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
+    """
+    control_law = read_law_for_arm(law, arm, task, chain)
+    locked = read_locks(control_law.arm, lock, degrees, failure=failure)
+    result = hf.basins(
+        control_law, read_target(control_law.arm, control_law.task, target), locked, starts=starts, grid=grid, seed=seed
+    )
     output.print_result(result)

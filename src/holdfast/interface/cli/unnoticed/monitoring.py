@@ -1,0 +1,113 @@
+"""``holdfast simulate-logs``, ``calibrate``, ``diagnose`` and ``predict-detection``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import holdfast as hf
+from holdfast.core.files.output import make_folder
+from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, JsonOption, SeedOption
+from holdfast.interface.presentation.printing import make_console, print_written_files
+from holdfast.interface.presentation.results import print_result
+
+ArmOption = Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."]
+ColumnsOption = Annotated[Path | None, "Names and units of the columns (YAML), where they are not a log's."]
+LatencyOption = Annotated[float, "By which the tool's pose is recorded late, s."]
+
+
+def diagnose(
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).")],
+    arm: ArmOption,
+    bounds: Annotated[Path, "File that calibrate wrote."],
+    columns: ColumnsOption = None,
+    latency: LatencyOption = 0.0,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
+) -> None:
+    """Detect and identify a joint fault in a log.
+
+    Exit code 0 if nothing was found, 3 if there is an alarm.
+
+    Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
+    """
+    model = chain.resolve_arm(arm)
+    diagnosis = hf.diagnosis.diagnose(
+        model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds)
+    )
+    output.print_result(diagnosis)
+    if diagnosis.verdict.alarm:
+        raise typer.Exit(NOT_MET_EXIT_CODE)
+
+
+def calibrate(
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Records (.npz, .csv or .parquet).")],
+    arm: ArmOption,
+    out: Annotated[Path, "File of the bounds (JSON)."],
+    factor: Annotated[float | None, "On the largest healthy residual. Default: 1.5, without torques 2.5."] = None,
+    coulomb: Annotated[float, "Dry friction of each joint, N m (N), if known."] = 0.0,
+    viscous: Annotated[float | None, "Viscous friction, N m s/rad (N s/m). Default: the arm's own."] = None,
+    fit: Annotated[bool, "Fit masses and friction to the records first."] = False,
+    columns: ColumnsOption = None,
+    latency: LatencyOption = 0.0,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    json_: JsonOption = False,
+) -> None:
+    """Set the detection thresholds of the monitor from logs of a healthy arm.
+
+    Example: holdfast calibrate healthy/000000.npz healthy/000001.npz --arm panda --out bounds.json
+    """
+    model = chain.resolve_arm(arm)
+    records = [hf.faults.Log.load(log, columns=columns, latency=latency) for log in logs]
+    bounds = hf.diagnosis.calibrate(model, records, factor=factor, coulomb=coulomb, viscous=viscous, fit=fit)
+    print_result(bounds, json_, [bounds.to_json(out)])
+
+
+def predict_detection(
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Record (.npz, .csv), or motion as follow writes it.")],
+    arm: ArmOption,
+    bounds: Annotated[Path | None, "File that calibrate wrote: how soon a lock is noticed."] = None,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+    output: OutputOptions = OutputOptions(),
+) -> None:
+    """Predict which locks a motion would reveal, and how soon.
+
+    Example: holdfast predict-detection healthy/000000.npz --arm panda --bounds bounds.json
+    """
+    model = chain.resolve_arm(arm)
+    q, rate = hf.diagnosis.read_motion(model, motion)
+    thresholds = None if bounds is None else hf.diagnosis.load(bounds)
+    detectability = hf.diagnosis.predict_detection(model, q, rate=rate, bounds=thresholds)
+    output.print_result(detectability)
+
+
+def simulate_logs(
+    arm: ArmArgument,
+    out: Annotated[Path, "Folder of the records."],
+    records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
+    duration: Annotated[float, "Of each, s."] = 6.0,
+    faults: Annotated[Path | None, "Faults file (YAML); record k is episode k."] = None,
+    robot: Annotated[int, "Which robot: records of one have one."] = 0,
+    seed: SeedOption = 0,
+    chain: ArmSourceOptions = ArmSourceOptions(),
+) -> None:
+    """Simulate sensor logs of an arm, with or without faults.
+
+    Masses and friction of a robot are off by up to 20 % of the arm's model (needs the extra 'physics').
+
+    Example: holdfast simulate-logs panda --records 2 --out healthy
+    """
+    model = chain.resolve_arm(arm)
+    fault_model = None if faults is None else hf.faults.load(faults)
+    events = (
+        None
+        if fault_model is None
+        else [fault_model.draw(model, episode=number, horizon=duration) for number in range(records)]
+    )
+    seeds, folder = range(seed, seed + records), make_folder(out)
+    logs = hf.diagnosis.simulate_logs(model, duration, seeds=seeds, faults=events, robots=[robot] * records)
+    files = [log.save(folder / f"{number:06d}.npz") for number, log in enumerate(logs)]
+    print_written_files(make_console(), files)

@@ -1,0 +1,127 @@
+"""Presentation of a trade-off between the error of the healthy arm and the gain after an unnoticed lock."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.control.laws.trade_offs import QUANTILE_LEVELS, TradeOff
+from holdfast.core.formatting import format_percent
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_NEGLIGIBLE_GAIN = 0.005  # less than this gain is none
+_PLATEAU_TOLERANCE = 1e-3  # differences that nobody would pay for
+_CAPTION = (
+    "Left: the peak velocity error after an unnoticed lock of any joint, divided by that of the pseudoinverse; below 1 the "
+    "failed arm gains. Right: the velocity error of the healthy arm. Bands hold half, and nine tenths, of the samples."
+)
+
+
+def to_dict(curve: TradeOff) -> dict[str, Any]:
+    """Return quantiles of each measure over the samples, against the allowed errors."""
+    measures: dict[str, Any] = {}
+    for name in ("gain", "healthy_error", "peak_error"):
+        measures[name] = {
+            f"q{round(100 * level):02d}": row for level, row in zip(QUANTILE_LEVELS, curve.quantiles(name), strict=True)
+        }
+        measures[name]["median_95_percent_interval"] = curve.median_interval(name).T
+    return {
+        **curve.arm.entry(),
+        "task": curve.task.name,
+        "characteristic_length_m": curve.task.length,
+        "samples": len(curve.gain),
+        "seed": curve.seed,
+        "pre_failure_error": curve.allowed,
+        **measures,
+    }
+
+
+def present(curve: TradeOff) -> Presentation:
+    """Present the gain after an unnoticed lock for an error of the healthy arm, at half of the largest gain."""
+    median_gain, healthy_error = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
+    lower, upper = curve.median_interval()
+    best_index = int((median_gain <= median_gain.min() + _PLATEAU_TOLERANCE).argmax())  # of a plateau the first
+    largest_gain = 1 - median_gain[best_index]
+    if largest_gain < _NEGLIGIBLE_GAIN:
+        answer = (
+            f"No velocity error of the healthy arm gains anything after an unnoticed lock: the "
+            f"median peak error stays that of the pseudoinverse, up to an allowed error of {curve.allowed[-1]:.2g}."
+        )
+        facts = [Fact("", float(curve.allowed[-1]), phrase="largest error that was allowed, of the commanded speed")]
+    else:
+        half_index = int((1 - median_gain >= largest_gain / 2).argmax())
+        half_gain = 1 - median_gain[half_index]
+        answer = (
+            f"An error of {curve.allowed[half_index]:.2g} of the commanded speed, allowed while the arm "
+            f"is healthy, takes {format_percent(half_gain)} off the median peak error after an unnoticed "
+            f"lock; the most that was found is {format_percent(largest_gain)}, for {curve.allowed[best_index]:.2g}."
+        )
+        interval_text = f"{format_percent(max(1 - upper[half_index], 0))} to {format_percent(1 - lower[half_index])}, 95 %"
+        gain_phrase = f"less peak error for an allowed error of {curve.allowed[half_index]:.2g}, median; {interval_text}"
+        facts = [
+            Fact("", half_gain, phrase=gain_phrase, style="percent"),
+            Fact(
+                "", healthy_error[half_index], phrase="of the speed is what the healthy arm then pays, median", style="percent"
+            ),
+            Fact("", largest_gain, phrase=f"less, the most there is, for {curve.allowed[best_index]:.2g}", style="percent"),
+        ]
+    low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
+    columns = [
+        Column("pre_failure_error", "allowed error", digits=2),
+        Column("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
+        Column("gain_interval", "95 % interval", digits=3),
+        Column("gain_range", "5 to 95 % of the samples", digits=3),
+        Column("healthy_error", "error of the healthy arm", digits=3),
+    ]
+    intervals, ranges = zip(lower, upper, strict=True), zip(low_quantile, high_quantile, strict=True)
+    rows = list(zip(curve.allowed, median_gain, intervals, ranges, healthy_error, strict=True))
+    return Presentation(
+        f"What {curve.arm.name} gains from an error before a failure",
+        answer,
+        about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
+        facts=facts,
+        tables=[TableSpec("Medians over the samples", columns, rows)],
+        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _CAPTION)},
+        method=[
+            ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
+            ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),
+            ("Intervals", "95 %, of medians, from order statistics"),
+            ("Source", "Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9)"),
+        ],
+        arm=curve.arm,
+    )
+
+
+def _draw_figure(curve: TradeOff) -> Figure:
+    """Draw the median and quantile bands of the gain after a failure and of its cost."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, format_label, legend_below, settle_layout, style
+
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 3.9))
+        gain, cost = figure.subplots(1, 2)
+        title_prefix = format_label(f"{curve.arm.name}, {curve.task.name}", 30)
+        measures = zip(
+            (gain, cost),
+            ("gain", "healthy_error"),
+            ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
+            (f"{title_prefix}: what the failed arm gains", f"What the healthy arm pays, {len(curve.gain):,} samples"),
+            strict=True,
+        )
+        for axes, measure_name, ylabel, title in measures:
+            q05, q25, q50, q75, q95 = curve.quantiles(measure_name)
+            axes.fill_between(curve.allowed, q05, q95, color=SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
+            axes.fill_between(curve.allowed, q25, q75, color=SKY, linewidth=0, label="25 to 75 %")
+            axes.plot(curve.allowed, q50, color=BLUE, linewidth=1.9, label="median")
+            axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, curve.allowed[-1]))
+            axes.set_ylim(0, 1.02)
+            axes.set_title(title)
+        cost.plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
+        legend_below(figure, cost, 4)
+        return settle_layout(figure)

@@ -1,0 +1,199 @@
+"""Renderers of a presentation: console, JSON, notebook, page, figures, and results folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from holdfast.core.errors import InputError
+from holdfast.core.files.output import make_folder
+from holdfast.core.formatting import insert_nonbreaking_spaces
+from holdfast.core.progress import reports_progress
+from holdfast.core.result import Presentable, Result
+from holdfast.interface.presentation import call_presenter
+from holdfast.interface.presentation.page_content import build_method_blocks
+from holdfast.interface.presentation.presentation import FigureSpec, Presentation
+from holdfast.interface.presentation.printing import TextTable, print_table, to_json_types
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+    from holdfast.interface.report.page import Block, Section
+
+_TONE_COLORS = {"bad": "red", "warn": "yellow", "good": "green", "note": "default"}
+
+
+def present(thing: Presentable, **options: Any) -> Presentation:
+    """Return the presentation of an object."""
+    presentation: Presentation = call_presenter(thing, "present", **options)
+    return presentation
+
+
+def sentences(thing: Presentable) -> list[str]:
+    """Return the answer and the sentences after it."""
+    presentation = present(thing)
+    notices = [f"{notice.title}: {notice.text}" if notice.title else notice.text for notice in presentation.notices]
+    return [text for text in (presentation.answer, *presentation.lines, *notices) if text]
+
+
+def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
+    """Return the numbers of the result in JSON types."""
+    data: dict[str, Any] = to_json_types(call_presenter(result, "to_dict", *args, **options))
+    return data
+
+
+def to_dict(result: Result, **options: Any) -> dict[str, Any]:
+    """Return the arm, the facts and the tables that have a key."""
+    presentation = present(result, **options)
+    arm_entry = {} if presentation.arm is None else presentation.arm.entry()
+    facts = {fact.key: fact.value for fact in presentation.facts if fact.key}
+    return {**arm_entry, **facts, **{table.key: table.records() for table in presentation.tables if table.key}}
+
+
+def show(result: Result, out: Console, **options: Any) -> None:
+    """Print what was given, the answer, its reasons, the numbers, and the tables."""
+    from rich.markup import escape as escape_markup
+
+    from holdfast.interface.presentation.terminal import BandedTable
+
+    presentation = present(result, **options)
+    if presentation.about:
+        out.print(escape_markup(presentation.about), soft_wrap=True)
+    out.print(f"[bold]{escape_markup(presentation.answer)}[/]", soft_wrap=True)
+    for line in presentation.lines:
+        out.print(escape_markup(line), soft_wrap=True)
+    for notice in presentation.notices:
+        text = f"{notice.title}: {notice.text}" if notice.title else notice.text
+        out.print(f"[{_TONE_COLORS[notice.tone]}]{escape_markup(text)}[/]", soft_wrap=True)
+    if rows := _list_facts(presentation):
+        facts = BandedTable()
+        for row in rows:
+            facts.add_row(*map(escape_markup, row))
+        out.print(facts)
+    for table in presentation.tables:
+        if table.on_console and table.rows:
+            print_table(out, table.texts())
+
+
+def _list_facts(presentation: Presentation) -> list[list[str]]:
+    """List the facts with a label as rows of texts."""
+    return [[fact.label, fact.text] for fact in presentation.facts if fact.label]
+
+
+# ---- notebooks -----------------------------------------------------------------------------------------------------------
+
+
+def in_notebook(thing: Presentable) -> str:
+    """Return the answer, the key numbers, and the main figure as HTML without scripts, for the end of a cell."""
+    from holdfast.interface.presentation.notebook import embed_figure, format_table
+
+    presentation = present(thing)
+    answer, *remarks = sentences(thing)
+    parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
+    facts = TextTable(["", ""], _list_facts(presentation))
+    parts.append(format_table(facts if facts.rows or not presentation.tables else presentation.tables[0].texts()))
+    parts += [
+        embed_figure(figure.draw(), f"{name}: {presentation.answer}") for name, figure in list(presentation.figures.items())[:1]
+    ]
+    return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
+
+
+# ---- figures -------------------------------------------------------------------------------------------------------------
+
+
+def figures(result: Result, **options: Any) -> dict[str, Figure]:
+    """Draw all figures of the result."""
+    return {name: figure.draw() for name, figure in present(result, **options).figures.items()}
+
+
+def plot(result: Result, name: str = "", **options: Any) -> Figure:
+    """Draw one figure of the result, the first if none is named; a notebook shows it with or without pyplot."""
+    from holdfast.interface.presentation.notebook import show_once
+
+    specs: Mapping[str, FigureSpec] = present(result, **options).figures
+    if not specs:
+        raise InputError(f"{type(result).__name__} has no figure; ask result.describe() instead")
+    if name and name not in specs:
+        raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(specs)}")
+    return show_once(specs[name or next(iter(specs))].draw())
+
+
+# ---- pages and folders ---------------------------------------------------------------------------------------------------
+
+
+@reports_progress("drawing the report")
+def write(result: Result, path: Path, command: str = "", **options: Any) -> Path:
+    """Write the report: the answer, its evidence, the method, and the command that reproduces the run."""
+    from holdfast.interface.report import page
+
+    return page.write(build_page(present(result, **options), command), path)
+
+
+def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Any:
+    """Build the page of a presentation, with figures that are drawn already, if given."""
+    from holdfast.interface.report.page import Callout, Page, Picture, Section, Text
+
+    figure_blocks: dict[str, list[Block]] = {}
+    for name, figure in presentation.figures.items():
+        if figure.on_page:
+            image = _render_svg(drawn[name] if drawn else figure.draw(), name, f"{presentation.title}: {figure.title.lower()}")
+            figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
+    small_facts = [[fact.label, fact.text] for fact in presentation.facts if fact.label and not fact.phrase]
+    tables = [TextTable(["", ""], small_facts)] if small_facts else []
+    tables += [table.texts() for table in presentation.tables if table.on_page]
+    sections: list[Section] = [
+        Section("", [Text(sentence) for sentence in presentation.lines]),
+        *presentation.sections(),
+        *[Section(title, blocks) for title, blocks in figure_blocks.items()],
+        Section("In numbers", [build_table_block(table) for table in tables]),
+    ]
+    return Page(
+        presentation.title,
+        presentation.answer,
+        sections,
+        subtitle=presentation.about,
+        warnings=[Callout(notice.text, notice.tone, notice.title) for notice in presentation.notices],
+        facts=[(fact.text, fact.phrase) for fact in presentation.facts if fact.phrase],
+        method=build_method_blocks(presentation.arm, *presentation.method),
+        again=command if presentation.again is None else presentation.again(),
+    )
+
+
+def build_table_block(table: TextTable) -> Any:
+    """Convert a table to a block of a page; columns of words are left-aligned."""
+    from holdfast.interface.presentation.results import build_table_block as build_block
+
+    return build_block(table if any(table.head) else table._replace(head=()))
+
+
+def _render_svg(figure: Figure, name: str, description: str) -> Any:
+    from holdfast.interface.report.figures import svg
+
+    return svg(figure, name, description)
+
+
+def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100, **options: Any) -> list[Path]:
+    """Write the figures as PNG files, the other files of the result, and the page."""
+    from holdfast.interface.report import page
+    from holdfast.interface.report.figures import save_png
+
+    folder, presentation = make_folder(folder), present(result, **options)
+    drawn = {name: figure.draw() for name, figure in presentation.figures.items()}
+    files = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
+    for name, write_file in presentation.exports.items():
+        write_file(folder / name)
+        files.append(folder / name)
+    return [*files, page.write(build_page(presentation, command, drawn), folder / "report.html")]
+
+
+def story(result: Result) -> Presentation:  # until every presenter has `present`
+    """Return the presentation of a result."""
+    return present(result)
+
+
+def drawings(result: Result, **options: Any) -> dict[str, Any]:  # until every presenter has `present`
+    """Return the functions that draw the figures of the result."""
+    return {name: figure.draw for name, figure in present(result, **options).figures.items()}
