@@ -59,10 +59,16 @@ class TimePanel:
     log_scale: bool = False
 
 
-def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
-    """Plot panels side by side over time, with one line of text below that states the computed quantity."""
+def motion_figure(
+    panels: Sequence[TimePanel],
+    caption: str,
+    xlabel: str = "time since the failure, s",
+    *,
+    panel_width: float = WIDTH_IN / 2.4,
+) -> Figure:
+    """Plot panels of a width (in) side by side over time, with one line of text below that states the computed quantity."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN * len(panels) / 2.4, 3.7))
+        figure = Figure(figsize=(panel_width * len(panels), 3.7))
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
             draw_panel(axes, panel, xlabel)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
