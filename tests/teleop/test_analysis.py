@@ -208,7 +208,7 @@ def test_mixed_model_of_complete_data_has_the_cell_means(table):
     np.testing.assert_allclose(a.mixed.means, a.cells.values.mean(axis=0), rtol=1e-6)  # balanced: closed form
     assert [t.df for t in a.mixed.tests] == [1, 2, 2]
     assert a.table("mixed")["converged"].tolist() == [1, 1, 1]
-    assert any("mixed model of 108 trials, converged" in line for line in a.describe())
+    assert any("mixed model of 108 single trials" in line and "NOT converged" not in line for line in a.describe())
 
 
 def test_mixed_model_fills_empty_cells(table):

@@ -23,7 +23,7 @@ def test_the_command_writes_what_it_found(cli, tmp_path):
     out = tmp_path / "home"
     code, text, err = cli(*CALL, "--goal", "pose:1.5,1.5,0", "--samples", "100", "--out", out, "--csv", tmp_path / "w.csv")
     assert (code, err) == (0, "")
-    assert "Goal reached: the whole goal is met" in text
+    assert "With joint2 locked at 40 deg, the whole goal is met" in text
     assert {f.name for f in out.iterdir()} == {"recovery.json", "waypoints.csv", "motion.png", "left.png", "report.html"}
     page = (out / "report.html").read_text(encoding="utf-8")
     check(page)

@@ -17,6 +17,7 @@ import yaml
 
 import holdfast as hf
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_percent
 from holdfast.core.sweeps import Study, ThreadRunner
 from holdfast.kernels import set_threads, shared_pool
 from holdfast.kinematics.regions.region import Region, default_region
@@ -281,7 +282,7 @@ def test_shares_and_merge(ask, refused, file, folder, tmp_path):
 def test_the_report_holds_what_was_found(ask, folder, tmp_path):
     to = tmp_path / "r.html"
     ask("study", "report", folder, "--to", to)
-    text = to.read_text()
+    text = to.read_text().replace("\u00a0", " ")
     for words in (
         "relative manipulability",
         "condition number",
@@ -294,8 +295,7 @@ def test_the_report_holds_what_was_found(ask, folder, tmp_path):
         assert words in text, words
     run = hf.load(folder / "cells" / "planar-3r-relative-manipulability")
     value = run.interval(at_least=run.default_threshold())
-    assert f"{value.value:.3f}" in text
-    assert f"{value.low:.3f} to {value.high:.3f}" in text
+    assert f"{format_percent(value.value)} ({format_percent(value.low)} to {format_percent(value.high)}, 95 %)" in text
     assert "http" not in text.replace("http://www.w3.org", "")
 
 

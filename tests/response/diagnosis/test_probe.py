@@ -103,7 +103,7 @@ def test_a_lock_that_is_not_seen_stays_undecided(panda, probe, rng):
     found = probe.decide(short)
     assert found.joint is None
     assert {"none", "panda_joint4"} <= set(found.remaining)
-    assert found.describe()[0].startswith("not decided after 0.29 s")
+    assert found.describe()[0].startswith("Not decided after 0.29 s")
 
 
 def test_a_motion_that_keeps_a_joint_still_does_not_show_it(panda, probe):

@@ -141,7 +141,7 @@ def test_the_verdict_says_that_it_is_proved(ring, kind, monkeypatch):
     assert not found.ok
     assert not len(found.q)
     assert "up to floating point" in found.proof
-    assert "disconnected" in call_presenter(found, "story").answer
+    assert "disconnected" in call_presenter(found, "present").answer
     assert found.to_dict()["verdict"]["kind"] == "disconnected"
 
 

@@ -186,9 +186,9 @@ def test_each_verdict_names_its_kind(three, locked, asked, answer, kind):
     assert (found.verdict.answer, found.verdict.kind) == (answer, kind), found.verdict
     assert not found.ok
     assert found.verdict.why
-    assert f"verdict: {answer}" in " ".join(found.describe())
+    assert f"Verdict: {answer}" in " ".join(found.describe())
     assert found.to_dict()["verdict"]["answer"] == answer
-    assert answer in call_presenter(found, "story").answer
+    assert answer in call_presenter(found, "present").answer
 
 
 @pytest.mark.skipif(not is_library_installed(), reason="no library for exact signs")

@@ -14,10 +14,10 @@ import holdfast as hf
 from holdfast import Capsules, Clearance, Region, arms, assess, load
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.status import Status
-from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.presentation.assessment.page import build
-from holdfast.interface.presentation.assessment.sections import collisions
+from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
+from holdfast.interface.presentation.assessment.assessment import summarize_collisions
 from holdfast.interface.presentation.commands import build_command_line, build_shape_file_blocks
+from holdfast.interface.presentation.renderers import present
 from holdfast.model.collision import LinkCapsule
 from holdfast.model.collision.cover import choose_capsules
 from holdfast.studies.assessment.plan import make_plan
@@ -196,7 +196,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
         "given radius 0.13 m",
     ):
         assert part in text.replace("&amp;", "&"), part
-    table = next(s for s in build(run).sections if s.title.startswith("Does the arm")).blocks[0]
+    table = next(s for s in present(run).sections() if s.title.startswith("Does the arm")).blocks[0]
     cells = dict(table.rows)
     for name, count in (
         ("Configurations found that bring the arm into collision with itself", found.found),
@@ -204,7 +204,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
         ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
     ):
         assert cells[name].startswith(f"{count} ("), name
-    line = collisions.summarize_collisions(AssessmentFacts(run, None))
+    line = summarize_collisions(ThresholdAnswer(run, None))
     assert "given radius" in line
     assert f"{found.hopeless} poses cannot" in line
     assert "is an assumption" not in text

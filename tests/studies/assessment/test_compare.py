@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.core.formatting import format_interval, insert_nonbreaking_spaces
-from holdfast.interface.presentation.assessment.comparison import build
+from holdfast.core.formatting import format_interval, format_percent, insert_nonbreaking_spaces
+from holdfast.interface.presentation.renderers import build_page, present
 from holdfast.interface.report.page import render
 from holdfast.model.arms.tool import format_tool_pose, tool_pose_from_numbers
 from holdfast.studies.assessment import load_comparison
@@ -127,7 +127,7 @@ def test_what_cannot_be_compared(runs):
 
 def test_an_empty_headline_says_who_is_nearest_and_why(runs):
     two = hf.compare_assessments([runs[0], runs[2]], ["straight", "pa10"], 0.99)
-    line = build(two).headline
+    line = present(two).answer
     assert "No candidate keeps" in line
     straight = two.table[0]
     assert f"Nearest is straight. A lock of {straight['worst_joint']} is the worst failure" in line
@@ -138,7 +138,7 @@ def test_an_empty_headline_says_who_is_nearest_and_why(runs):
 @pytest.mark.parametrize("some", [slice(3), slice(4)])
 def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some):
     names = ["straight", "side", "pa10", "position"][some]
-    html = render(build(hf.compare_assessments(runs[some], names, 0.05)))
+    html = render(build_page(present(hf.compare_assessments(runs[some], names, 0.05))))
     box = re.search(r'<div[^>]* data-extra="threshold".*?<script[^>]*>(.*?)</script>', html, re.DOTALL)
     labels = re.findall(r"<dt>(.*?)</dt>", box[0])
     data = json.loads(box[1])
@@ -170,12 +170,12 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
 def test_the_page(comparison, runs, tmp_path):
     html = comparison.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(html)
-    words = re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL)
+    words = re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL).replace("\u00a0", " ")
     assert "nan" not in words.lower()
     assert "The tasks differ" in words
-    assert words.index("The candidates") < words.index("How the index is distributed")
+    assert words.index("How the index is distributed") < words.index("In numbers")
     for r in comparison.table:
-        assert f"{r['probability']:.3f}" in words
+        assert format_percent(r["probability"]) in words
     u = comparison.upgrades("straight")[0]
     assert u.joint in words
     assert "--tool tool=0.05,0,0.1,90,0,0" in words
@@ -206,10 +206,10 @@ def test_a_folder_of_it(runs, tmp_path):
 
 
 def test_what_it_says_in_sentences(comparison):
-    pose, position, *notes = comparison.describe()
-    assert pose.startswith(f"Task pose: {comparison.best('pose')} has the largest probability")
-    assert position.startswith("Task position: position has")
-    assert notes == comparison.notes
+    answer, notes = comparison.describe()
+    assert f"pose, {comparison.best('pose')} with {format_interval(comparison.interval(comparison.best('pose')))}; " in answer
+    assert f"position, position with {format_interval(comparison.interval('position'))}." in answer
+    assert notes == f"Before comparing: {' '.join(comparison.notes)}"
 
 
 def test_six_numbers_of_a_tool(rng):

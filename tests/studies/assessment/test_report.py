@@ -210,14 +210,14 @@ def test_bound_and_threshold_are_those_of_the_arm(tmp_path: Path) -> None:
     assert "at least 0.19 " in headline(html)  # half of sqrt(1/7) = 0.378
     assert "no configuration can exceed 0.378" in html
     with pytest.raises(hf.InputError, match="threshold is nan"):
-        report.write(case("panda"), tmp_path / "x.html", float("nan"))
+        case("panda").report(tmp_path / "x.html", float("nan"))
     assert not (tmp_path / "x.html").exists()
 
 
 def test_structural_failure_is_said_first() -> None:
     html = text("structural")
     assert "No pose of the region tolerates every failure" in headline(html)
-    assert html.index('class="callout bad"') < html.index("<h2>Key numbers")
+    assert html.index('class="callout bad"') < html.index("<h2>In numbers")
     assert "once joint4 (joint 4) locks" in html
     rows = re.findall(r"<tr><th[^>]*>([\w() ]+)</th>(.*?)</tr>", html)
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}

@@ -12,7 +12,6 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.core.errors import InputError
 from holdfast.core.sweeps import Study, ThreadRunner
-from holdfast.interface.presentation.studies import page as report
 from holdfast.kinematics.indices import by_name
 from holdfast.studies import read_study_file
 from holdfast.studies.designs import design_space
@@ -83,7 +82,7 @@ def test_chunks_are_the_same_bits_however_they_are_computed(study, tmp_path):
 
 
 def test_the_report_shows_the_sweep(study, tmp_path):
-    page = report.write(study, tmp_path / "report.html").read_text().replace("\u00a0", " ")
+    page = study.report(tmp_path / "report.html").read_text().replace("\u00a0", " ")
     check(page)
     for words in ("Designs of planar-3r", "14 designs", "a bench", "rank correlation", "lower2, deg", "reach, m"):
         assert words in page, words

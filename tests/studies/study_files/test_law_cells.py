@@ -10,7 +10,6 @@ from holdfast.control.convergence.analysis import MEASURE_NAMES
 from holdfast.control.convergence.places import read_places
 from holdfast.core.errors import InputError
 from holdfast.core.sweeps import Chunk, Study, ThreadRunner
-from holdfast.interface.presentation.studies.page import write
 from holdfast.studies import read_study_file
 from holdfast.teleop.bank.tasks import make_task_bank
 from holdfast.teleop.trials.scenarios import Scenario
@@ -114,7 +113,7 @@ def test_a_dask_worker_changes_no_bit(tmp_path, straight):
 
 
 def test_their_report_has_a_row_for_each_law(straight, tmp_path):
-    text = write(straight, tmp_path / "r.html").read_text().replace("\u00a0", " ")
+    text = straight.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
     for words in ("Starts that still reach the target", "Tasks that the computer drives", "pseudoinverse"):
         assert words in text, words
 

@@ -11,8 +11,9 @@ import pytest
 from holdfast import arms
 from holdfast.core.probability.distribution import Distribution
 from holdfast.core.probability.intervals import Interval
-from holdfast.interface.presentation.studies.answer import headline
-from holdfast.interface.presentation.studies.page import _build_ranking_blocks, _build_structure_blocks, _find_fatal_structures
+from holdfast.interface.presentation.studies.answer import compose_answer
+from holdfast.interface.presentation.studies.sections import build_ranking_blocks, build_structure_blocks
+from holdfast.interface.presentation.studies.study import find_fatal_structures
 from holdfast.interface.report.page import Page, Section, render
 from holdfast.kinematics.indices import by_name
 from holdfast.studies.study_files.ranking import rank_arms
@@ -54,12 +55,12 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     assert first.tied_with_first == ["b", "a"]
     assert first.about == "200 motions × 2 joints"
     assert (second.law, second.tied_with_first) == ("damped:0.1", ["a"])
-    text = render(Page("t", headline([first, second]), [Section("s", _build_ranking_blocks([first, second]))])).replace(
+    text = render(Page("t", compose_answer([first, second]), [Section("s", build_ranking_blocks([first, second]))])).replace(
         "\u00a0", " "
     )
     assert "level with a" in text
     assert "a reaches its target most often, under damped:0.1" in text
-    none = headline(rank_arms([], [driven("a", 0.0), driven("b", 0.0)], {}))
+    none = compose_answer(rank_arms([], [driven("a", 0.0), driven("b", 0.0)], {}))
     assert "hardly any motion reaches its target under any law: of 200 motions × 2 joints 0.00" in none
 
 
@@ -73,7 +74,7 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
     assert plain.tied_with_first == ["even"]
     assert best.question == "manipulability ≤ 10, best configuration"
     assert best.tied_with_first == ["even", "uneven"]
-    text = render(Page("t", headline([plain, best]), [Section("s", _build_ranking_blocks([plain, best]))])).replace(
+    text = render(Page("t", compose_answer([plain, best]), [Section("s", build_ranking_blocks([plain, best]))])).replace(
         "\u00a0", " "
     )
     assert "After any failure considered, even most often keeps a manipulability ≤ 10 m/rad: at 1.000" in text
@@ -85,12 +86,12 @@ def test_nobody_is_ahead_of_an_arm_that_is_0_by_structure_unless_it_is_surely_ab
         found = [assessed("some", np.r_[np.zeros(100 - kept), np.ones(kept)]), assessed("never", np.zeros(100))]
         (s,) = rank_arms(found, [], {("manipulability", "pose"): 0.5})
         assert sentence in render(
-            Page("t", "h", [Section("s", _build_ranking_blocks([replace(s, ended={"never": "joint 4"})]))])
+            Page("t", "h", [Section("s", build_ranking_blocks([replace(s, ended={"never": "joint 4"})]))])
         )
 
 
 def test_one_arm_alone_has_nobody_to_be_compared_with():
-    assert _build_ranking_blocks(rank_arms(FAR[:1], [], {("manipulability", "pose"): 0.5})) == []
+    assert build_ranking_blocks(rank_arms(FAR[:1], [], {("manipulability", "pose"): 0.5})) == []
 
 
 @pytest.mark.interpreted
@@ -101,11 +102,11 @@ def test_a_joint_whose_lock_ends_the_task_everywhere_is_named():
 
     indices = ("relative-manipulability", "manipulability")
     found = [of(arm, index) for arm in ("panda", "iiwa14") for index in indices]
-    (callout,) = _build_structure_blocks(
-        _find_fatal_structures(found)
+    (callout,) = build_structure_blocks(
+        find_fatal_structures(found)
     )  # an iiwa's hand is as far from its shoulder as its elbow says
     assert "once lbr_iiwa_joint_4 (joint 4) locks, 'iiwa14' is singular for task 'pose'" in callout.text
-    assert _find_fatal_structures([of("iiwa14", "manipulability", "pairs")]) == {}
+    assert find_fatal_structures([of("iiwa14", "manipulability", "pairs")]) == {}
 
 
 def test_an_arm_that_is_0_by_structure_is_level_with_none_and_an_empty_headline_says_why():
@@ -117,13 +118,13 @@ def test_an_arm_that_is_0_by_structure_is_level_with_none_and_an_empty_headline_
     assert blind.tied_with_first == ["nothing", "sparse"]  # what shares alone say of two arms that keep nothing
     plain, best = rank_arms([nothing, sparse], [], asked, ended)
     assert plain.tied_with_first == best.tied_with_first == ["sparse"]
-    line = headline([plain, best])
+    line = compose_answer([plain, best])
     assert "hardly any pose keeps a manipulability ≥ 0.5: at most 0.00" in line
     assert "level with" not in line
     assert "sparse has the best median, 0.100; in the best configurations 0.300. Its worst failure" in line
     assert "is most often a lock of elbow." in line
     assert "nothing keeps nothing: once its elbow locks, it is singular everywhere." in line
-    assert "nothing: 0 by structure" in render(Page("t", line, [Section("s", _build_ranking_blocks([plain, best]))]))
+    assert "nothing: 0 by structure" in render(Page("t", line, [Section("s", build_ranking_blocks([plain, best]))]))
 
 
 def test_an_index_that_is_not_0_at_a_singularity_is_not_0_by_structure():

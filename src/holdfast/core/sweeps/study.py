@@ -14,7 +14,6 @@ from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, replace_file
 from holdfast.core.files.sealed import read_sealed
-from holdfast.core.formatting import format_duration
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
 from holdfast.core.sweeps.folder import STUDY_FILE, has_too_many_rows, is_valid_folder_name, lock_folder
@@ -270,14 +269,6 @@ class Study(Result):
     def runs(self) -> list[dict[str, Any]]:
         """Start, machine, and duration of each run, except runs that were killed."""
         return self.made.runs
-
-    def describe(self) -> list[str]:
-        """Return the progress in a sentence."""
-        cells = self.status()
-        done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
-        word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
-        spent = format_duration(sum(s.seconds for s in cells))
-        return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of processor time to compute"]
 
     # ---- computing -------------------------------------------------------------------------------------------------
 

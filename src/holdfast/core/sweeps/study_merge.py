@@ -38,26 +38,6 @@ class MergeReport(Result):
     close: int
     apart: tuple[tuple[str, int], ...]
 
-    def describe(self) -> list[str]:
-        """Return the added and existing chunks, the machines, and the progress of the study in sentences."""
-        lines = [f"{self.study.path}: {self.added} chunks added, {self.both} were there already, bit for bit the same"]
-        if self.close:
-            lines.append(f"{self.close} chunks were there already, alike to 1e-12")
-        if self.apart:
-            cell, k = self.apart[0]
-            lines.append(
-                f"{len(self.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
-                f"'{self.study.path}' are kept"
-            )
-        for maker in self.study.makers:
-            packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
-            lines.append(f"computed on {maker['processor']}: Python {maker['python']}, {packages}")
-        if len(self.study.makers) > 1:
-            lines.append(
-                "versions or processors differ: the same study computed on one of them alone agrees to 1e-12, not in every bit"
-            )
-        return [*lines, *self.study.describe()]
-
     def to_dict(self) -> dict[str, Any]:
         """Return the number of chunks of each kind and the machines that computed them."""
         apart = [{"cell": c, "chunk": k + 1} for c, k in self.apart]

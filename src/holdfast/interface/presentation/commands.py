@@ -10,6 +10,7 @@ import numpy as np
 import yaml
 from markupsafe import Markup
 
+from holdfast.core.formatting import capitalise_first
 from holdfast.core.labels import TASK_ROW_NAMES, TASK_SIZES
 from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.core.typing import FloatArray
@@ -203,3 +204,15 @@ def build_region_file_blocks(region: Region) -> list[Block]:
         remark = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
         blocks.append(Text(remark.format(_POSES_FILE)))
     return blocks
+
+
+def build_rerun_blocks(assessment: Assessment) -> list[Block]:
+    """Build the command that repeats the run with the files that it needs, or the reason why there is none."""
+    command, remark = build_command_line(assessment)
+    if command is None:
+        return [Text(remark)]
+    return [
+        Code(command, remark and f"{capitalise_first(remark)}:"),
+        *build_region_file_blocks(assessment.region),
+        *build_shape_file_blocks(assessment),
+    ]

@@ -185,7 +185,7 @@ class Presentation:
         lines: Sentences after the answer: the reason, the checks, what to do.
         notices: See :class:`Notice`.
         facts: The answer in numbers.
-        tables: Tables of the result.
+        tables: Tables of the result, or the function that builds them, if that takes time; see :meth:`list_tables`.
         figures: Figures by name; the first is the main one.
         sections: Further sections of the page, before the figures (views of the arm that can be turned, for example).
         method: How it was computed, by name; the arm and the versions follow by themselves.
@@ -201,10 +201,14 @@ class Presentation:
     lines: Sequence[str] = ()
     notices: Sequence[Notice] = ()
     facts: Sequence[Fact] = ()
-    tables: Sequence[TableSpec] = ()
+    tables: Sequence[TableSpec] | Callable[[], Sequence[TableSpec]] = ()
     figures: Mapping[str, FigureSpec] = field(default_factory=dict)
     sections: Callable[[], Sequence[Section]] = tuple
     method: Sequence[tuple[str, Any]] = ()
     arm: Arm | None = None
     again: Callable[[], Sequence[Block]] | None = None
     exports: Mapping[str, Callable[[Path], Any]] = field(default_factory=dict)
+
+    def list_tables(self) -> Sequence[TableSpec]:
+        """List the tables of the result."""
+        return self.tables() if callable(self.tables) else self.tables

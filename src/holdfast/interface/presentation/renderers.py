@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.errors import InputError
-from holdfast.core.files.output import make_folder
+from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Presentable, Result
@@ -50,7 +51,7 @@ def to_dict(result: Result, **options: Any) -> dict[str, Any]:
     presentation = present(result, **options)
     arm_entry = {} if presentation.arm is None else presentation.arm.entry()
     facts = {fact.key: fact.value for fact in presentation.facts if fact.key}
-    return {**arm_entry, **facts, **{table.key: table.records() for table in presentation.tables if table.key}}
+    return {**arm_entry, **facts, **{table.key: table.records() for table in presentation.list_tables() if table.key}}
 
 
 def show(result: Result, out: Console, **options: Any) -> None:
@@ -73,7 +74,7 @@ def show(result: Result, out: Console, **options: Any) -> None:
         for row in rows:
             facts.add_row(*map(escape_markup, row))
         out.print(facts)
-    for table in presentation.tables:
+    for table in presentation.list_tables():
         if table.on_console and table.rows:
             print_table(out, table.texts())
 
@@ -94,7 +95,7 @@ def in_notebook(thing: Presentable) -> str:
     answer, *remarks = sentences(thing)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
     facts = TextTable(["", ""], _list_facts(presentation))
-    parts.append(format_table(facts if facts.rows or not presentation.tables else presentation.tables[0].texts()))
+    parts.append(format_table(facts if facts.rows or not presentation.tables else presentation.list_tables()[0].texts()))
     parts += [
         embed_figure(figure.draw(), f"{name}: {presentation.answer}") for name, figure in list(presentation.figures.items())[:1]
     ]
@@ -143,7 +144,7 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
     small_facts = [[fact.label, fact.text] for fact in presentation.facts if fact.label and not fact.phrase]
     tables = [TextTable(["", ""], small_facts)] if small_facts else []
-    tables += [table.texts() for table in presentation.tables if table.on_page]
+    tables += [table.texts() for table in presentation.list_tables() if table.on_page]
     sections: list[Section] = [
         Section("", [Text(sentence) for sentence in presentation.lines]),
         *presentation.sections(),
@@ -187,6 +188,11 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
         write_file(folder / name)
         files.append(folder / name)
     return [*files, page.write(build_page(presentation, command, drawn), folder / "report.html")]
+
+
+def write_json(result: Result, path: Path) -> None:
+    """Write the numbers of the result as JSON."""
+    replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")
 
 
 def story(result: Result) -> Presentation:  # until every presenter has `present`

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.timelines import LINE_COLORS
 from holdfast.interface.report.views import View
 
 
@@ -40,7 +42,7 @@ class TimePanel:
 
     Attributes:
         time: (T,) s.
-        values: (T,) the quantity.
+        values: (T,) the quantity, or several lines by name.
         ylabel: What it is, with its unit.
         title: One line.
         reference_level: A value to compare it to, drawn across, and what that is; None if there is none.
@@ -49,7 +51,7 @@ class TimePanel:
     """
 
     time: FloatArray
-    values: FloatArray
+    values: FloatArray | Mapping[str, FloatArray]
     ylabel: str
     title: str
     reference_level: tuple[float, str] | None = None
@@ -57,10 +59,16 @@ class TimePanel:
     log_scale: bool = False
 
 
-def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
-    """Plot panels side by side over time, with one line of text below that states the computed quantity."""
+def motion_figure(
+    panels: Sequence[TimePanel],
+    caption: str,
+    xlabel: str = "time since the failure, s",
+    *,
+    panel_width: float = WIDTH_IN / 2.4,
+) -> Figure:
+    """Plot panels of a width (in) side by side over time, with one line of text below that states the computed quantity."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN * len(panels) / 2.4, 3.7))
+        figure = Figure(figsize=(panel_width * len(panels), 3.7))
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
             draw_panel(axes, panel, xlabel)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
@@ -69,7 +77,10 @@ def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time
 
 def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
     """Draw one panel."""
-    axes.plot(panel.time, panel.values, color=BLUE, linewidth=1.6)
+    lines = panel.values if isinstance(panel.values, Mapping) else {"": panel.values}
+    colors = cycle(LINE_COLORS) if len(lines) > 1 else [BLUE]
+    for color, (name, values) in zip(colors, lines.items(), strict=False):
+        axes.plot(panel.time, values, color=color, linewidth=1.6 if len(lines) == 1 else 1.4, label=format_label(name) or None)
     if panel.reference_level is not None:
         axes.axhline(
             panel.reference_level[0],
@@ -78,13 +89,14 @@ def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
             linestyle=(0, (4.5, 2)),
             label=format_label(panel.reference_level[1]),
         )
-        axes.legend(loc="best")
+    if panel.reference_level is not None or any(lines):
+        axes.legend(loc="best", fontsize=8 if len(lines) > 1 else None)
     for time, value, label in panel.moments:
         axes.plot([time], [value], "o", color=ORANGE, markersize=5)
         axes.annotate(format_label(label), (time, value), (6, 5), textcoords="offset points", fontsize=9, color=INK)
     axes.set(xlabel=xlabel, ylabel=panel.ylabel, title=format_label(panel.title))
     axes.set_xlim(0, float(panel.time[-1]) or 1.0)
-    if panel.log_scale and (panel.values > 0).any():
+    if panel.log_scale and any((values > 0).any() for values in lines.values()):
         axes.set_yscale("log")
     axes.margins(y=0.12)
 

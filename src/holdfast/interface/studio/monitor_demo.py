@@ -159,9 +159,9 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
     alarm_time = float(verdict.time) if verdict.alarm else np.inf
     isolation_time = alarm_time + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
     if verdict.alarm:
-        alarm_line, *evidence = [line for line in diagnosis.describe() if line.startswith("alarm at")] + list(verdict.evidence)
+        fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
         known_time = isolation_time if verdict.kind == "sensor" else isolation_time + CLASSIFICATION_TIME_S
-        findings = [(known_time, text) for text in (alarm_line.partition(": ")[2], *evidence)]
+        findings = [(known_time, text) for text in (fault, *verdict.evidence)]
     inconclusive = [f"did not move enough to tell: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
     if verdict.alarm and len(verdict.candidates) > 1:
         inconclusive.append(f"not told apart: {', '.join(verdict.candidates)}")

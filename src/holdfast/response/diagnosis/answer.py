@@ -8,7 +8,6 @@ from itertools import pairwise
 import numpy as np
 
 from holdfast.core.caching import cached_property
-from holdfast.core.formatting import format_seconds
 from holdfast.core.result import Result
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis.bounds import Bounds
@@ -20,16 +19,6 @@ from holdfast.response.faults.log import Log
 _MIN_TRAVEL_FACTOR = 2.0  # of its tracking bound: a reference that moves by less shows no lock
 _MAX_SPEED_FACTOR = 1.1  # than in calibration
 _LEVEL_NAMES = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
-_KIND_PHRASES = {
-    "locked": "is locked",
-    "standstill": "does not move: locked, or free-swinging and held by friction",
-    "limp": "swings free: its motor gives no torque",
-    "weak": "is weak",
-    "friction": "has more friction",
-    "sluggish": "moves against more than it should: its motor is weak, or it has more friction",
-    "sensor": "has a faulty sensor, or a clutch that slips",
-    "unknown": "has a fault of an unknown kind",
-}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -80,32 +69,3 @@ class Diagnosis(Result):
         has_bound = {"torque": np.isfinite(self.bounds.torque).all(), "tool": np.isfinite(self.bounds.position)}
         levels = self.signals.levels
         return tuple(_LEVEL_NAMES[name] for name, is_bound in has_bound.items() if not is_bound or name not in levels)
-
-    def describe(self) -> list[str]:
-        """Describe the fault, or that none was detected, with the reasons and the inconclusive joints."""
-        verdict = self.verdict
-        if not verdict.alarm:
-            lines = [f"no fault seen in {self.log.duration:.4g} s"]
-        elif verdict.kind == "contact":
-            suspect_text = f", or {verdict.suspect} has a fault: it alone is above its bound"
-            blame_text = suspect_text if verdict.suspect else "; no joint is to blame"
-            lines = [f"alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}"]
-        else:
-            phrase = f"{verdict.joint or 'a joint that is not known'} {_KIND_PHRASES[verdict.kind]}"
-            if verdict.kind == "weak":
-                phrase += f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
-            lines = [f"alarm at {format_seconds(verdict.time)}: {phrase}"]
-        lines += list(verdict.evidence)
-        other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
-        if other_kinds:
-            lines.append(f"it may also be: {', '.join(other_kinds)}")
-        if self.inconclusive:
-            lines.append(f"these joints did not move enough to tell: {', '.join(self.inconclusive)}")
-        if self.gaps:
-            unmonitored = sum(gap_end - gap_start for gap_start, gap_end in self.gaps)
-            lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
-        if self.unmonitored:
-            lines.append(f"not watched: {', '.join(self.unmonitored)}")
-        if self.beyond:
-            lines.append(f"faster than calibrated, so that an alarm proves little: {', '.join(self.beyond)}")
-        return lines

@@ -101,35 +101,6 @@ class Bounds(Result):
         """Return the arm with the link masses that the bounds assume."""
         return scale_masses(arm, self.scales)
 
-    def describe(self) -> list[str]:
-        """Describe the hours of calibration, the rate of false alarms, and the monitored signals."""
-        lines = [
-            f"bounds of {self.logs} record{'s' * (self.logs != 1)}, {self.hours:.3g} h of healthy motion at {self.rate:.4g} Hz"
-        ]
-        false_alarm_rates = self.false_alarms()
-        if false_alarm_rates is None:
-            lines.append("false alarms: unknown; calibrate with two records or more")
-        else:
-            lines.append(
-                f"false alarms: {self.alarms} where each record is watched with the bounds of the others; with 95 % confidence "
-                f"fewer than {false_alarm_rates[1]:.3g} an hour, for this arm and motion as it was recorded"
-            )
-        if (self.speed > 0).any():
-            delays = self.lock_delays()
-            slowest = int(np.where(np.isfinite(delays), delays, -1.0).argmax())
-            lines.append(
-                f"a joint that locks while it moves at half its fastest calibrated speed is detected by its position after at "
-                f"most {1e3 * delays[slowest]:.0f} ms ({self.joints[slowest]}); its torque usually shows it earlier"
-            )
-        if (self.scales != 1).any():
-            smallest, largest = self.scales.min(), self.scales.max()
-            lines.append(
-                f"friction and masses are fitted to the records, masses {smallest:.2f} to {largest:.2f} times the arm's"
-            )
-        missing = [] if np.isfinite(self.torque).all() else ["torques"]
-        missing += [] if np.isfinite(self.position) else ["the measured tool pose"]
-        return lines + [f"not watched: {signal} (not in the records)" for signal in missing]
-
     def to_json(self, file: str | Path) -> Path:
         """Write the file that :func:`holdfast.response.diagnosis.load` reads.
 

@@ -10,7 +10,6 @@ import numpy as np
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import write_table
-from holdfast.core.formatting import format_percent
 from holdfast.core.probability.intervals import Interval
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
@@ -22,6 +21,7 @@ from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.collision.clearance import Clearance
+from holdfast.response.lock_survival.conditions import MotionConditions
 from holdfast.response.lock_survival.dynamic_program import SearchBounds
 from holdfast.response.lock_survival.injection import LockTests, can_finish_path, interpolate_motion, sample_lock_times
 from holdfast.response.lock_survival.lock_evaluation import has_joint_finished_moving
@@ -29,10 +29,7 @@ from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
 from holdfast.response.lock_survival.rates import FailureRates
 from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
 
-_SMALL_MOTION = 0.3  # rad and m along a whole curve
-_STANDSTILL_TOLERANCE = 1e-6  # rad and m along a whole curve
 _PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
-_KIND_PREFIXES: dict[Kind, str] = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -275,99 +272,12 @@ class LockSurvival(Result):
         weights = self.rates.weights(self.time)
         return round(float(weights @ values / weights.sum()), 12)  # all of them are 1, not almost
 
-    def _explain_pose_limits(self) -> list[str]:
-        """Explain why some locks are hardly survived by any motion, for full poses mostly that of an elbow."""
-        if self.found is None or self.kind == "lower bound":
-            return []
-        joints = np.flatnonzero((self.found.moved <= _SMALL_MOTION) & (self.rates.each > 0) & ~self.survives.all(axis=0))
-        lines = []
-        for joint, motion_range in zip(
-            [self.arm.joints[joint_index] for joint_index in joints], self.found.moved[joints], strict=True
-        ):
-            range_text = f" by more than {motion_range:.3g} {joint.unit}" if motion_range > _STANDSTILL_TOLERANCE else ""
-            lines.append(
-                f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical shoulder and "
-                "wrist their distance does), so that its lock is survived only while that hardly changes"
-            )
-        return lines
+    @property
+    def conditions(self) -> MotionConditions:
+        """Conditions that every configuration satisfies, before a lock and after it."""
+        return self._problem.conditions
 
     @property
-    def headline(self) -> str:
-        """Answer in a sentence."""
-        if self.survives_all_locks:
-            return "every lock of a joint, at any sample of the path, is survived"
-        bound_text = (
-            ""
-            if self.survival_bound is None
-            else f"; no motion along this path survives more than {format_percent(self.survival_bound)}"
-        )
-        return (
-            f"{_KIND_PREFIXES[self.kind]}{format_percent(self.survival)} of all locks of a joint on the way are "
-            f"survived{bound_text}"
-        )
-
-    def describe(self) -> list[str]:
-        """Return the result in a few sentences."""
-        mode_text = "without leaving the path" if self.mode == "on-path" else "with detours"
-        lines = [f"{self.arm.title}, {self.path.describe()}, {mode_text}: {self.headline}"]
-        if self.kind == "lower bound":
-            cone_text = ", or the axis that is kept in a cone and fewer joints" if self._problem.conditions.left_to_arm else ""
-            lines.append(
-                "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
-                f"that hold {self._problem.redundancy - 1} more of its joints{cone_text}"
-                if self.mode == "on-path"
-                else "a lower bound: of the poses to come only what inverse kinematics found with the joint locked counts"
-            )
-        elif self.found is not None:
-            lower, upper = self.found.interval
-            within = "within the velocity limits " + (
-                "none is found" if np.isnan(lower) else f"the best survives {format_percent(lower)}"
-            )
-            lines.append(
-                f"no motion survives more than {format_percent(self.found.bound)} up to the grid of {len(self.time)} poses and "
-                f"{self.found.spacing:g} rad; over its nodes {within}, with the spacing on top of them {format_percent(upper)}"
-            )
-        if self.kept is not None and self.kind != "lower bound":
-            lines.append("clearance is judged by shapes that cover the links; the arm is smaller and may survive more")
-        if self.keep:
-            task_text = "" if self._problem.conditions.left_to_arm else ", by the rows of the path alone"
-            lines.append(f"kept at every sample, before a lock and after it{task_text}: {'; '.join(map(str, self.keep))}")
-        if not self.survives_all_locks:
-            worst_time, worst_probability = self.worst
-            lines.append(
-                f"by joint: {', '.join(f'{name} {format_percent(value)}' for name, value in self.by_joint.items())}; "
-                f"worst at {worst_time:.4g} s, where {format_percent(worst_probability)} are survived; from "
-                f"{self.safe_from:.4g} s on all are"
-            )
-        if self.comparisons:
-            lines.append(
-                "beside it: "
-                + ", ".join(f"{comparison.name} {format_percent(comparison.survival)}" for comparison in self.comparisons)
-            )
-        if self.injected is not None:
-            lock_count, probability_interval = len(self.injected.time), self.injected.interval
-            lines.append(
-                f"of {lock_count} locks injected at random times {format_percent(probability_interval.value)} were survived "
-                f"({format_percent(probability_interval.low)} to {format_percent(probability_interval.high)}, 95 %), "
-                f"{format_percent(self.injected.agreement)} of them as the motion says"
-            )
-        if self.never is not None:
-            worst_time, name = self.never
-            lines.append(
-                f"no motion survives all: at {worst_time:.4g} s no configuration survives every lock, least of all {name}'s"
-            )
-        lines += self._explain_pose_limits()
-        if self.speed > 1 + _PROBABILITY_TOLERANCE:
-            lines.append(f"the motion takes {self.speed:.3g} times the velocity limit of a joint: slow the path down")
-        if self.loss_probability is not None:
-            lines.append(f"probability that a lock loses the path: {self.loss_probability:.3g}")
-        if self.kind == "upper bound":
-            condition_text = "that keep what is kept" if self.keep else "among obstacles"
-            lines.append(f"detours {condition_text} were not looked for: every probability is an upper bound")
-        velocity_jump = self.jump
-        lines.append(
-            f"when a joint stops at once the tool loses at most {velocity_jump.most_linear:.3g} m/s and "
-            f"{velocity_jump.most_angular:.3g} rad/s, "
-            f"in the mean {velocity_jump.mean_linear:.3g} m/s and {velocity_jump.mean_angular:.3g} rad/s"
-        )
-        return lines
+    def redundancy(self) -> int:
+        """Number of joints beyond the rows of the path."""
+        return self._problem.redundancy

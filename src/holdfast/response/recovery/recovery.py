@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from holdfast.core.errors import HoldfastError, InputError, StoreError
-from holdfast.core.formatting import capitalise_first
 from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import FloatArray
@@ -18,7 +17,6 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
-from holdfast.model.collision.exact.exact_clearance import ExactClearance
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.continuation import RestOfPath
 from holdfast.response.recovery.goals import RelaxedRows
@@ -330,38 +328,3 @@ class Recovery(Result):
             time=None if timed is None else timed.time,
             accelerations=None if timed is None else timed.accelerations,
         )
-
-    def describe(self) -> list[str]:
-        """Return the result in a few sentences."""
-        lines = [
-            f"{self.arm.title}, {self.degraded.describe()}; goal: {self.goal}",
-            f"{capitalise_first(self.ending.phrase)}: {self.ending.sentence}",
-            f"verdict: {self.verdict}" + (f", {self.verified}" if self.verdict.is_solved and self.verified is not None else ""),
-        ]
-        lines += [f"kept all the way: {constraint}" for constraint in self.keep]
-        if self.reason and self.reason != self.verdict.why:
-            lines.append(self.reason)
-        if len(self.q) and isinstance(self.clearance, ExactClearance):
-            lines.append(f"by the bound this is not clear; it is by exact distances ({self.clearance.exact_by}), all the way")
-        if self.relaxed is not None:
-            lines.append(f"given up: {self.relaxed}")
-        other_options = [
-            str(option) for option in self.choices if self.relaxed is None or not set(option.names) <= set(self.relaxed.names)
-        ]
-        if other_options:
-            lines.append("other sets of rows that could be given up: " + "; ".join(other_options[:6]))
-        for leg in self.legs:
-            text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit}"
-            if leg.name != "along the path":
-                kind = "a straight line" if leg.straight else "the shortest route found"
-                is_shortest = leg.length <= leg.lower_bound * (1 + 1e-9)
-                bound = "no route" if is_shortest else f"lower bound {leg.lower_bound:.4g} {self.unit}"
-                text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if is_shortest else ''})"
-            lines.append(text)
-        if self.timed is not None:
-            lines.append(self.timed.describe())
-        if self.rest is not None:
-            lines.append(self.rest.describe())
-        if self.left is not None:
-            lines += self.left.describe()
-        return lines

@@ -126,33 +126,12 @@ class WaypointCheck(Result):
     def ok(self) -> bool:
         """True if limits, locks, constraints, clearance, and, where checked, speeds and accelerations are respected."""
         broken = self.beyond_limits or self.locks_moved or self.too_fast or self.too_hard or any(self.kept)
-        return self._is_collision_free and not broken
+        return self.is_collision_free and not broken
 
     @property
-    def _is_collision_free(self) -> bool:
+    def is_collision_free(self) -> bool:
+        """True if the margin is kept, or clearance was not checked."""
         return self.least_room is None or self.least_room >= self.margin
-
-    def describe(self) -> list[str]:
-        """Return the result in a few sentences."""
-        lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
-        lines += [f"{name} leaves its limits by {excess:.4g}" for name, excess in self.beyond_limits.items()]
-        lines += [f"{name} should be locked and moves {excess:.4g} away" for name, excess in self.locks_moved.items()]
-        lines += [f"{name} is too fast: {excess_rate:.4g} a second" for name, excess_rate in self.too_fast.items()]
-        lines += [f"{name} accelerates by {excess_rate:.4g} a second squared" for name, excess_rate in self.too_hard.items()]
-        lines += [f"the tool is {trouble}" for trouble in self.kept if trouble]
-        if self.kept and not any(self.kept):
-            lines.append("what is kept all the way is kept")
-        if self.least_clearance is None:
-            lines.append("clearance was not looked at")
-        else:
-            pair_text = f"{self.closest}, " if self.closest else ""
-            verdict = "kept" if self._is_collision_free else "NOT KEPT"
-            lines.append(f"least clearance {self.least_clearance:.4g} m ({pair_text}margin {self.margin:g} m): {verdict}")
-        if not self.beyond_limits and not self.locks_moved:
-            lines.append("limits and locks are kept")
-        if self.paced and not self.too_fast and not self.too_hard:
-            lines.append(f"{self.paced} are kept")
-        return lines
 
 
 def check_waypoints(

@@ -48,17 +48,6 @@ class RemainingWorkspace(Result):
     locked: BoolArray
     starts: int
 
-    def describe(self) -> list[str]:
-        """Return the result in one sentence."""
-        if self.left is None:
-            return [
-                f"No configuration of the healthy arm was found for any of the {len(self.healthy):,} targets ({self.region})"
-            ]
-        return [
-            f"Of {int(self.healthy.sum()):,} targets that the healthy arm reaches ({self.region}; {len(self.rows)} rows: "
-            f"{', '.join(self.rows)}) the failed arm still reaches {self.left} in {self.starts} starts each"
-        ]
-
 
 def estimate_remaining_workspace(
     solver: RowSolver,

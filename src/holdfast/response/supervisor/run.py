@@ -31,17 +31,11 @@ React = Literal["none", "stop", "chain", "known"]
 FaultRunOutcome = Literal["reached", "stopped", "missed", "unstable"]
 ActionKind = Literal["alarm", "slow", "resume", "brake", "release", "measure", "detour", "plan", "stop"]
 
-_OUTCOME_PHRASES = {
+OUTCOME_PHRASES = {
     "reached": "the tool reached its target",
     "stopped": "the controller stopped the arm before the target",
     "missed": "the tool did not reach its target",
     "unstable": "the physics left all bounds; make the servos softer or their rate higher",
-}
-_RESPONSE_PHRASES = {
-    "none": "nobody notices",
-    "stop": "everything stops at an alarm",
-    "chain": "the controller reacts to what the monitor names",
-    "known": "every fault is known at once",
 }
 
 
@@ -131,7 +125,7 @@ class FaultRun(Result):
     def require_ok(self) -> FaultRun:
         """Return the run itself, or raise :class:`holdfast.HoldfastError` with its outcome."""
         if not self.ok:
-            raise HoldfastError(f"run with faults: {_OUTCOME_PHRASES[self.outcome]}")
+            raise HoldfastError(f"run with faults: {OUTCOME_PHRASES[self.outcome]}")
         return self
 
     @property
@@ -168,23 +162,6 @@ class FaultRun(Result):
         ``diagnose``.
         """
         return Log(t=self.time, q_ref=self.reference, q=self.q_measured, tau=self.torque, x=self.x, quat=self.quat)
-
-    def describe(self) -> list[str]:
-        """Return the outcome, the events, and the responses in sentences."""
-        lines = [
-            f"{_OUTCOME_PHRASES[self.outcome]} ({_RESPONSE_PHRASES[self.react]}), {1e3 * self.position_error[-1]:.3g} mm"
-            + (f" and {np.rad2deg(self.orientation_error[-1]):.3g} deg" if self.law.task.angular else "")
-            + f" off after {self.time[-1]:.4g} s"
-        ]
-        lines += [event.sentence() for event in self.events] or ["no fault in this episode"]
-        lines += [action.sentence() for action in self.actions]
-        if not self.actions and self.react != "none":
-            lines.append("nothing was noticed")
-        if self.contacts is not None:
-            lines += [contact.sentence() for contact in self.contacts] or ["it touched nothing"]
-        if self.false_alarm:
-            lines.append("the first alarm is false, nothing had failed: the bounds do not hold for this motion")
-        return lines
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion as rows over time: the joints, rad and m, and the tool point, m.

@@ -23,7 +23,6 @@ from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.regions.region import Region, Sampling
 from holdfast.model.arm.model import Arm
 from holdfast.studies.assessment import upgrade
-from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.rows import Collisions, describe_provenance
 from holdfast.studies.assessment.upgrade import RunSample, Upgrade, check_failure_rates, make_run_sample
@@ -32,6 +31,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from holdfast.certificates import ReachClaim
+
+MIN_INFORMATIVE_PROBABILITY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
+ZERO_INDEX = 1e-9  # values that a structural failure leaves behind are rounding noise
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -339,13 +341,6 @@ class Assessment(Result):
 
         return make_region_claim(self.arm, self.region, self.index.task, self.distribution.unreached)
 
-    def describe(self) -> list[str]:
-        """Return the answer at :meth:`default_threshold`, and the arm, index, and region."""
-        sentences = [ThresholdAnswer(self, None).headline]
-        if not self.complete:
-            sentences.append(f"Not finished: {self.distribution.samples} of {self.poses} poses.")
-        return [*sentences, f"{self.arm.title}: {self.index.describe()}.", f"{self.region.name}: {self.region.describe()}."]
-
     def to_dict(
         self,
         thresholds: Sequence[float] | None = None,
@@ -402,7 +397,7 @@ class Assessment(Result):
         Raises:
             StoreError: The file cannot be written.
         """
-        return super().report(path, threshold)
+        return super().report(path, threshold=threshold)
 
 
 def _take_rows(rows: Rows, start: int, stop: int) -> Rows:

@@ -14,7 +14,6 @@ from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import replace_file
 from holdfast.core.files.sealed import read_sealed
-from holdfast.core.formatting import format_interval
 from holdfast.core.probability.intervals import Interval
 from holdfast.core.result import Result
 from holdfast.core.sweeps.folder import is_valid_folder_name
@@ -190,18 +189,6 @@ class Comparison(Result):
         if len({None if run.plan.cell is None else run.plan.cell.digest for run in runs}) > 1:
             sentences.append("The candidates do not stand in the same cell.")
         return sentences
-
-    def describe(self) -> list[str]:
-        """Return the best candidate for each task, and differences that matter for the comparison."""
-        sign = "least" if self.assessments[0].index.better == "larger" else "most"
-        sentences = []
-        for task in dict.fromkeys(assessment.index.task.name for assessment in self.assessments):
-            name = self.best(task)
-            probability = format_interval(self.interval(name))
-            sentences.append(
-                f"Task {task}: {name} has the largest probability, {probability}, of at {sign} {self.threshold:g}."
-            )
-        return [*sentences, *self.notes]
 
     def save(self, folder: str | Path) -> list[Path]:
         """Write a folder with a subfolder for each candidate, and a report; ``holdfast report`` reads it again.

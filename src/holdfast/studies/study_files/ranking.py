@@ -8,7 +8,7 @@ from typing import Any
 
 from holdfast.core.formatting import format_as_given, format_number
 from holdfast.core.probability.intervals import Interval
-from holdfast.studies.assessment.answer import MIN_INFORMATIVE_PROBABILITY
+from holdfast.studies.assessment.assessment import MIN_INFORMATIVE_PROBABILITY
 from holdfast.studies.study_files.results import AssessedCell, DrivenCell
 
 Key = tuple[str, str]  # index and task

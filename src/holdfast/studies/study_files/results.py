@@ -17,7 +17,7 @@ from holdfast.core.probability.intervals import Difference, Interval
 from holdfast.core.sweeps.store import Store
 from holdfast.core.sweeps.study import Study
 from holdfast.core.typing import FloatArray, Rows
-from holdfast.studies.assessment.answer import ZERO_INDEX
+from holdfast.studies.assessment.assessment import ZERO_INDEX
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.run import read_assessment_store
 from holdfast.teleop.trials.recordings import End

@@ -102,31 +102,3 @@ class Analysis(Result):
         if name not in self.tables:
             raise InputError(f"there is no table '{name}'; there are {', '.join(self.tables)}")
         return self.tables[name]
-
-    def describe(self) -> list[str]:
-        """Describe the result in a few lines for people."""
-        observed = self.observed
-        missing = int((observed.cause != "").sum())
-        lines = [
-            f"{self.subject_phrase}, {len(observed.tasks)} tasks, {len(observed.conditions)} scenarios: "
-            f"{observed.cause.size} trials, {missing} without a CPM"
-        ]
-        means = ", ".join(f"{law} {value:.3f}" for law, value in self.law_means().items())
-        lines.append(f"mean CPM with the failed arm: {means}")
-        if self.anova is not None:
-            lines += [
-                f"{effect}, Greenhouse-Geisser p = {effect.p_gg:.2g}, partial eta squared {effect.partial_eta2:.3f}"
-                for effect in self.anova.effects
-            ]
-        if self.mixed is not None:
-            state = "converged" if self.mixed.converged else "did NOT converge: do not use it"
-            lines.append(f"mixed model of {self.mixed.trials} trials, {state}")
-            lines += [f"{test.name}: chi2({test.df}) = {test.chi2:.2f}, p = {test.p:.2g}" for test in self.mixed.tests]
-        for _, row in self.tables["comparisons"].iterrows():
-            lines.append(
-                f"{row['difficulty']}: {row['first']} - {row['second']} = {row['difference']:.3f}, t({row['df']}) = "
-                f"{row['t']:.2f}, "
-                f"Holm p = {row['p_holm']:.2g}, dz {row['dz']:.2f}"
-            )
-        lines += [str(correlation) for correlation in self.correlations]
-        return lines + [f"note: {note}" for note in self.notes]

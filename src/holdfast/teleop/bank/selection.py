@@ -233,27 +233,6 @@ class TaskChoice(Result):
         """Indices of the special tasks."""
         return np.array([task for task in (self.disorienting, self.trapped) if task is not None], dtype=np.int64)
 
-    def describe(self) -> list[str]:
-        """Describe the choice in a few sentences for people; tasks are numbered from 1."""
-        bank, completed = self.bank, self.bank.is_completed()
-        cell_count = (len(self.cells.difficulty) - 1) * (len(self.cells.ratio) - 1)
-        lines = [
-            f"Arm {self.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers",
-            "failure-tolerant inverse better with the failed arm (CPM4/CPM3 below 1): "
-            f"{100 * float((bank.ratio[completed] < 1).mean()):.0f} % of the tasks",
-            f"{len(self.cells.occupied_cells)} of {cell_count} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
-            f"{' '.join(str(task + 1) for task in self.chosen)}",
-        ]
-        if self.disorienting is not None:
-            lines += [
-                f"most disorienting of the others: {self.disorienting + 1}",
-                "no task of the bank draws the failed arm under the pseudoinverse to a stationary point and can yet be "
-                "steered; another seed may have one, and the protocol goel2003 has one by construction"
-                if self.trapped is None
-                else f"drawn to a stationary point, and yet can be steered: {self.trapped + 1}",
-            ]
-        return lines
-
 
 def choose_tasks(
     bank: TaskBank,

@@ -94,12 +94,12 @@ def run(
             for estimate in estimate_cells(study_file.cells, study_file.seed):
                 cell_estimates.append(estimate)
                 advance(len(cell_estimates), len(study_file.cells))
-        from holdfast.interface.presentation.studies import console as said
+        from holdfast.interface.presentation.studies import estimates
 
         if json_:
-            print_json(said.summarize_estimates(cell_estimates))
+            print_json(estimates.summarize_estimates(cell_estimates))
         else:
-            said.show_estimates(cell_estimates, make_console())
+            estimates.show_estimates(cell_estimates, make_console())
         return
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")

@@ -79,8 +79,7 @@ def analyse(
         result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
         update_status("drawing")
         report = result.save(folder, records.protocol, tool_paths(records))[0]
-    for line in result.describe():
-        typer.echo(line)
+    print_result(result, False)
     typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")
 
 

@@ -1,106 +1,114 @@
-"""HTML report of a comparison: one file that begins with the table of the candidates."""
+"""Presentation of a comparison of assessments: which candidate meets the threshold most often, and by which joint it fails."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-from markupsafe import Markup
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from holdfast.core.formatting import (
     format_as_given,
     format_count,
-    format_decimals,
-    format_half_width,
     format_interval,
-    format_number,
     format_percent,
     indefinite_article,
 )
-from holdfast.core.progress import reports_progress
-from holdfast.interface.presentation.assessment import thresholds
-from holdfast.interface.presentation.assessment.console import rank_optimised_upgrades
-from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.presentation.assessment.sections.upgrades import format_gain
+from holdfast.core.probability.intervals import Interval
+from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
+from holdfast.interface.presentation.assessment.assessment import Thresholds, collect_numbers
+from holdfast.interface.presentation.assessment.tables import list_gain_cells, rank_optimised_upgrades
 from holdfast.interface.presentation.collision.shape import describe_cell
-from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
-from holdfast.interface.report import figures as drawing
-from holdfast.interface.report import page
-from holdfast.interface.report.figures import Curve, Mark
-from holdfast.interface.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.model.arm.model import Arm
+from holdfast.interface.presentation.presentation import Column, FigureSpec, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model.arms.tool import format_tool_pose
-from holdfast.studies.assessment.assessment import Assessment
-from holdfast.studies.assessment.comparison import Comparison
 from holdfast.studies.assessment.upgrade import MAX_REOPTIMISED_POSES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Block, Section
+    from holdfast.model.arm.model import Arm
+    from holdfast.studies.assessment.comparison import Comparison
 
 _MAX_UPGRADES = 3  # joints per candidate; its own report has all
 
 
-@reports_progress("drawing the report")
-def write(comparison: Comparison, path: Path) -> Path:
-    """Write the comparison as an HTML report, which begins with the table of the candidates."""
-    return page.write(build(comparison), path)
+def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> dict[str, Any]:
+    """Return every candidate as an assessment of its own, and the comparison table, as JSON data."""
+    optimised = all(assessment.optimised is not None for assessment in comparison.assessments)
+    candidates = zip(comparison.names, comparison.tools, comparison.assessments, strict=True)
+    threshold_values = thresholds or [comparison.threshold]
+    data: dict[str, Any] = to_json_types(
+        {
+            "candidates": [
+                {"name": name, "tool": tool, **collect_numbers(assessment, threshold_values)}
+                for name, tool, assessment in candidates
+            ],
+            "comparison": {
+                "threshold": comparison.threshold,
+                "table": comparison.table,
+                "ranking": comparison.ranking(),
+                "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
+                "notes": comparison.notes,
+                "report": None if report is None else str(report),
+            },
+        }
+    )
+    return data
 
 
-def build(comparison: Comparison) -> Page:
-    """Build the comparison report as blocks, before it becomes HTML."""
-    c = comparison
-    first = AssessmentFacts(c.assessments[0], c.threshold)
-    unfinished = [name for name, assessment in zip(c.names, c.assessments, strict=True) if not assessment.complete]
-    alerts = []
+def present(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> Presentation:
+    """Present the best candidate, the differences between the candidates, their probabilities, and their joints."""
+    del thresholds, report  # of JSON
+    first = ThresholdAnswer(comparison.assessments[0], comparison.threshold)
+    unfinished = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.complete]
+    notices = [Notice(" ".join(comparison.notes), title="Before comparing")] if comparison.notes else []
     if unfinished:
-        names = ", ".join(unfinished)
-        alerts.append(Callout("Run the same command again to resume.", "bad", f"Not complete: {names}."))
-    sections = [
-        Section("", [Callout(" ".join(c.notes), title="Before comparing")] if c.notes else []),
-        Section("The candidates", [_tabulate_candidates(c, first)]),
-        Section("How the index is distributed", _build_distribution_blocks(c, first)),
-        Section("Which joint deserves a redundant motor or brake", _build_upgrade_blocks(c, first)),
-        Section("About each candidate", [_tabulate_candidate_details(c)]),
-    ]
-    return Page(
-        f"Fault tolerance of {len(c.names)} candidates",
-        _compose_headline(c, first),
-        sections,
-        subtitle=first.assessment.region.name,
-        warnings=alerts,
-        method=_build_method_blocks(c, first),
-        again=_build_rerun_blocks(c),
+        notices.append(Notice("Run the same command again to resume.", "bad", f"Not complete: {', '.join(unfinished)}"))
+    region = first.assessment.region
+    return Presentation(
+        f"Fault tolerance of {len(comparison.names)} candidates",
+        _compose_answer(comparison, first),
+        about=f"{region.name}: {region.describe()}; worst-case {first.index.name} of "
+        f"{format_count(first.distribution.samples, first.noun)} of each candidate",
+        notices=notices,
+        tables=partial(_build_tables, comparison, first),
+        figures={"compare": FigureSpec(partial(_draw_figure, comparison), on_page=False)} if _has_values(comparison) else {},
+        sections=partial(_build_sections, comparison),
+        method=_list_method(comparison, first),
+        again=partial(_build_rerun_blocks, comparison),
     )
 
 
-def _compose_headline(comparison: Comparison, facts: AssessmentFacts) -> str:
+def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
     target = (
-        f"{facts.index.name} of at {'least' if facts.larger_is_better else 'most'} "
-        f"{format_as_given(comparison.threshold)}{facts.unit_suffix} after any failure considered"
+        f"{first.index.name} of at {'least' if first.larger_is_better else 'most'} "
+        f"{format_as_given(comparison.threshold)}{first.unit_suffix} after any failure considered"
     )
+    target = f"{indefinite_article(target)} {target}"
     task_names = list(dict.fromkeys(assessment.index.task.name for assessment in comparison.assessments))
     if len(task_names) > 1:
-        verdicts = [f"{task}, {_describe_task_leader(comparison, task)}" for task in task_names]
-        return (
-            f"Probability of keeping {indefinite_article(target)} {target}, the best candidate of each task: "
-            f"{'; '.join(verdicts)}."
-        )
+        leaders = [(task, comparison.best(task)) for task in task_names]
+        verdicts = [
+            f"{task}, {f'{name} with {format_interval(p)}' if (p := comparison.interval(name)).value > 0 else 'none'}"
+            for task, name in leaders
+        ]
+        return f"Probability of keeping {target}, the best candidate of each task: {'; '.join(verdicts)}."
     ranked = comparison.ranking()
     best, runner_up = (comparison.interval(name) for name in ranked[:2])
     if best.value == 0:
-        text = f"No candidate keeps {indefinite_article(target)} {target} at any {facts.noun} of the region."
+        text = f"No candidate keeps {target} at any {first.noun} of the region."
         text += _describe_nearest_candidate(comparison)
     else:
         text = (
-            f"{ranked[0]} keeps {indefinite_article(target)} {target} with the largest probability, "
-            f"{format_interval(best)}; next is "
+            f"{ranked[0]} keeps {target} with the largest probability, {format_interval(best)}; "
+            f"next is {ranked[1]} with {format_interval(runner_up)}."
         )
-        text += f"{ranked[1]} with {format_interval(runner_up)}."
-        if runner_up.value < best.value and not _best_intervals_are_disjoint(comparison):
-            text += f" Their intervals overlap: more {facts.noun}s would tell them apart."
+        if runner_up.value < best.value and not best_intervals_are_disjoint(comparison):
+            text += f" Their intervals overlap: more {first.noun}s would tell them apart."
     if all(assessment.optimised is not None for assessment in comparison.assessments):
-        leaders = _find_leaders(comparison, optimised=True)
+        leaders = find_leaders(comparison, optimised=True)
         probability = comparison.interval(leaders[0], optimised=True)
         if probability.value > 0:
             text += (
@@ -110,13 +118,13 @@ def _compose_headline(comparison: Comparison, facts: AssessmentFacts) -> str:
     return text
 
 
-def _find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
+def find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
     """List the candidates with the largest probability of meeting the threshold."""
     probabilities = {name: comparison.interval(name, optimised).value for name in comparison.names}
     return [name for name, value in probabilities.items() if value == max(probabilities.values())]
 
 
-def _best_intervals_are_disjoint(comparison: Comparison) -> bool:
+def best_intervals_are_disjoint(comparison: Comparison) -> bool:
     """Return whether the intervals of the two best candidates do not overlap."""
     best_interval, runner_up = (comparison.interval(name) for name in comparison.ranking()[:2])
     return runner_up.high < best_interval.low
@@ -133,273 +141,86 @@ def _describe_nearest_candidate(comparison: Comparison) -> str:
         return ""
     sign = 1.0 if comparison.assessments[0].index.better == "larger" else -1.0
     _, name, assessment = max(medians, key=lambda entry: sign * entry[0])
-    return f" Nearest is {name}. {AssessmentFacts(assessment, comparison.threshold).low_probability_reason}"
+    return f" Nearest is {name}. {ThresholdAnswer(assessment, comparison.threshold).low_probability_reason}"
 
 
-def _describe_task_leader(comparison: Comparison, task: str) -> str:
-    name = comparison.best(task)
-    probability = comparison.interval(name)
-    return f"{name} with {format_interval(probability)}" if probability.value > 0 else "none"
-
-
-def _tabulate_candidates(comparison: Comparison, facts: AssessmentFacts) -> Table:
-    """Build the main table with one row per candidate."""
-    optimised = any(assessment.optimised is not None for assessment in comparison.assessments)
-    survival = any(assessment.survivors is not None for assessment in comparison.assessments)
-    header: list[Cell] = [
-        "Candidate",
-        "task",
-        "redundancy",
-        "reached",
-        f"P({'≥' if facts.larger_is_better else '≤'} {format_as_given(comparison.threshold)})",
+def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> list[TableSpec]:
+    """Build the tables of the probabilities, the joints, the gains from protecting joints, and the arms."""
+    table, runs = comparison.table, comparison.assessments
+    optimised = any(run.optimised is not None for run in runs)
+    survival = any(run.survivors is not None for run in runs)
+    prefixes = ("", "optimised_")[: 1 + optimised]
+    name = Column("name", "candidate")
+    condition = f"P({'≥' if first.larger_is_better else '≤'} {format_as_given(comparison.threshold)})"
+    columns = [
+        name,
+        Column("task", "task"),
+        Column("redundancy", "redundancy"),
+        Column("reached", "reached, 95 % interval", style="percent"),
+        *[Column(f"{p}probability", f"{p and 'optimised '}{condition}, 95 % interval", style="percent") for p in prefixes],
+        *[Column(f"{p}median", f"{p and 'optimised '}median") for p in prefixes],
+        *[Column("expected_survival", "left after a lock", style="percent")] * survival,
     ]
-    header += [*["optimised"] * optimised, "median", *["left after a lock"] * survival, "worst failure"]
-    table_rows = []
-    for row, assessment in zip(comparison.table, comparison.assessments, strict=True):
-        cells: list[Cell] = [row["name"], row["task"], str(row["redundancy"])]
-        cells += [_format_with_interval(row, "reached"), _format_with_interval(row, "probability")]
-        cells += [_format_with_interval(row, "optimised_probability")] * optimised
-        cells.append(
-            _stack_lines([_format_value(row["median"]), *[f"{_format_value(row['optimised_median'])} opt."] * optimised])
-        )
-        cells += [_format_value(row["expected_survival"])] * survival
-        cells.append(
-            _stack_lines(
-                [
-                    _format_worst_failure(row, assessment, ""),
-                    *[f"{_format_worst_failure(row, assessment, 'optimised_')} opt."] * optimised,
-                ]
-            )
-        )
-        joint_numbers = [str(assessment.arm.joint_index(name) + 1) for name in row["single_points_of_failure"]]
-        cells.append("every joint" if len(joint_numbers) == assessment.arm.n else ", ".join(joint_numbers) or "none")
-        table_rows.append(cells)
-    caption = (
-        f"P: fraction of the {format_count(facts.distribution.samples, facts.noun)} whose {facts.condition}, with 95 % "
-        f"intervals; medians are over the "
-        "reached ones. Redundancy: joints minus rows of the task. Joints are numbered from the "
-        "base. Single point of failure: a joint whose lock ends the task "
-        "in every configuration."
+    title = (
+        f"P: fraction of the {format_count(first.distribution.samples, first.noun)} whose {first.condition}; medians are over "
+        f"the reached ones. Redundancy: joints minus rows of the task"
     )
-    if optimised:
-        caption += " Optimised (opt.): at the best configurations."
-    if survival:
-        caption += " Left after a lock: fraction of the poses still reached, every joint equally likely to fail."
-    numeric_columns = frozenset(range(2, 6 + optimised + survival))
-    return Table(table_rows, [*header, "single point of failure"], numeric_columns, caption=caption, wide=True)
-
-
-def _format_with_interval(row: dict[str, Any], name: str) -> Cell:
-    if row[name] is None:
-        return "–"
-    lower, upper = (format_decimals(row[f"{name}_{bound_name}"], 3) for bound_name in ("low", "high"))
-    return _stack_lines([format_decimals(row[name], 3), f"{lower} to {upper}"])
-
-
-def _stack_lines(lines: list[str]) -> Cell:
-    """Stack lines in one cell: the first one normal, the others in quiet type below it."""
-    quiet_lines = [Markup('<br><span class="quiet">{}</span>').format(line) for line in lines[1:]]
-    return Markup("").join([Markup("{}").format(lines[0]), *quiet_lines])
-
-
-def _format_value(value: float | None) -> str:
-    return "–" if value is None else format_number(value)
-
-
-def _format_worst_failure(row: dict[str, Any], assessment: Assessment, key_prefix: str) -> str:
-    """Format the worst failure as joint numbers from 1, because joint names are too long for this table, with its frequency."""
-    failure_name = row[f"{key_prefix}worst_joint"]
-    if failure_name is None:
-        return "–"
-    failed_joints = assessment.index.failures[assessment.index.failure_names.index(failure_name)]
-    return f"{'+'.join(str(joint + 1) for joint in failed_joints)} ({format_percent(row[f'{key_prefix}worst_fraction'])})"
-
-
-def figures(comparison: Comparison) -> dict[str, Figure]:
-    """Draw the cumulative distributions of all candidates; empty where no value is finite."""
-    f = AssessmentFacts(comparison.assessments[0], comparison.threshold)
-    candidates = list(zip(comparison.names, comparison.assessments, strict=True))
-    samples = [
-        ("As inverse kinematics found them" if f.assessment.region.kind != "joints" else "Cumulative (CDF)", candidates, False)
-    ]
-    if any(assessment.optimised is not None for assessment in comparison.assessments):
-        samples.append(
-            (
-                "After optimisation",
-                [(name, assessment) for name, assessment in candidates if assessment.optimised is not None],
-                True,
-            )
-        )
-    axis, log = _choose_index_axis(comparison, f)
-    if axis is None:
-        return {}
-    marks = [Mark(comparison.threshold, f"threshold {format_as_given(comparison.threshold)}{f.unit_suffix}")]
-    if (bound := _find_common_bound(comparison)) is not None:
-        marks.append(Mark(bound, f"no configuration can exceed {bound:.3f}", "bound"))
-    panels = [
-        (title, [Curve(axis, assessment.cdf(axis, optimised=optimised), name) for name, assessment in group])
-        for title, group, optimised in samples
-    ]
-    return {
-        "compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
-    }
-
-
-def _find_common_bound(comparison: Comparison) -> float | None:
-    """Return the upper bound of the index if all candidates share one number, else None."""
-    bounds = {assessment.index.bound for assessment in comparison.assessments}
-    return bounds.pop() if len(bounds) == 1 else None
-
-
-def _choose_index_axis(comparison: Comparison, facts: AssessmentFacts) -> tuple[NDArray[np.float64] | None, bool]:
-    """Return the index values at which all distributions are drawn, None if no value is finite, and whether they are
-    logarithmic.
-    """
-    distributions = [
-        assessment.distribution_of(optimised)
-        for assessment in comparison.assessments
-        for optimised in (False, True)[: 1 + (assessment.optimised is not None)]
-    ]
-    extremes = [
-        value for distribution in distributions for value in (distribution.lowest, distribution.highest) if np.isfinite(value)
-    ]
-    if not extremes:
-        return None, False
-    log = not facts.larger_is_better and min(extremes) > 0 and max(extremes) > 20 * min(extremes)
-    extremes += [value for value in (comparison.threshold, _find_common_bound(comparison)) if value is not None]
-    if log:
-        return np.geomspace(min(extremes), max(extremes), 801), True
-    return np.linspace(min(0.0, *extremes), 1.04 * max(0.0, *extremes), 801), False
-
-
-def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figure: Figure, band: float) -> Block:
-    """Build a movable threshold with the probability of each candidate and the leader at every step."""
-    axis, log = _choose_index_axis(comparison, facts)
-    assert axis is not None
-    threshold_values = thresholds.choose_thresholds(axis, log, comparison.threshold)
-    comparisons = [replace(comparison, threshold=moved) for moved in threshold_values.tolist()]
-    answers: dict[str, list[str]] = {}
-    if len({assessment.index.task.name for assessment in comparison.assessments}) == 1:
-        answers["Largest probability"] = [_describe_leader(moved) for moved in comparisons]
-    for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
-        answers[name] = [format_interval(moved.interval(name)) for moved in comparisons]
-        if assessment.optimised is not None:
-            answers[f"{name}, best configurations"] = [
-                format_interval(moved.interval(name, optimised=True)) for moved in comparisons
-            ]
-    return thresholds.build_slider(facts, threshold_values, answers, figure, "each curve", band)
-
-
-def _describe_leader(comparison: Comparison) -> str:
-    """Name the leading candidate and whether its lead is significant; of several leaders all names."""
-    leaders = _find_leaders(comparison)
-    if len(leaders) > 1:
-        return "all alike" if len(leaders) == len(comparison.names) else f"{' and '.join(leaders)} alike"
-    return leaders[0] if _best_intervals_are_disjoint(comparison) else f"{leaders[0]}; its interval overlaps with the next"
-
-
-def _build_distribution_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
-    """Build the figure of the distributions, its explanation, and a threshold to move over it."""
-    drawn_figures = comparison.figures()
-    if not drawn_figures:
-        return []
-    term = "1 − F" if facts.larger_is_better else "F"
-    text = (
-        f"Over all {format_count(facts.distribution.samples, facts.noun)} of each candidate; the probability of "
-        f"meeting a threshold is {term} there. "
+    title += ". Optimised: at the best configurations" if optimised else ""
+    title += ". Left after a lock: fraction of the poses still reached, every joint equally likely to fail" if survival else ""
+    numbers = TableSpec(title, columns, [[_read_cell(row, column.key) for column in columns] for row in table])
+    joints = TableSpec(
+        "Worst failure: the most frequent. Single point of failure: a joint whose lock ends the task in every configuration",
+        [
+            name,
+            *[Column(f"{p}worst", f"{p and 'optimised: '}worst failure") for p in prefixes],
+            Column("single_points_of_failure", "single point of failure"),
+        ],
+        [
+            [row["name"], *[_format_worst_failure(row, prefix) for prefix in prefixes], _list_single_points(row)]
+            for row in table
+        ],
     )
-    if any(assessment.distribution.unreached for assessment in comparison.assessments):
-        text += f"A pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}. "
-    band_width = max(assessment.distribution.band() for assessment in comparison.assessments)
-    text += f"The 95 % band of each curve is {format_half_width(band_width)}."
-    picture = Picture(drawing.svg(drawn_figures["compare"], "compare", "Cumulative distributions of all candidates"), text)
-    return [picture, _build_threshold_slider(comparison, facts, drawn_figures["compare"], band_width)]
-
-
-def _build_upgrade_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
-    """Build the table of the joints of each candidate whose protection from failure gains most."""
-    table_rows: list[list[Cell]] = []
-    candidates_without_rows = [
-        candidate
-        for candidate, assessment in zip(comparison.names, comparison.assessments, strict=True)
-        if not assessment.has_rows
-    ]
-    optimised = any(assessment.optimised is not None for assessment in comparison.assessments)
-    for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
-        ranked = comparison.upgrades(name) if assessment.has_rows else []
-        upgrades_by_joint = (
-            {upgrade.joint: upgrade for upgrade in rank_optimised_upgrades(assessment, comparison.threshold)}
-            if assessment.has_rows
-            else {}
-        )
-        for rank, upgrade in enumerate(ranked[:_MAX_UPGRADES]):
-            cells: list[Cell] = [
-                "" if rank else name,
-                upgrade.joint,
-                f"{upgrade.before:.3f}",
-                f"{upgrade.after:.3f}",
-                format_gain(upgrade),
-            ]
-            if optimised:
-                cells += (
-                    [f"{upgrades_by_joint[upgrade.joint].after:.3f}", format_gain(upgrades_by_joint[upgrade.joint])]
-                    if upgrades_by_joint
-                    else ["–", "–"]
-                )
-            table_rows.append(cells)
-    blocks: list[Block] = []
-    if table_rows:
-        header = ["Candidate", "if this never fails", "P now", "P then", "gain, 95 % interval"]
-        header += ["after optimisation", "gain, 95 % interval"] * optimised
-        caption = f"P({facts.condition}). The {_MAX_UPGRADES} joints of each candidate that gain most; its own report has all."
-        blocks.append(Table(table_rows, header, frozenset(range(2, len(header))), caption=caption, wide=True))
-        explanation = (
-            "Suppose that a redundant motor or brake keeps one joint from failing: the worst case is then over the "
-            f"failures in which it has no part, at the same {facts.noun}s and configurations. The intervals are "
-            f"paired: a gain is "
-            f"the fraction of the {facts.noun}s that fail now and would not then."
-        )
-        if optimised:
-            explanation += (
-                f" After optimisation: configurations of up to {MAX_REOPTIMISED_POSES} {facts.noun}s optimised "
-                f"again without it."
-            )
-        blocks.append(Text(explanation, quiet=True))
-    if candidates_without_rows:
-        blocks.append(
-            Text(f"The {facts.noun}s of {', '.join(candidates_without_rows)} were not kept, so they are not in this table.")
-        )
-    return blocks
-
-
-def _tabulate_candidate_details(comparison: Comparison) -> Table:
-    table_rows: list[list[Cell]] = []
-    for name, a in zip(comparison.names, comparison.assessments, strict=True):
-        bound = "not known" if a.index.bound is None else f"{a.index.bound:.3f}"
-        median_gaps = [
-            format_number(gap) for gap in (a.gap(), a.gap(True) if a.optimised is not None else None) if gap is not None
+    upgrades = _tabulate_upgrades(comparison, first, optimised)
+    detail_rows = [
+        [
+            *(row["name"], run.arm.name, _format_tool_pose(run.arm)),
+            *("not known" if run.index.bound is None else run.index.bound, *[row[f"{p}gap"] for p in prefixes]),
+            *(_describe_source(run.arm), run.arm.fingerprint[:10]),
         ]
-        fingerprint = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
-        source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
-        chain_suffix = "" if a.arm.chain is None else f"; {a.arm.chain}"
-        table_rows.append(
-            [
-                name,
-                a.arm.name,
-                _format_tool_pose(a.arm),
-                bound,
-                " → ".join(median_gaps) or "–",
-                (source or "no source given") + chain_suffix,
-                fingerprint,
-            ]
-        )
-    header = ["Candidate", "arm", "tool", "bound of the index", "gap of the median", "source", "fingerprint"]
-    caption = (
+        for row, run in zip(table, runs, strict=True)
+    ]
+    columns = [name, Column("arm", "arm"), Column("tool", "tool"), Column("bound", "bound of the index", digits=3)]
+    columns += [Column(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
+    details = TableSpec(
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
-        "Gap: by how much the median of the reached poses falls short of it"
+        "Gap: by how much the median of the reached poses falls short of it",
+        [*columns, Column("source", "source"), Column("fingerprint", "fingerprint")],
+        detail_rows,
+        on_console=False,
     )
-    caption += ", before → after optimisation." if any(a.optimised is not None for a in comparison.assessments) else "."
-    return Table(table_rows, header, frozenset({3, 4}), caption=caption, wide=True)
+    return [numbers, joints, *([] if upgrades is None else [upgrades]), details]
+
+
+def _read_cell(row: dict[str, Any], key: str) -> Any:
+    """Return a value of the comparison table, with its interval if there is one."""
+    if row[key] is None or f"{key}_low" not in row:
+        return "–" if row[key] is None else row[key]
+    return Interval(value=row[key], low=row[f"{key}_low"], high=row[f"{key}_high"], confidence=0.95)
+
+
+def _format_worst_failure(row: dict[str, Any], prefix: str) -> str:
+    name, fraction = row[f"{prefix}worst_joint"], row[f"{prefix}worst_fraction"]
+    return "none" if name is None else f"{name} ({format_percent(fraction)})"
+
+
+def _list_single_points(row: dict[str, Any]) -> str:
+    names = row["single_points_of_failure"]
+    return "every joint" if len(names) == row["joints"] else ", ".join(names) or "none"
+
+
+def _describe_source(arm: Arm) -> str:
+    source = arm.source if len(arm.source) <= 60 else arm.source[:59] + "…"
+    return (source or "no source given") + ("" if arm.chain is None else f"; {arm.chain}")
 
 
 def _format_tool_pose(arm: Arm) -> str:
@@ -407,64 +228,104 @@ def _format_tool_pose(arm: Arm) -> str:
     return f"{x}, {y}, {z} m; {', '.join(angles)} deg"
 
 
-def _build_method_blocks(comparison: Comparison, facts: AssessmentFacts) -> list[Block]:
-    assessment = facts.assessment
+def _tabulate_upgrades(comparison: Comparison, first: ThresholdAnswer, optimised: bool) -> TableSpec | None:
+    """Tabulate the joints of each candidate whose protection from failure gains most."""
+    rows: list[list[Any]] = []
+    for name, run in zip(comparison.names, comparison.assessments, strict=True):
+        ranked = comparison.upgrades(name)[:_MAX_UPGRADES] if run.has_rows else []
+        after = {each.joint: each for each in rank_optimised_upgrades(run, comparison.threshold)} if ranked else {}
+        for upgrade in ranked:
+            cells = [name, upgrade.joint, upgrade.before, *list_gain_cells(upgrade)]
+            cells += (list_gain_cells(after[upgrade.joint]) if after else ["–", "–"]) if optimised else []
+            rows.append(cells)
+    missing = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.has_rows]
+    columns = [Column("name", "candidate"), Column("joint", "if this never failed"), Column("before", "P now", digits=3)]
+    for label in ("P then", "after optimisation")[: 1 + optimised]:
+        columns += [Column("after", label, digits=3, aligned=False), Column("gain", "gain, 95 % interval")]
+    title = (
+        f"P({first.condition}). The {_MAX_UPGRADES} joints of each candidate that gain most from a redundant motor or brake; "
+        f"its own report has all"
+    )
+    if optimised:
+        title += (
+            f". After optimisation: configurations of up to {MAX_REOPTIMISED_POSES} {first.noun}s optimised again without it"
+        )
+    title += f". The {first.noun}s of {', '.join(missing)} were not kept, so they are not in this table" if missing else ""
+    return TableSpec(title, columns, rows) if rows or missing else None
+
+
+def _list_method(comparison: Comparison, first: ThresholdAnswer) -> list[tuple[str, str]]:
+    runs, run = comparison.assessments, first.assessment
     threshold_reason = "it was given"
     if not comparison.chosen:
-        bounded = all(candidate.index.bound is not None for candidate in comparison.assessments)
-        threshold_reason = (
-            "half of the smallest bound"
-            if bounded
-            else "about the middle of the candidates' medians, because this index has no bound"
-        )
-    seeds = sorted({candidate.seed for candidate in comparison.assessments})
-    entries: list[tuple[str, str]] = [
-        ("Region", f"{assessment.region.name}: {assessment.region.describe()}"),
-        (
-            "Samples",
-            f"{format_count(facts.distribution.samples, facts.noun)} of each candidate, {assessment.sampling}, seed "
-            f"{', '.join(map(str, seeds))}",
-        ),
+        bounded = all(candidate.index.bound is not None for candidate in runs)
+        middle = "about the middle of the candidates' medians, because this index has no bound"
+        threshold_reason = "half of the smallest bound" if bounded else middle
+    seeds = sorted({candidate.seed for candidate in runs})
+    samples = f"{format_count(first.distribution.samples, first.noun)} of each candidate, {run.sampling}"
+    entries = [
+        ("Region", f"{run.region.name}: {run.region.describe()}"),
+        ("Samples", f"{samples}, seed {', '.join(map(str, seeds))}"),
         (
             "Index",
-            f"worst-case {facts.index.name}{facts.unit_suffix and f', unit{facts.unit_suffix}'}; "
-            f"{'larger' if facts.larger_is_better else 'smaller'} is better",
+            f"worst-case {first.index.name}{first.unit_suffix and f', unit{first.unit_suffix}'}; "
+            f"{'larger' if first.larger_is_better else 'smaller'} is better",
         ),
-        ("Threshold", f"{format_as_given(comparison.threshold)}{facts.unit_suffix}: {threshold_reason}"),
-        ("Not found", f"a pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}"),
+        ("Threshold", f"{format_as_given(comparison.threshold)}{first.unit_suffix}: {threshold_reason}"),
+        ("Not found", f"a pose without a configuration counts as {'0' if first.larger_is_better else 'infinite'}"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
             "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",
         ),
+        (
+            "Gain of a joint",
+            "the worst case is then over the failures in which the joint has no part, at the same configurations; the "
+            f"intervals are paired: a gain is the fraction of the {first.noun}s that fail now and would not then",
+        ),
     ]
-    if len(seeds) == 1 and len({candidate.sampling for candidate in comparison.assessments}) == 1:
+    if len(seeds) == 1 and len({candidate.sampling for candidate in runs}) == 1:
         entries.append(("Same poses", "every candidate was tried at the same poses of the region"))
-    collision_models = [
-        (candidate_name, candidate.plan.clearance.capsules.describe(candidate.arm))
-        for candidate_name, candidate in zip(comparison.names, comparison.assessments, strict=True)
-        if candidate.plan.clearance
-    ]
-    cell_texts = {
-        candidate.plan.cell.digest: describe_cell(candidate.plan.cell)
-        for candidate in comparison.assessments
-        if candidate.plan.cell is not None
-    }
+    cell_texts = {each.plan.cell.digest: describe_cell(each.plan.cell) for each in runs if each.plan.cell is not None}
     if cell_texts:
         entries.append(("Cell", "; ".join(cell_texts.values())))
-    if collision_models and any(candidate.optimised is not None for candidate in comparison.assessments):
-        models = "; ".join(f"{name}: {shape}" for name, shape in collision_models)
-        entries.append(
-            (
-                "Clearance",
-                f"best configurations keep the arm clear of itself{' and the cell' * bool(cell_texts)}, by capsules ({models})",
-            )
-        )
-    return [Table([[label, value] for label, value in entries])]
+    models = [
+        f"{name}: {each.plan.clearance.capsules.describe(each.arm)}"
+        for name, each in zip(comparison.names, runs, strict=True)
+        if each.plan.clearance
+    ]
+    if models and any(candidate.optimised is not None for candidate in runs):
+        avoided = f"itself{' and the cell' * bool(cell_texts)}"
+        entries.append(("Clearance", f"best configurations keep the arm clear of {avoided}, by capsules ({'; '.join(models)})"))
+    return entries
+
+
+def _has_values(comparison: Comparison) -> bool:
+    """Return whether some index of some candidate is finite."""
+    return any(
+        run.distribution_of(optimised).reached > run.distribution_of(optimised).infinite
+        for run in comparison.assessments
+        for optimised in (False, True)[: 1 + (run.optimised is not None)]
+    )
+
+
+def _draw_figure(comparison: Comparison) -> Figure:
+    from holdfast.interface.presentation.assessment.comparison_figures import draw_distributions
+
+    return draw_distributions(comparison)
+
+
+def _build_sections(comparison: Comparison) -> Sequence[Section]:
+    from holdfast.interface.presentation.assessment.comparison_figures import build_sections
+
+    return build_sections(comparison) if _has_values(comparison) else ()
 
 
 def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
     """Build the command of each candidate and the files that it needs."""
+    from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
+    from holdfast.interface.report.page import Code, Text
+
     blocks: list[Block] = []
     for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
         command, remark = build_command_line(assessment)

@@ -1,65 +1,31 @@
-"""Contents of the report of an assessment, computed once: evaluated poses, scene, axes, marks and curves."""
+"""Contents of the figures of an assessment, computed once: scene, axes, marks and curves."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.formatting import format_as_given, format_half_width, format_number
-from holdfast.core.probability.distribution import Distribution
 from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.report import figures
 from holdfast.interface.report.figures import Bin, Curve, Mark
 from holdfast.interface.report.scenes import Scale, Scene
 from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views
 from holdfast.kinematics.solvers.inverse_kinematics import solver
-from holdfast.model.arm.poses import rotations_of_quaternions
-from holdfast.studies.assessment.answer import ZERO_INDEX, ThresholdAnswer
-from holdfast.studies.assessment.assessment import Assessment
-from holdfast.studies.assessment.rows import describe_provenance
-from holdfast.studies.assessment.upgrade import make_run_sample
+from holdfast.studies.assessment.assessment import ZERO_INDEX
 
 _MAX_DOTS = 20_000
 _MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
 
 
-@dataclass(frozen=True)
-class EvaluatedPoses:
-    """Evaluated poses of a run, with tool poses also for a region of joints."""
-
-    number: NDArray[np.int64]
-    position: FloatArray
-    rotation: FloatArray
-    q: FloatArray
-    reached: NDArray[np.bool_]
-    value: FloatArray
-    by_failure: FloatArray
-    worst: NDArray[np.int64]
-    weight: FloatArray | None
-
-
 class AssessmentFacts(ThresholdAnswer):
-    """Contents of the report of an assessment, each computed once."""
+    """Contents of the figures of an assessment, each computed once."""
 
-    assessment: Assessment
-
-    def __init__(self, assessment: Assessment, threshold: float | None) -> None:
-        super().__init__(assessment, threshold)
-
-    @property
-    def collision_objects(self) -> str:
-        """Objects that the arm may collide with: ``itself``, the cell, or both."""
-        clearance = self.assessment.plan.clearance
-        return "itself" if clearance is None else clearance.others
-
-    @property
-    def avoided_objects(self) -> str:
-        """Objects that the arm must avoid: ``itself``, the cell, or both joined by ``and``."""
-        clearance = self.assessment.plan.clearance
-        return "itself" if clearance is None else clearance.everything
+    @classmethod
+    def of(cls, answer: ThresholdAnswer) -> AssessmentFacts:
+        """Return the contents for an answer."""
+        return cls(answer.assessment, answer.threshold if answer.is_chosen else None)
 
     @property
     def has_finite_values(self) -> bool:
@@ -70,70 +36,6 @@ class AssessmentFacts(ThresholdAnswer):
     def axis_label(self) -> str:
         """Label of an axis of index values, with the unit."""
         return figures.format_label(f"worst-case {self.index.name}{self.unit_suffix and ','}{self.unit_suffix}")
-
-    @property
-    def failure_labels(self) -> list[str]:
-        """Joint numbers from 1 and names of each failure: ``4 elbow``, ``2+4 shoulder+elbow``."""
-        pairs = zip(self.index.failures, self.index.failure_names, strict=True)
-        return [f"{'+'.join(str(joint + 1) for joint in joints)}  {name}" for joints, name in pairs]
-
-    # ---- rows ------------------------------------------------------------------------------------------------------
-
-    @cached_property
-    def poses(self) -> EvaluatedPoses | None:
-        """Every evaluated pose; None if the poses were not kept."""
-        if not self.distribution.samples or not self.assessment.has_rows:
-            return None
-        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=False)
-        if self.assessment.region.kind == "joints":
-            tool_poses = self.assessment.arm.forward_kinematics(evaluated.q)
-            position, rotation = tool_poses[:, :3, 3], tool_poses[:, :3, :3]
-        else:
-            columns = self.assessment.columns
-            position = columns["position"][:][evaluated.number]
-            rotation = rotations_of_quaternions(columns["quaternion"][:][evaluated.number])
-        return EvaluatedPoses(
-            evaluated.number,
-            position,
-            rotation,
-            evaluated.q,
-            evaluated.reached,
-            evaluated.value,
-            evaluated.by_failure,
-            evaluated.worst,
-            evaluated.weight,
-        )
-
-    @cached_property
-    def optimised_poses(self) -> EvaluatedPoses | None:
-        """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
-        if self.poses is None or self.assessment.optimised is None:
-            return None
-        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=True)
-        return replace(
-            self.poses,
-            q=evaluated.q,
-            reached=evaluated.reached,
-            value=evaluated.value,
-            by_failure=evaluated.by_failure,
-            worst=evaluated.worst,
-        )
-
-    @property
-    def samples(self) -> list[tuple[str, Distribution, EvaluatedPoses | None]]:
-        """Samples of the run: the label, the distribution, and the poses of each."""
-        first = ("found by inverse kinematics", self.distribution, self.poses)
-        return (
-            [first]
-            if self.assessment.optimised is None
-            else [first, ("after optimisation", self.assessment.optimised, self.optimised_poses)]
-        )
-
-    @cached_property
-    def provenance(self) -> dict[str, object]:
-        """Date, duration and versions of the run; those of this report where the run did not store them."""
-        notes = self.assessment.store.notes if self.assessment.store is not None else {}
-        return notes if "versions" in notes else describe_provenance(self.assessment.seconds)
 
     # ---- figures ---------------------------------------------------------------------------------------------------
 

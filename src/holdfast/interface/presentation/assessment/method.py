@@ -1,26 +1,26 @@
-"""Section of a report on how an assessment was computed, and the command that repeats it."""
+"""How an assessment was computed, for the last section of its report."""
 
 from __future__ import annotations
 
 from markupsafe import Markup
 
 from holdfast.core import labels
-from holdfast.core.formatting import capitalise_first, format_as_given
+from holdfast.core.formatting import format_as_given
 from holdfast.core.registry import INDEX_REGISTRY
-from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
+from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.page_content import format_versions
-from holdfast.interface.report.page import Block, Code, Table, Text
 from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.rows import describe_provenance
 
 
-def blocks(facts: AssessmentFacts) -> list[Block]:
-    """Build the table that describes how the assessment was computed."""
-    assessment, index = facts.assessment, facts.index
-    run_info = facts.provenance
+def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
+    """List how the assessment was computed; date and versions are those of this page where the run did not store them."""
+    assessment, index = answer.assessment, answer.index
+    notes = {} if assessment.store is None else assessment.store.notes
+    run_info = notes if "versions" in notes else describe_provenance(assessment.seconds)
     definition_entry = INDEX_REGISTRY.get(index.slug) if INDEX_REGISTRY.is_storable(index) else None
     formula = definition_entry.formula if definition_entry else ""
-    extreme = "smallest" if facts.larger_is_better else "largest"
+    extreme = "smallest" if answer.larger_is_better else "largest"
     definition = Markup("the {} value over the failures S").format(extreme)
     if formula:
         definition = Markup(
@@ -34,11 +34,11 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         definition += Markup(". Source: {}").format(index.source)
     uses_ik = assessment.region.kind != "joints"
     entries: list[tuple[str, str | Markup]] = []
-    missing_value = "0" if facts.larger_is_better else "infinite"
+    missing_value = "0" if answer.larger_is_better else "infinite"
     if uses_ik:
         solved = f"damped least squares from up to {assessment.restarts:,} random starts within the joint limits"
         entries += [
-            ("Method", f"{facts.sampling_text}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
+            ("Method", f"{answer.sampling_text}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
             (
                 "Not optimised",
                 "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
@@ -71,34 +71,20 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         (
             "Singular",
             "smallest singular value of J at most 1e-12 times the largest; the index is then "
-            f"{'0' if facts.larger_is_better else 'infinite'} by convention",
+            f"{'0' if answer.larger_is_better else 'infinite'} by convention",
         ),
         ("Failures", "a locked joint stays where it failed"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{assessment.region.name}: {assessment.region.describe()}{_format_joint_ranges(assessment)}"),
-        ("Arm", assessment.arm.provenance),
-        ("Fingerprint of the arm", Markup("<code>{}</code>").format(assessment.arm.fingerprint)),
         (
             "Seed, samples",
-            f"seed {assessment.seed}, {assessment.poses:,} {facts.noun}s, {assessment.sampling} sampling"
+            f"seed {assessment.seed}, {assessment.poses:,} {answer.noun}s, {assessment.sampling} sampling"
             + (f", {assessment.restarts:,} restarts" if uses_ik else ""),
         ),
         ("Time", f"{run_info['seconds']:.1f} s" if isinstance(run_info.get("seconds"), (int, float)) else "not noted"),
-        ("Versions", _format_versions(run_info)),
+        ("Versions of the run", _format_versions(run_info)),
     ]
-    return [Table([[label, text] for label, text in entries])]
-
-
-def build_rerun_blocks(assessment: Assessment) -> list[Block]:
-    """Build the command that repeats the run with the files that it needs, or the reason why there is none."""
-    command, remark = build_command_line(assessment)
-    if command is None:
-        return [Text(remark)]
-    return [
-        Code(command, remark and f"{capitalise_first(remark)}:"),
-        *build_region_file_blocks(assessment.region),
-        *build_shape_file_blocks(assessment),
-    ]
+    return entries
 
 
 def _format_joint_ranges(assessment: Assessment) -> str:

@@ -1,4 +1,4 @@
-"""Tables and maps of the remaining workspace."""
+"""Presentation of the remaining workspace after a failure."""
 
 from __future__ import annotations
 
@@ -6,19 +6,14 @@ from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, format_value
 
 if TYPE_CHECKING:
-    from holdfast.interface.presentation.results import Drawings
+    from matplotlib.figure import Figure
+
     from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
-FIGURE_CAPTIONS = {
-    "left": (
-        "What is left of the workspace",
-        "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side.",
-    )
-}
+
+_CAPTION = "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side."
 
 
 def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
@@ -39,36 +34,32 @@ def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
     }
 
 
-def key_table(remainder: RemainingWorkspace) -> TextTable:
-    """Tabulate the targets that the healthy arm reaches, and that the failed arm still reaches."""
-    table_rows = [["targets", f"{len(remainder.healthy):,}"], ["the healthy arm reaches", f"{int(remainder.healthy.sum()):,}"]]
-    return TextTable(["", ""], [*table_rows, ["the failed arm still reaches", f"{int(remainder.locked.sum()):,}"]])
-
-
-def story(remainder: RemainingWorkspace) -> PageContent:
-    """Compose the report: the remaining fraction of the workspace."""
-    title = f"What is left of the workspace with {remainder.degraded.describe()}"
-    paragraphs = [f"{sentence.removesuffix('.')}." for sentence in remainder.describe()]
-    remaining, lock_text = remainder.left, remainder.degraded.describe()
+def present(remainder: RemainingWorkspace) -> Presentation:
+    """Present the remaining fraction of the workspace."""
+    lock_text, remaining, healthy = remainder.degraded.describe(), remainder.left, int(remainder.healthy.sum())
+    region = f"{remainder.region}; {len(remainder.rows)} rows: {', '.join(remainder.rows)}"
+    title = f"What is left of the workspace with {lock_text}"
     if remaining is None:
-        return PageContent(title, paragraphs[0], about=remainder.region)
+        answer = f"No configuration of the healthy arm was found for any of the {len(remainder.healthy):,} targets ({region})."
+        return Presentation(title, answer)
+    targets = f"{healthy:,} targets that the healthy arm reaches ({region})"
     answer = (
-        f"With {lock_text}, {format_percent(remaining.value)} of what the healthy arm reaches is "
-        f"still reached ({format_percent(remaining.low)} to {format_percent(remaining.high)}, 95 %)."
+        f"With {lock_text}, none of the {targets} was found to be reached in {remainder.starts} starts each, which does not "
+        f"prove that none is."
     )
-    if not remaining.value:
-        answer = (
-            f"With {lock_text}, none of the {int(remainder.healthy.sum()):,} targets that the "
-            f"healthy arm reaches was found to be reached in {remainder.starts} starts each, which does not prove that none is."
-        )
-    facts = [(format_percent(remaining.value), "of what the healthy arm reaches is left")] if remaining.value else []
-    return PageContent(
+    if remaining.value:
+        answer = f"With {lock_text}, {format_value(remaining, 'percent')} of the {targets} are still reached."
+    phrase = "of what the healthy arm reaches is left" if remaining.value else ""
+    return Presentation(
         title,
         answer,
-        about=remainder.region,
-        facts=[*facts, (f"{int(remainder.healthy.sum()):,}", "targets that the healthy arm reaches were tried")],
-        figures=FIGURE_CAPTIONS,
-        tables=[key_table(remainder)],
+        facts=[
+            Fact("fraction of the workspace left", remaining, style="percent", phrase=phrase),
+            Fact("targets that the healthy arm reaches", healthy, phrase="targets that the healthy arm reaches were tried"),
+            Fact("targets tried", len(remainder.healthy)),
+            Fact("targets that the failed arm still reaches", int(remainder.locked.sum())),
+        ],
+        figures={"left": FigureSpec(partial(_draw_maps, remainder), "What is left of the workspace", _CAPTION)},
         method=[
             ("Reached", f"a configuration was found in {remainder.starts} random starts; the fraction is a lower bound"),
             ("Rows that count", ", ".join(remainder.rows)),
@@ -76,14 +67,9 @@ def story(remainder: RemainingWorkspace) -> PageContent:
     )
 
 
-def drawings(remainder: RemainingWorkspace) -> Drawings:
-    """Draw maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm
-    reaches none.
-    """
+def _draw_maps(remainder: RemainingWorkspace) -> Figure:
     from holdfast.interface.presentation.assessment.sections.survival import draw_before_and_after
     from holdfast.interface.report.views import SIDE_VIEW, choose_side_and_top_views
 
-    if not remainder.healthy.any():
-        return {}
-    view, lock_text = (choose_side_and_top_views(remainder.position) or [SIDE_VIEW])[0], remainder.degraded.describe()
-    return {"left": partial(draw_before_and_after, remainder.position, remainder.healthy, remainder.locked, view, lock_text)}
+    view = (choose_side_and_top_views(remainder.position) or [SIDE_VIEW])[0]
+    return draw_before_and_after(remainder.position, remainder.healthy, remainder.locked, view, remainder.degraded.describe())

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from holdfast.core.formatting import format_interval, format_percent, indefinite_article
+from holdfast.core.formatting import format_count, format_interval, format_number, indefinite_article
+from holdfast.interface.presentation.presentation import Fact
+from holdfast.studies.designs.ranking import choose_best_design, describe_farther_design
 from holdfast.studies.study_files.ranking import ArmRanking, format_unit
+from holdfast.studies.study_files.results import DesignSweep
 
 
-def headline(rankings: Sequence[ArmRanking]) -> str:
+def compose_answer(rankings: Sequence[ArmRanking], sweeps: Sequence[DesignSweep] = (), has_rankings: bool = True) -> str:
     """Compose the answer: the leader for the first index, as found and at its best, and the law and arm with the most
-    successes.
+    successes, and the best design of each sweep.
     """
+    return " ".join([*([_compare_arms(rankings)] if has_rankings else []), *map(_describe_best_design, sweeps)])
+
+
+def _compare_arms(rankings: Sequence[ArmRanking]) -> str:
     parts = []
     index_standings = [standing for standing in rankings if not standing.law]
     if index_standings:
@@ -78,18 +85,38 @@ def name_leader(standing: ArmRanking) -> str:
     return f"{leader} (level with {', '.join(others)})" if others else leader
 
 
-def list_leaders(standings: Sequence[ArmRanking]) -> list[tuple[str, str]]:
+def list_leaders(standings: Sequence[ArmRanking]) -> list[Fact]:
     """List the leaders of the first questions; the best median where hardly anything is retained."""
-    entries: list[tuple[str, str]] = []
+    facts = []
     for standing in standings[:4]:
         (leader, fraction), *_ = standing.ranked_entries
         if not standing.is_uninformative:
-            entries.append(
-                (
-                    format_percent(fraction.value),
-                    f"{leader}, {standing.question}; {format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %",
-                )
-            )
+            facts.append(Fact("", fraction, phrase=f"{leader}, {standing.question}", style="percent"))
         elif standing.median:
-            entries.append((standing.median[1], f"{standing.median[0]}, the best median; {standing.question}: hardly any pose"))
-    return entries
+            phrase = f"{standing.median[0]}, the best median; {standing.question}: hardly any pose"
+            facts.append(Fact("", standing.median[1], phrase=phrase))
+    return facts
+
+
+def _describe_best_design(swept: DesignSweep) -> str:
+    """Describe the best design of a sweep in one sentence."""
+    best = choose_best_design(swept.guaranteed, swept.reach)
+    fraction = format_level(swept)
+    text = (
+        f"Of {format_count(len(swept.values), 'design')} of {swept.labels['arm']} the best one guarantees a "
+        f"{format_index_name(swept)} of "
+        f"{format_number(float(swept.guaranteed[best]))} for {fraction} of the poses and reaches {swept.reach[best]:.3f} m"
+    )
+    if swept.start is not None:
+        text += f"; the given arm {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m"
+    return f"{text}. {describe_farther_design(swept.guaranteed, swept.reach, best)}".rstrip()
+
+
+def format_index_name(swept: DesignSweep) -> str:
+    """Format the name of the index of a sweep."""
+    return str(swept.labels["index"]).replace("-", " ")
+
+
+def format_level(swept: DesignSweep) -> str:
+    """Format the fraction of the poses for which a sweep guarantees the index."""
+    return f"{100 * swept.plan['level']:.4g} %"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.core.formatting import format_count, format_decimals, format_number, format_percent
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.designs.figures import draw_parameters, draw_pareto_front
+from holdfast.interface.presentation.presentation import Column, TableSpec
+from holdfast.interface.presentation.renderers import build_table_block
+from holdfast.interface.presentation.studies.answer import format_index_name, format_level
 from holdfast.interface.report import figures
-from holdfast.interface.report.page import Block, Cell, Picture, Table, Text
+from holdfast.interface.report.page import Block, Picture, Text
 from holdfast.kinematics.indices.index import by_name
 from holdfast.kinematics.indices.own_file import check_function_digest
 from holdfast.model.arm.task import Task
@@ -21,32 +23,18 @@ from holdfast.studies.study_files.results import DesignSweep
 _MAX_FRONT_DESIGNS = 8  # designs of the front in the table
 
 
-def describe_best_design(swept: DesignSweep) -> str:
-    """Describe the best design of a sweep in one sentence."""
-    best = choose_best_design(swept.guaranteed, swept.reach)
-    fraction = _format_level(swept)
-    text = (
-        f"Of {format_count(len(swept.values), 'design')} of {swept.labels['arm']} the best one guarantees a "
-        f"{_format_index_name(swept)} of "
-        f"{format_number(float(swept.guaranteed[best]))} for {fraction} of the poses and reaches {swept.reach[best]:.3f} m"
-    )
-    if swept.start is not None:
-        text += f"; the given arm {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m"
-    return f"{text}. {describe_farther_design(swept.guaranteed, swept.reach, best)}".rstrip()
-
-
 def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
     """Build the figures and tables of a sweep; the place makes their names unique in the page."""
     space = read_design_space(dict(swept.plan))
     factors = np.array([parameter.display_unit[0] for parameter in space.parameters])
     shown_values = swept.values * factors
     parameter_labels = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in space.parameters]
-    label = figures.format_label(f"guaranteed {_format_index_name(swept)} ({_format_level(swept)} of the poses)")
+    label = figures.format_label(f"guaranteed {format_index_name(swept)} ({format_level(swept)} of the poses)")
     best, front = choose_best_design(swept.guaranteed, swept.reach), find_pareto_front(swept.reach, swept.guaranteed)
     baseline = None if swept.start is None else (float(swept.reach[swept.start]), float(swept.guaranteed[swept.start]))
     figure = draw_pareto_front(swept.reach, swept.guaranteed, front.tolist(), best, baseline, label, _find_index_bound(swept))
     explanation = (
-        f"Guaranteed: the worst-case {_format_index_name(swept)} that {_format_level(swept)} of {swept.plan['poses']:,} "
+        f"Guaranteed: the worst-case {format_index_name(swept)} that {format_level(swept)} of {swept.plan['poses']:,} "
         f"poses of the region "
         f"({swept.labels['region']}) have at least, each at its best configuration; a pose that is not reached counts "
         f"as 0. Reach: "
@@ -59,71 +47,65 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         None if baseline is None else (shown_values[swept.start], baseline[1]),
         label,
     )
-    table_rows: list[list[Cell]] = [
-        [
-            parameter.name,
-            parameter.display_unit[1],
-            f"{parameter.lower * factor:.6g} to {parameter.upper * factor:.6g}",
-            *_format_parameter_effect(swept.values[:, index], swept, factor),
-        ]
-        for index, (parameter, factor) in enumerate(zip(space.parameters, factors.tolist(), strict=True))
-    ]
-    header: list[Cell] = ["Parameter", "unit", "bounds", "rank correlation", "in the best tenth"]
-    caption = (
+    parameters = TableSpec(
         "Rank correlation (Spearman) of the parameter alone with the guaranteed index: near 1 or -1 it decides, near 0 it "
-        "hardly matters, or its best value lies inside. In the best tenth: the middle half of its values there."
+        "hardly matters, or its best value lies inside. In the best tenth: the middle half of its values there",
+        [Column(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "in the best tenth")],
+        [
+            [
+                *(parameter.name, parameter.display_unit[1], (parameter.lower * factor, parameter.upper * factor)),
+                *_compute_parameter_effect(swept.values[:, index], swept, factor),
+            ]
+            for index, (parameter, factor) in enumerate(zip(space.parameters, factors.tolist(), strict=True))
+        ],
     )
     selected = (
         front
         if len(front) <= _MAX_FRONT_DESIGNS
         else front[np.unique(np.round(np.linspace(0, len(front) - 1, _MAX_FRONT_DESIGNS)).astype(int))]
     )
-    designs: list[list[Cell]] = [
-        [
-            format_decimals(float(swept.reach[index]), 3),
-            format_number(float(swept.guaranteed[index])),
-            format_percent(float(swept.reached[index])),
-        ]
-        + [f"{value:.5g}" for value in shown_values[index].tolist()]
-        for index in selected.tolist()
+    columns = [
+        Column("reach", "reach, m"),
+        Column("guaranteed", "guaranteed"),
+        Column("reached", "poses reached", style="percent"),
     ]
-    front_header: list[Cell] = ["reach, m", "guaranteed", "poses reached", *parameter_labels]
-    front_caption = f"Designs of the front ({len(selected)} of {len(front)}): none of the sweep has more of both."
+    designs = TableSpec(
+        f"Designs of the front ({len(selected)} of {len(front)}): none of the sweep has more of both",
+        [*columns, *(Column(label, label) for label in parameter_labels)],
+        [
+            [
+                *(float(column[index]) for column in (swept.reach, swept.guaranteed, swept.reached)),
+                *shown_values[index].tolist(),
+            ]
+            for index in selected.tolist()
+        ],
+    )
     optimism_text = (
         "The best of many looks better than it is on the poses on which it was chosen: 'holdfast design' searches further "
         "and checks "
         "what it finds on fresh poses."
     )
-    numeric_columns = frozenset(range(2, 5))
     return [
         Picture(figures.svg(figure, f"front{place}", "Guaranteed index against reach of all designs"), explanation),
-        Table(designs, front_header, frozenset(range(len(front_header))), caption=front_caption, wide=True),
+        build_table_block(designs.texts()),
         Picture(
             figures.svg(by_parameter, f"parameters{place}", "Guaranteed index against each parameter"),
             "Each design by one parameter at a time; the others differ too.",
         ),
-        Table(table_rows, header, numeric_columns, caption=caption, wide=True),
+        build_table_block(parameters.texts()),
         Text(optimism_text, quiet=True),
     ]
 
 
-def _format_index_name(swept: DesignSweep) -> str:
-    return str(swept.labels["index"]).replace("-", " ")
-
-
-def _format_level(swept: DesignSweep) -> str:
-    return f"{100 * swept.plan['level']:.4g} %"
-
-
-def _format_parameter_effect(values: FloatArray, swept: DesignSweep, factor: float) -> tuple[str, str]:
-    """Format the rank correlation of a parameter with the guaranteed value, and its middle half in the best tenth."""
+def _compute_parameter_effect(values: FloatArray, swept: DesignSweep, factor: float) -> tuple[float, tuple[float, float]]:
+    """Compute the rank correlation of a parameter with the guaranteed value, and its middle half in the best tenth."""
     from scipy import stats
 
     is_constant = len(values) < 3 or np.ptp(values) == 0 or np.ptp(swept.guaranteed) == 0
     correlation = np.nan if is_constant else float(stats.spearmanr(values, swept.guaranteed).statistic)
     best_rows = np.argsort(-swept.guaranteed, kind="stable")[: max(1, len(values) // 10)]
     lower, upper = np.quantile(values[best_rows], [0.25, 0.75]) * factor
-    return ("–" if np.isnan(correlation) else format_decimals(correlation, 2)), f"{lower:.4g} to {upper:.4g}"
+    return correlation, (lower, upper)
 
 
 def _find_index_bound(swept: DesignSweep) -> float | None:

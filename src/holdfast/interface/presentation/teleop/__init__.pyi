@@ -1,4 +1,5 @@
 from holdfast.interface.presentation.teleop.allocation import write_allocation as write_allocation
+from holdfast.interface.presentation.teleop.analysis import middle_tasks as middle_tasks
 from holdfast.interface.presentation.teleop.bank import bank_figure as bank_figure
 from holdfast.interface.presentation.teleop.figures import Scatter as Scatter
 from holdfast.interface.presentation.teleop.figures import measures_figure as measures_figure
@@ -8,4 +9,3 @@ from holdfast.interface.presentation.teleop.motions import Motion as Motion
 from holdfast.interface.presentation.teleop.motions import Ring as Ring
 from holdfast.interface.presentation.teleop.motions import motions_figure as motions_figure
 from holdfast.interface.presentation.teleop.motions import ring as ring
-from holdfast.interface.presentation.teleop.page import middle_tasks as middle_tasks

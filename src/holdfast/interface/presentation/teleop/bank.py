@@ -2,66 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from holdfast.core.files.output import write_files
-from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.typing import IndexArray
-from holdfast.model import arms
-from holdfast.teleop.bank.selection import Binning, TaskChoice
+from holdfast.teleop.bank.selection import Binning
 from holdfast.teleop.bank.tasks import TaskBank
-from holdfast.teleop.protocol.protocol import Protocol, read_protocol
-from holdfast.teleop.records.tables import bank_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-
-def figures(choice: TaskChoice) -> dict[str, Figure]:
-    """Draw the bank with the chosen tasks."""
-    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)}
-
-
-def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
-    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
-
-    Args:
-        choice: What was chosen.
-        folder: Made if it is not there.
-        spec: What the protocol names the arm by: a built-in name or a file.
-    """
-    from holdfast.interface.report.figures import save_png
-
-    files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
-    protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")
-    return [*files, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
-
-
-def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:
-    """Return the protocol of the paper with this arm and the chosen tasks."""
-    bank, tasks = choice.bank, np.append(choice.chosen, choice.special_tasks)
-    file = None if spec in arms.names() else Path(spec)
-    protocol = replace(
-        read_protocol(),
-        name=f"{choice.arm.name}, {len(tasks)} tasks of a bank of {len(bank)}, seed {choice.seed}",
-        arm=choice.arm,
-        arm_spec=spec if file is None else file.name,
-        arm_file=file,
-        rows=choice.task,
-    )
-    with np.errstate(invalid="ignore"):
-        notes = [
-            f"bank task {task + 1}, CPM3 {bank.difficulty[task]:.3f}, CPM4/CPM3 {bank.ratio[task]:.3f}"
-            if np.isfinite(bank.ratio[task])
-            else f"bank task {task + 1}, not completed by the computer in every scenario"
-            for task in tasks
-        ]
-    return protocol.with_tasks(bank.tasks.take(tasks), notes)
 
 
 def bank_figure(

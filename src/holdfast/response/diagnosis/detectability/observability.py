@@ -60,29 +60,6 @@ class Observability(Result):
         names = self.arm.joint_names
         return tuple((names[first], names[second]) for first, second in inseparable_pairs(self.separation, range(self.arm.n)))
 
-    def describe(self) -> list[str]:
-        """Describe which locks the tool's pose and the joint signals detect, and which pairs are not separable."""
-        names, joint_count = self.arm.joint_names, self.arm.n
-        detectable = f"{joint_count - len(self.unseen)} of {joint_count} joints"
-        lines = [f"the tool's pose alone shows the lock of {detectable} on this motion of {self.duration:.3g} s"]
-        lines += [f"not shown: {', '.join(self.unseen)}"] if self.unseen else []
-        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.inseparable]
-        if self.delays is not None and self.strayed is not None:
-            is_detected = np.isfinite(self.delays)
-            for index, name in enumerate(names):
-                joint_detected = is_detected[:, index]
-                if not joint_detected.any():
-                    lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
-                    continue
-                median_delay, median_error = (np.median(x[joint_detected, index]) for x in (self.delays, self.strayed))
-                lines.append(
-                    f"a lock of {name} is noticed after {1e3 * median_delay:.3g} ms, with the tool {1e3 * median_error:.2g} mm "
-                    f"off (medians; {joint_detected.mean():.0%} of the times at which it may lock)"
-                )
-        if self.alike:
-            lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(self.alike)}")
-        return lines
-
 
 @check_arguments
 @reports_progress("looking ahead")

@@ -44,7 +44,6 @@ RAMP_TIME_S = 0.3  # of acceleration
 _LIMIT_MARGIN = 0.05  # rad or m from a limit
 _DIRECTION_COUNT = 24
 _MAX_LEGS = 3
-_MIN_VISIBLE_RATE = 1e-6  # of a unit rate
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -91,20 +90,6 @@ class ProbingMotion(Result):
         names = [self.arm.joint_names[joint] for joint in self.suspects]
         return tuple(name for name in names if name not in self.untestable and name not in inseparable)
 
-    def describe(self) -> list[str]:
-        """Describe which locks the motion can isolate, before anything moves."""
-        names = self.arm.joint_names
-        lines = [
-            f"a self-motion of {self.t[-1]:.3g} s tells {len(self.isolable)} of {len(self.suspects)} suspects apart"
-            + (f": {', '.join(self.isolable)}" if self.isolable else "")
-        ]
-        for name in self.untestable:
-            is_invisible = self.visible[names.index(name)] < _MIN_VISIBLE_RATE
-            reason = ": no self-motion moves it here, and its lock is not tolerable here either" if is_invisible else ""
-            lines.append(f"a lock of {name} cannot be tested{reason}")
-        lines += [f"locks of {first} and {second} cannot be told apart" for first, second in self.inseparable]
-        return [*lines, f"the tool stays within {1e3 * self.tool:.2g} mm of where it is while nothing is locked"]
-
     def to_csv(self, file: str | Path) -> Path:
         """Write the references as other motions are written: ``time_s`` and a column for each joint.
 
@@ -139,16 +124,6 @@ class Identification(Result):
     cleared: tuple[str, ...]
     time: float
     displacement: float
-
-    def describe(self) -> list[str]:
-        """Describe the locked joint, or the remaining hypotheses."""
-        decision_point = f"{self.time:.3g} s, with the tool {1e3 * self.displacement:.2g} mm from its rest"
-        if self.joint is not None:
-            return [f"{self.joint} is locked: decided after {decision_point}"]
-        if self.remaining == ("none",):
-            return [f"none of the suspects is locked: decided after {decision_point}"]
-        lines = [f"not decided after {decision_point}: what remains possible is {', '.join(self.remaining)}"]
-        return lines + ([f"not locked: {', '.join(self.cleared)}"] if self.cleared else [])
 
 
 @check_arguments

@@ -137,23 +137,3 @@ def _describe_ignored_pairs(clearance: Clearance) -> str:
             f"{len(names)} that overlap nearly always, so by construction: {', '.join(names[:_MAX_NAMED_PAIRS])}{remainder}"
         )
     return f"{format_count(len(clearance.ignored), 'pair')} on different links: {'; '.join(parts)}"
-
-
-def summarize_collisions(facts: AssessmentFacts) -> str:
-    """Summarize the collisions in one line for the key numbers; empty if collisions were not checked."""
-    counts, clearance = facts.assessment.collisions, facts.assessment.plan.clearance
-    if counts is None or clearance is None or not counts.reached:
-        return ""
-    prefix = "at most " * (clearance.cell is not None)
-    text = f"{prefix}{format_percent(counts.found / counts.reached)} of the configurations found"
-    if facts.assessment.clear is not None:
-        text += f"; at least {format_interval(facts.assessment.reached_clear())} of the poses are reached by a clear one"
-    if facts.assessment.optimised is not None:
-        kept = f"keep a clearance of {counts.margin:g} m" if counts.margin else f"keep the arm clear of {facts.avoided_objects}"
-        text += (
-            f"; the best configurations {kept}, which {format_percent(counts.blocked / counts.reached)} of them "
-            f"otherwise would not"
-        )
-        text += f", and {format_count(counts.hopeless, 'pose')} cannot" if counts.hopeless else ""
-    cell_suffix = "" if clearance.cell is None else f"; {describe_cell(clearance.cell)}"
-    return f"{text} ({clearance.capsules.describe(facts.assessment.arm)}{cell_suffix})"

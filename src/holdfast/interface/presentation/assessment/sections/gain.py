@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.core.formatting import format_as_given, format_count, format_half_width, format_interval, format_number
+from holdfast.core.formatting import format_count, format_half_width
 from holdfast.core.probability.distribution import Distribution
+from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report import figures
 from holdfast.interface.report.figures import Curve
-from holdfast.interface.report.page import Block, Picture, Table, Text
+from holdfast.interface.report.page import Block, Picture, Text
 
 _MAX_DOTS = 20_000
 
@@ -25,7 +26,6 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             f"After: for each pose the best configuration found that keeps the pose{_describe_constraints(facts)}. "
             "Found by a local search from several starts: a lower bound of what is possible."
         ),
-        _tabulate_gain(facts, optimised),
     ]
     if facts.has_finite_values:
         figure = draw_gain(facts, optimised)
@@ -53,31 +53,6 @@ def _describe_blocked_poses(facts: AssessmentFacts) -> str:
     blocked = facts.assessment.collisions.hopeless if facts.assessment.collisions is not None else 0
     obstacles = "the arm itself" if facts.collision_objects == "itself" else facts.avoided_objects
     return f" {format_count(blocked, 'pose')} without a configuration clear of {obstacles} have no dot." if blocked else ""
-
-
-def _tabulate_gain(facts: AssessmentFacts, best: Distribution) -> Table:
-    levels = (0.05, 0.25, 0.5, 0.75, 0.95)
-    threshold_option = {"at_least" if facts.larger_is_better else "at_most": facts.threshold}
-    table_rows = []
-    for name, distribution, optimised in (("before", facts.distribution, False), ("after", best, True)):
-        probability = facts.assessment.interval(optimised=optimised, **threshold_option)  # type: ignore[arg-type]
-        best_value = distribution.highest if facts.larger_is_better else distribution.lowest
-        name += f", {distribution.reached:,} poses" if best.reached < facts.distribution.reached else ""
-        table_rows.append(
-            [
-                name,
-                *[format_number(float(value)) for value in distribution.quantile(levels)],
-                format_number(distribution.mean),
-                format_number(best_value),
-                format_interval(probability),
-            ]
-        )
-    relation = "≥" if facts.larger_is_better else "≤"
-    header = [
-        "Index over reached poses", "5 %", "25 %", "median", "75 %", "95 %", "mean", "best",
-        f"P({relation} {format_as_given(facts.threshold)}), all poses",
-    ]  # fmt: skip
-    return Table(table_rows, header, frozenset(range(1, 9)), wide=True)
 
 
 def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
@@ -142,8 +117,9 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
     ]
 
 
-def draw_cdf_figure(facts: AssessmentFacts) -> Figure:
+def draw_cdf_figure(answer: ThresholdAnswer) -> Figure:
     """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
+    facts = AssessmentFacts.of(answer)
     optimised = facts.assessment.optimised
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
     with figures.style():

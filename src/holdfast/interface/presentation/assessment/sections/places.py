@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from holdfast.core.formatting import format_count, format_decimals, format_number
 from holdfast.core.probability.distribution import Distribution
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.assessment.facts import AssessmentFacts, EvaluatedPoses
+from holdfast.interface.presentation.assessment.answer import EvaluatedPoses
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.commands import build_pose_command
 from holdfast.interface.report import figures, maps
 from holdfast.interface.report.page import Block, Code, Picture, Table, Text

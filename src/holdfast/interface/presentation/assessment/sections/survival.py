@@ -6,11 +6,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.core.formatting import format_as_given, format_decimals, format_interval, format_percent
+from holdfast.core.formatting import format_interval, format_percent
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.tables import describe_lock, tabulate_survival
+from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.report import figures, maps
-from holdfast.interface.report.page import Block, Picture, Table, Text
+from holdfast.interface.report.page import Block, Picture, Text
 from holdfast.interface.report.views import View, choose_side_and_top_views
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
 from holdfast.studies.assessment.plan import LOCK_RESTARTS
@@ -25,14 +27,13 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         return []
     fractions, locks = facts.assessment.survival(), facts.assessment.plan.locks
     worst = min(fractions, key=lambda name: fractions[name].value)
-    lock_positions = {
-        facts.assessment.arm.joint_names[joint]: _describe_lock_position(facts, joint, angle) for joint, angle in locks.items()
-    }
-    bar_labels = [
-        f"{joint + 1} "
-        f"{facts.assessment.arm.joint_names[joint]}{'' if angle is None else f' {_format_position(facts, joint, angle)}'}"
+    names = facts.assessment.arm.joint_names
+    worst_position = describe_lock(facts, worst, facts.assessment.locks[worst])
+    positions = {
+        joint: "" if angle is None else f" {describe_lock(facts, names[joint], angle).partition(' (')[0]}"
         for joint, angle in locks.items()
-    ]
+    }
+    bar_labels = [f"{joint + 1} {names[joint]}{position}" for joint, position in positions.items()]
     axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached once the joint has locked"
     figure = figures.bar_figure(
         bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
@@ -48,7 +49,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
             f"{'the weight of ' if facts.distribution.has_weights else ''}the "
             f"{facts.distribution.samples:,} poses{_describe_collision_free_fraction(facts)}. "
-            f"The lock that costs most is that of {worst}, {lock_positions[worst]}: "
+            f"The lock that costs most is that of {worst}, {worst_position}: "
             f"{format_interval(fractions[worst])} of the poses are left."
         ),
         Picture(
@@ -57,15 +58,9 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             f"held there{_describe_clearance_method(facts)}; so the fractions are lower bounds.",
         ),
     ]
-    blocks += _build_map_blocks(facts, facts.assessment.arm.joint_index(worst), lock_positions[worst])
-    blocks.append(
-        Table(
-            [[name, lock_positions[name], format_interval(fraction)] for name, fraction in fractions.items()],
-            ["Once it has locked", "where", "fraction of the poses still reached"],
-            frozenset({2}),
-        )
-    )
-    return blocks
+    blocks += _build_map_blocks(facts, facts.assessment.arm.joint_index(worst), worst_position)
+    table = tabulate_survival(facts)
+    return blocks if table is None else [*blocks, build_table_block(table.texts())]
 
 
 def _describe_collision_free_fraction(facts: AssessmentFacts) -> str:
@@ -87,24 +82,6 @@ def _describe_clearance_method(facts: AssessmentFacts) -> str:
 
 def _get_total_weight(facts: AssessmentFacts) -> float:
     return facts.distribution.total_weight() if facts.distribution.has_weights else facts.distribution.samples
-
-
-def _format_position(facts: AssessmentFacts, joint: int, position: float) -> str:
-    """Format a joint position in degrees, or in metres for a prismatic joint."""
-    return (
-        f"at {format_as_given(position)} m"
-        if facts.assessment.arm.prismatic[joint]
-        else f"at {format_decimals(np.rad2deg(position), 1)} deg"
-    )
-
-
-def _describe_lock_position(facts: AssessmentFacts, joint: int, position: float | None) -> str:
-    """Describe the position at which the joint is locked."""
-    if position is None:
-        return "where it was at another pose"
-    return _format_position(facts, joint, position) + (
-        "" if facts.assessment.arm.prismatic[joint] else f" ({format_as_given(position)} rad)"
-    )
 
 
 def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list[Block]:

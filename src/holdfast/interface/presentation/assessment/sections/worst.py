@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-from holdfast.core.formatting import format_as_given, format_number, format_percent
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.tables import tabulate_failures
+from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.report import figures
-from holdfast.interface.report.page import Block, Picture, Table, Text
+from holdfast.interface.report.page import Block, Picture, Text
 
-_MAX_TABLE_ROWS = 40
+_MAX_BARS = 20
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
@@ -25,8 +23,8 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     total = float(counts.sum()) if weighted else int(counts.sum())
     chosen = np.arange(len(labels))
     remark = ""
-    if len(labels) > _MAX_TABLE_ROWS // 2:
-        chosen = np.argsort(-counts, kind="stable")[: _MAX_TABLE_ROWS // 2]
+    if len(labels) > _MAX_BARS:
+        chosen = np.argsort(-counts, kind="stable")[:_MAX_BARS]
         remark = f" The {len(chosen)} most frequent of {len(labels)} failures are shown."
     if total:
         figure = figures.bar_figure(
@@ -43,54 +41,10 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + remark))
     else:
         blocks.append(Text(f"Every {facts.noun} reached is singular, so no failure is worse than another."))
-    blocks.append(_tabulate_failures(facts, labels, counts))
-    return blocks
-
-
-def _tabulate_failures(facts: AssessmentFacts, labels: list[str], counts: NDArray[Any]) -> Block:
-    """Build the table of the index after each failure, at the configurations found and at the best ones."""
+    table = tabulate_failures(facts)
+    blocks += [] if table is None else [build_table_block(table.texts())]
     if facts.poses is None:
-        return Text(
-            "The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True
+        blocks.append(
+            Text("The values after each failure were not kept; assess again with a store or with keep=True.", quiet=True)
         )
-    tail_level = 0.05 if facts.larger_is_better else 0.95
-    relation = "≥" if facts.larger_is_better else "≤"
-    titles = [
-        "median",
-        f"{100 * tail_level:.0f} % quantile",
-        "worst of all",
-        *([f"P({relation} {format_as_given(facts.threshold)})"] * facts.has_threshold),
-    ]
-    chosen = np.arange(len(labels))
-    if len(chosen) > _MAX_TABLE_ROWS:
-        chosen = np.sort(np.argsort(-counts, kind="stable")[:_MAX_TABLE_ROWS])
-    cells: list[list[str]] = [[labels[failure]] for failure in chosen]
-    header = ["If this locks"]
-    for (_, _, poses), worst_counts in zip(facts.samples, (counts, facts.assessment.optimised_worst_counts), strict=False):
-        assert poses is not None
-        assert worst_counts is not None
-        values = poses.by_failure[poses.reached]
-        if not poses.reached.any():  # no configuration of any pose is clear
-            for line in cells:
-                line += ["–"] * len(titles)
-            header += [f"after: {title}" for title in titles]
-            continue
-        weights = None if poses.weight is None else poses.weight[poses.reached]
-        medians, tail_values = np.quantile(values, [0.5, tail_level], axis=0, method="inverted_cdf", weights=weights)
-        fraction_met = np.average(
-            values >= facts.threshold if facts.larger_is_better else values <= facts.threshold, axis=0, weights=weights
-        )
-        total = worst_counts.sum() or 1
-        for line, failure in zip(cells, chosen, strict=True):
-            line += [
-                format_number(float(medians[failure])),
-                format_number(float(tail_values[failure])),
-                format_percent(worst_counts[failure] / total),
-            ]
-            line += [f"{fraction_met[failure]:.3f}"] * facts.has_threshold
-        header += titles if len(header) == 1 else [f"after: {title}" for title in titles]
-    caption = f"The {facts.index.name} after each failure, over {int(facts.poses.reached.sum()):,} {facts.reached_noun}"
-    caption += (
-        ", at the configurations found; after: at the best configurations." if facts.assessment.optimised is not None else "."
-    )
-    return Table(cells, header, frozenset(range(1, len(header))), caption=caption, wide=True)
+    return blocks

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Protocol
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,38 +20,27 @@ from holdfast.core.formatting import (
     list_alternatives,
 )
 from holdfast.core.probability.distribution import Distribution, Interval
+from holdfast.core.typing import FloatArray
+from holdfast.model.arm.poses import rotations_of_quaternions
 from holdfast.model.arm.task import as_task
-from holdfast.studies.assessment.plan import AssessmentPlan
+from holdfast.studies.assessment.assessment import MIN_INFORMATIVE_PROBABILITY, ZERO_INDEX, Assessment
 from holdfast.studies.assessment.single_points import Structure, structure, structures
-
-MIN_INFORMATIVE_PROBABILITY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
-ZERO_INDEX = 1e-9  # values that a structural failure leaves behind are rounding noise
+from holdfast.studies.assessment.upgrade import make_run_sample
 
 
-class AnswerSource(Protocol):
-    """Parts of an assessment that the answer uses; see :class:`holdfast.Assessment`."""
+@dataclass(frozen=True)
+class EvaluatedPoses:
+    """Evaluated poses of a run, with tool poses also for a region of joints."""
 
-    @property
-    def plan(self) -> AssessmentPlan: ...  # noqa: D102
-
-    @property
-    def has_rows(self) -> bool: ...  # noqa: D102
-    @property
-    def distribution(self) -> Distribution: ...  # noqa: D102
-    @property
-    def optimised(self) -> Distribution | None: ...  # noqa: D102
-    @property
-    def worst_counts(self) -> NDArray[Any]: ...  # noqa: D102
-    @property
-    def survivors(self) -> NDArray[Any] | None: ...  # noqa: D102
-
-    def survival(self) -> dict[str, Interval]: ...  # noqa: D102
-
-    def default_threshold(self) -> float: ...  # noqa: D102
-    def if_never_fails(self, joint: str | int) -> Distribution: ...  # noqa: D102
-    def interval(  # noqa: D102
-        self, at_least: float | None = None, at_most: float | None = None, optimised: bool = False
-    ) -> Interval: ...
+    number: NDArray[np.int64]
+    position: FloatArray
+    rotation: FloatArray
+    q: FloatArray
+    reached: NDArray[np.bool_]
+    value: FloatArray
+    by_failure: FloatArray
+    worst: NDArray[np.int64]
+    weight: FloatArray | None
 
 
 class ThresholdAnswer:
@@ -65,7 +54,7 @@ class ThresholdAnswer:
         InputError: The threshold is not a finite number.
     """
 
-    def __init__(self, assessment: AnswerSource, threshold: float | None) -> None:
+    def __init__(self, assessment: Assessment, threshold: float | None) -> None:
         if threshold is not None and not np.isfinite(threshold):
             raise InputError(f"threshold is {threshold:g}; it must be a finite number")
         self.assessment = assessment
@@ -94,12 +83,13 @@ class ThresholdAnswer:
     @cached_property
     def probability(self) -> Interval:
         """Probability that a pose of the region meets the threshold."""
-        threshold = self.threshold
-        return (
-            self.assessment.interval(at_least=threshold)
-            if self.larger_is_better
-            else self.assessment.interval(at_most=threshold)
-        )
+        return self.interval()
+
+    def interval(self, optimised: bool = False, reachable_only: bool = False, threshold: float | None = None) -> Interval:
+        """Return the probability that a pose meets a threshold, this one if none is given."""
+        option = "at_least" if self.larger_is_better else "at_most"
+        value = self.threshold if threshold is None else threshold
+        return self.assessment.interval(**{option: value}, optimised=optimised, reachable_only=reachable_only)  # type: ignore[arg-type]
 
     @property
     def condition(self) -> str:
@@ -199,11 +189,8 @@ class ThresholdAnswer:
         parts.append(f"The median of the {self.reached_noun} is {format_number(float(self.distribution.quantile(0.5)))}")
         best = assessment.optimised
         if best is not None and best.reached:
-            best_probability = assessment.interval(
-                **{f"at_{'least' if self.larger_is_better else 'most'}": self.threshold}, optimised=True
-            )
             parts[-1] += f"; at the best configuration of each pose it is {format_number(float(best.quantile(0.5)))}, "
-            parts[-1] += f"and the probability {format_interval(best_probability)}"
+            parts[-1] += f"and the probability {format_interval(self.interval(optimised=True))}"
         elif assessment.plan.region.kind != "joints":
             parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
         return f"{' '.join(parts)}."
@@ -251,3 +238,73 @@ class ThresholdAnswer:
                 return candidate, everything
         own_structure = structure(self.assessment.plan.arm, task)
         return own_structure, [own_structure, *everything]
+
+    @property
+    def collision_objects(self) -> str:
+        """Objects that the arm may collide with: ``itself``, the cell, or both."""
+        clearance = self.assessment.plan.clearance
+        return "itself" if clearance is None else clearance.others
+
+    @property
+    def avoided_objects(self) -> str:
+        """Objects that the arm must avoid: ``itself``, the cell, or both joined by ``and``."""
+        clearance = self.assessment.plan.clearance
+        return "itself" if clearance is None else clearance.everything
+
+    @property
+    def failure_labels(self) -> list[str]:
+        """Joint numbers from 1 and names of each failure: ``4 elbow``, ``2+4 shoulder+elbow``."""
+        pairs = zip(self.index.failures, self.index.failure_names, strict=True)
+        return [f"{'+'.join(str(joint + 1) for joint in joints)}  {name}" for joints, name in pairs]
+
+    # ---- rows ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose; None if the poses were not kept."""
+        if not self.distribution.samples or not self.assessment.has_rows:
+            return None
+        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=False)
+        if self.assessment.region.kind == "joints":
+            tool_poses = self.assessment.arm.forward_kinematics(evaluated.q)
+            position, rotation = tool_poses[:, :3, 3], tool_poses[:, :3, :3]
+        else:
+            columns = self.assessment.columns
+            position = columns["position"][:][evaluated.number]
+            rotation = rotations_of_quaternions(columns["quaternion"][:][evaluated.number])
+        return EvaluatedPoses(
+            evaluated.number,
+            position,
+            rotation,
+            evaluated.q,
+            evaluated.reached,
+            evaluated.value,
+            evaluated.by_failure,
+            evaluated.worst,
+            evaluated.weight,
+        )
+
+    @cached_property
+    def optimised_poses(self) -> EvaluatedPoses | None:
+        """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
+        if self.poses is None or self.assessment.optimised is None:
+            return None
+        evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=True)
+        return replace(
+            self.poses,
+            q=evaluated.q,
+            reached=evaluated.reached,
+            value=evaluated.value,
+            by_failure=evaluated.by_failure,
+            worst=evaluated.worst,
+        )
+
+    @property
+    def samples(self) -> list[tuple[str, Distribution, EvaluatedPoses | None]]:
+        """Samples of the run: the label, the distribution, and the poses of each."""
+        first = ("found by inverse kinematics", self.distribution, self.poses)
+        return (
+            [first]
+            if self.assessment.optimised is None
+            else [first, ("after optimisation", self.assessment.optimised, self.optimised_poses)]
+        )

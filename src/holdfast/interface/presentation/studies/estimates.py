@@ -1,4 +1,4 @@
-"""Console text of a study: progress, results of verifying and merging, and estimated effort."""
+"""Console text and JSON of the estimated effort of a study."""
 
 from __future__ import annotations
 
@@ -6,61 +6,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.formatting import format_count, format_duration
-from holdfast.core.sweeps.study import Study
-from holdfast.core.sweeps.study_merge import MergeReport
 from holdfast.interface.presentation.printing import TextTable, print_table
 from holdfast.kernels.threads import thread_count
 from holdfast.studies.study_files.estimate import CellEstimate
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-_MAX_TABLE_CELLS = 40  # cells in a table
-
-
-def to_dict(study: Study) -> dict[str, Any]:
-    """Return the progress of a study, cell by cell, as JSON data."""
-    cells = study.status()
-    return {
-        "folder": str(study.path),
-        "name": study.name,
-        "seed": study.seed,
-        "digest": study.digest,
-        "complete": all(cell.is_complete for cell in cells),
-        "chunks": sum(cell.chunks for cell in cells),
-        "chunks_done": sum(cell.chunks_done for cell in cells),
-        "thread_seconds": sum(cell.seconds for cell in cells),
-        "cells": [
-            {
-                "name": cell.name,
-                "chunks": cell.chunks,
-                "chunks_done": cell.chunks_done,
-                "rows": cell.rows,
-                "rows_done": cell.rows_done,
-            }
-            for cell in cells
-        ],
-        "made_by": study.makers,
-    }
-
-
-def tables(result: Study | MergeReport) -> list[TextTable]:
-    """Return a row for each cell; of many cells only those that are not complete."""
-    cells = (result.study if isinstance(result, MergeReport) else result).status()
-    listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
-    table_rows = [
-        (
-            cell.name,
-            f"{cell.rows_done:,} of {cell.rows:,}",
-            f"{cell.chunks_done:,} of {cell.chunks:,}",
-            format_duration(cell.seconds),
-        )
-        for cell in listed_cells[:_MAX_TABLE_CELLS]
-    ]
-    title = (
-        f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if len(listed_cells) > _MAX_TABLE_CELLS else ""
-    )
-    return [TextTable(("cell", "rows", "chunks", "processor time"), table_rows, title)] if table_rows else []
 
 
 def summarize_estimates(estimates: Sequence[CellEstimate]) -> dict[str, Any]:

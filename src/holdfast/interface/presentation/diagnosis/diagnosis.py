@@ -1,0 +1,179 @@
+"""Presentation of the diagnosis of a record: the fault, its evidence, and what was not watched."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import capitalise_first, format_seconds
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.diagnosis.bounds import present as present_bounds
+from holdfast.interface.presentation.presentation import Column, FigureSpec, Presentation, TableSpec
+from holdfast.response.diagnosis.answer import Diagnosis
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_KIND_PHRASES = {
+    "locked": "is locked",
+    "standstill": "does not move: locked, or free-swinging and held by friction",
+    "limp": "swings free: its motor gives no torque",
+    "weak": "is weak",
+    "friction": "has more friction",
+    "sluggish": "moves against more than it should: its motor is weak, or it has more friction",
+    "sensor": "has a faulty sensor, or a clutch that slips",
+    "unknown": "has a fault of an unknown kind",
+}
+_CAPTION = (
+    "Every residual in units of its bound, one line a joint. A line above 1 for longer than the test allows is an alarm: 10 ms "
+    "of torque, 20 ms of tracking, 50 ms of the tool, each at twice its bound."
+)
+_MAX_POINTS = 2000  # of a line: the largest of what lies between
+_MIN_PLOTTED_RATIO = 1e-2
+_PANEL_TITLES = {
+    "torque": "Torque that the model does not know",
+    "tracking": "Joint sensors behind their references",
+    "tool": "Measured tool beside that of the joints",
+}
+
+
+def to_dict(diagnosis: Diagnosis) -> dict[str, Any]:
+    """Return the verdict with the joints that could not be diagnosed."""
+    verdict = diagnosis.verdict
+    return {
+        **diagnosis.arm.entry(),
+        "alarm": verdict.alarm,
+        "time_s": verdict.time,
+        "joint": verdict.joint,
+        "suspect": verdict.suspect,
+        "kind": verdict.kind if verdict.alarm else None,
+        "loss": verdict.loss,
+        "uncertainty": verdict.uncertainty,
+        "candidates": list(verdict.candidates),
+        "evidence": list(verdict.evidence),
+        "not_looked_at_s": [list(interval) for interval in diagnosis.gaps],
+        "did_not_move_enough": list(diagnosis.inconclusive),
+        "not_watched": list(diagnosis.unmonitored),
+        "faster_than_calibrated": list(diagnosis.beyond),
+    }
+
+
+def present(diagnosis: Diagnosis) -> Presentation:
+    """Present the fault, or that none was detected, with the reasons and the inconclusive joints."""
+    verdict = diagnosis.verdict
+    lines = list(verdict.evidence)
+    other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
+    if other_kinds:
+        lines.append(f"it may also be: {', '.join(other_kinds)}")
+    if diagnosis.inconclusive:
+        lines.append(f"these joints did not move enough to tell: {', '.join(diagnosis.inconclusive)}")
+    if diagnosis.gaps:
+        unmonitored = sum(gap_end - gap_start for gap_start, gap_end in diagnosis.gaps)
+        lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
+    if diagnosis.unmonitored:
+        lines.append(f"not watched: {', '.join(diagnosis.unmonitored)}")
+    if diagnosis.beyond:
+        lines.append(f"faster than calibrated, so that an alarm proves little: {', '.join(diagnosis.beyond)}")
+    bounds = present_bounds(diagnosis.bounds)
+    lines += ["a record without an alarm does not prove that nothing is wrong", "this is no certified safety function"]
+    return Presentation(
+        "Diagnosis of a record",
+        _compose_answer(diagnosis),
+        about=f"{diagnosis.arm.title}, {diagnosis.log.duration:.4g} s at {diagnosis.log.rate:.4g} samples a second",
+        lines=[f"{capitalise_first(line)}." for line in lines],
+        tables=[_tabulate_joints(diagnosis)],
+        figures={"residuals": FigureSpec(partial(_draw_residuals, diagnosis), "Residuals and their bounds", _CAPTION)},
+        method=[("Bounds", " ".join((bounds.answer, *bounds.lines)))],
+        arm=diagnosis.arm,
+    )
+
+
+def _compose_answer(diagnosis: Diagnosis) -> str:
+    verdict = diagnosis.verdict
+    if not verdict.alarm:
+        return f"No fault seen in {diagnosis.log.duration:.4g} s."
+    if verdict.kind == "contact":
+        blame_text = "; no joint is to blame"
+        if verdict.suspect:
+            blame_text = f", or {verdict.suspect} has a fault: it alone is above its bound"
+        return f"Alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}."
+    loss_text = f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
+    return (
+        f"Alarm at {format_seconds(verdict.time)}: {verdict.joint or 'a joint that is not known'} "
+        f"{_KIND_PHRASES[verdict.kind]}{loss_text if verdict.kind == 'weak' else ''}."
+    )
+
+
+def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
+    scaled, has_torque = diagnosis.scaled, "torque" in diagnosis.signals.levels
+    rows = [
+        [
+            name,
+            float(np.fmax.reduce(scaled.torque[:, joint])) if has_torque else "-",
+            float(np.fmax.reduce(scaled.tracking[:, joint])),
+            "too little to tell" if name in diagnosis.inconclusive else "yes",
+        ]
+        for joint, name in enumerate(diagnosis.arm.joint_names)
+    ]
+    columns = [
+        Column("joint", "joint"),
+        Column("torque", "residual torque", digits=3, aligned=False),
+        Column("tracking", "tracking", digits=3, aligned=False),
+        Column("moved", "moved"),
+    ]
+    return TableSpec("Largest, in units of the bounds", columns, rows)
+
+
+def _draw_residuals(diagnosis: Diagnosis) -> Figure:
+    """Draw a panel for each monitored level."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report import figures as style
+
+    names, verdict = [name for name in _PANEL_TITLES if name in diagnosis.signals.levels], diagnosis.verdict
+    joints = diagnosis.arm.joint_names
+    with style.style():
+        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 0.6 + 1.9 * len(names)))
+        panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
+        for name, axes in zip(names, panels, strict=True):
+            values = getattr(diagnosis.scaled, name).reshape(len(diagnosis.log.t), -1)
+            for joint, column in enumerate(values.T):
+                is_blamed = name != "tool" and joints[joint] == verdict.joint
+                color = style.ORANGE if is_blamed else style.BLUE if name == "tool" else style.SKY
+                times, residuals = _thin_samples(diagnosis.log.t, column)
+                label = joints[joint] if is_blamed else None
+                axes.plot(
+                    times,
+                    np.maximum(residuals, _MIN_PLOTTED_RATIO),
+                    color=color,
+                    linewidth=1.6 if is_blamed else 0.9,
+                    label=label,
+                    zorder=2 + is_blamed,
+                )
+            for interval in diagnosis.gaps:
+                axes.axvspan(*interval, color=style.EMPTY_COLOR, linewidth=0, zorder=4)  # over the lines that lead across
+            axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
+            if verdict.alarm:
+                axes.axvline(verdict.time, color=style.INK, linewidth=1.0)
+                if axes is panels[0]:
+                    axes.text(
+                        verdict.time, 1.02, f" alarm, {verdict.time:.3f} s", transform=axes.get_xaxis_transform(), fontsize=8
+                    )
+            axes.set(title=_PANEL_TITLES[name], ylabel="of the bound", yscale="log", ylim=(_MIN_PLOTTED_RATIO, None))
+            if verdict.joint is not None and name != "tool":
+                axes.legend(loc="lower left", fontsize=8)
+        panels[-1].set(xlabel="time, s", xlim=(diagnosis.log.t[0], diagnosis.log.t[-1]))
+        return style.settle_layout(figure)
+
+
+def _thin_samples(t: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Reduce a signal to the number of points that a figure shows; each segment keeps its largest value."""
+    is_finite = np.isfinite(y)
+    t, y = t[is_finite], y[is_finite]
+    stride = max(len(t) // _MAX_POINTS, 1)
+    segment_count = len(t) // stride
+    return t[: segment_count * stride : stride], y[: segment_count * stride].reshape(segment_count, stride).max(
+        axis=1, initial=0.0
+    )

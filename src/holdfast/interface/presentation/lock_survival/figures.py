@@ -1,0 +1,163 @@
+"""Figures of the lock survival of a motion: lines over time, and maps with a strip of values at every time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.report.figures import INK, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.motions import TimePanel, motion_figure
+from holdfast.interface.report.palette import EMPTY_COLOR
+from holdfast.interface.report.scenes import Scale, label_color_bar
+from holdfast.kinematics.solvers import joint_space
+
+if TYPE_CHECKING:
+    from holdfast.response.lock_survival.dynamic_program import SearchBounds
+    from holdfast.response.lock_survival.planning import LockSurvival
+
+
+_MAP_BINS = 64
+_SAMPLES_PER_NODE = 8  # places in a piece between two nodes
+
+
+def draw_survival(survival: LockSurvival) -> Figure:
+    """Draw the survival over time with that of other motions."""
+    bound = survival.survival_bound
+    level = None if bound is None else (100 * bound, "no motion survives more, in the mean")
+    motion_name = "most locks survived" if survival.found is not None else "this motion"
+    lines = {motion_name: 100 * survival.curve()} | {each.name: 100 * each.curve for each in survival.comparisons}
+    panel = TimePanel(survival.time, lines, "if a joint locks now, survived, %", "", reference_level=level)
+    return motion_figure([panel], "", "time, s", panel_width=WIDTH_IN)
+
+
+def draw_jump(survival: LockSurvival) -> Figure:
+    """Draw the velocity that the tool loses when a joint stops at once."""
+    lines = dict(zip(survival.arm.joint_names, survival.jump.linear.T, strict=True))
+    panel = TimePanel(survival.time, lines, "tool velocity lost, m/s", "")
+    return motion_figure([panel], "", "time, s", panel_width=WIDTH_IN)
+
+
+def draw_map(survival: LockSurvival) -> Figure:
+    """Draw which locks are survivable at every node, over the joint that the self-motion moves most."""
+    search = survival.found
+    assert search is not None
+    joint = int(search.moved.argmax())
+    factor, unit = survival.arm.joints[joint].display_unit
+    is_turning = joint_space.is_unlimited(survival.arm)[joint]
+
+    def display_position(q: FloatArray) -> FloatArray:
+        return np.asarray(factor * (np.arctan2(np.sin(q), np.cos(q)) if is_turning else q))
+
+    positions = display_position(np.concatenate(search.nodes)[:, joint])
+    lower, upper = positions.min(), positions.max()
+    edges = np.linspace(lower, upper + 1e-9 * (upper - lower + 1), _MAP_BINS + 1)
+    lock_fractions = survival.rates.each / survival.rates.total
+    values = np.full((survival.arm.n + 1, len(survival.time), _MAP_BINS), np.nan)
+    for pose_index in range(len(survival.time)):
+        curve_values, survives = _sample_curves(search, pose_index, joint)
+        bins = np.clip(np.searchsorted(edges, display_position(curve_values), side="right") - 1, 0, _MAP_BINS - 1)
+        order = np.argsort(survives @ lock_fractions, kind="stable")  # what is written last stays
+        values[0, pose_index, bins[order]] = 100 * (survives @ lock_fractions)[order]
+        values[1:, pose_index, bins[order]] = 100.0 * survives[order].T
+    path = display_position(survival.q[:, joint])
+    path[1:][np.abs(np.diff(path)) > (upper - lower) / 2] = np.nan  # round by way of pi
+    panels = [
+        _StripPanel(values[0], "all locks"),
+        *(
+            _StripPanel(panel, f"lock of {joint_name}")
+            for panel, joint_name in zip(values[1:], survival.arm.joint_names, strict=True)
+        ),
+    ]
+    label, ylabel = "survivable, %", f"{survival.arm.joint_names[joint]}, {unit}"
+    return _draw_strips(survival.time, edges, panels, path, scale=Scale(0.0, 100.0), label=label, ylabel=ylabel)
+
+
+def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[FloatArray, FloatArray]:
+    """Return values (N,) of a joint along the curves of a pose, denser than its nodes, with the verdicts (N, n) of the nearer
+    node.
+    """
+    values, is_connected = search.nodes[pose_index][:, joint], np.diff(search.curve[pose_index]) == 0
+    first = np.flatnonzero(is_connected)
+    fraction = np.linspace(0, 1, _SAMPLES_PER_NODE, endpoint=False)[:, None]
+    interpolated = values[first] + fraction * (values[first + 1] - values[first])
+    nearer = np.where(fraction < 0.5, first, first + 1)
+    order = np.concatenate([np.arange(len(values)), nearer.ravel()])
+    return np.concatenate([values, interpolated.ravel()]), search.survives[pose_index][order]
+
+
+# ---- strips --------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _StripPanel:
+    """Values over time and joint position.
+
+    Attributes:
+        values: (T, B) in each of B bins, NaN where there is nothing.
+        title: One line.
+    """
+
+    values: FloatArray
+    title: str
+
+
+def _draw_strips(
+    time: FloatArray,
+    edges: FloatArray,
+    panels: Sequence[_StripPanel],
+    path: FloatArray,
+    *,
+    scale: Scale,
+    label: str,
+    ylabel: str,
+) -> Figure:
+    """Draw maps in a grid, on one scale.
+
+    Args:
+        time: (T,) s.
+        edges: (B + 1,) of the bins.
+        panels: The maps.
+        path: (T,) where the motion is.
+        scale: Of the colours.
+        label: Of the colour bar.
+        ylabel: Of the places.
+    """
+    column_count = min(4, len(panels))
+    row_count = -(-len(panels) // column_count)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.2 * row_count + 1.1))
+        axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
+        for panel_axes in axes.ravel()[len(panels) :]:
+            panel_axes.set_visible(False)
+        for index, (panel_axes, panel) in enumerate(zip(axes.ravel(), panels, strict=False)):
+            _draw_strip(panel_axes, time, edges, panel, path, scale)
+            if index % column_count == 0:
+                panel_axes.set_ylabel(ylabel)
+            if index >= len(panels) - column_count:
+                panel_axes.set_xlabel("time, s")
+                panel_axes.tick_params(labelbottom=True)
+        label_color_bar(
+            figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015), label, scale
+        )
+        return settle_layout(figure)
+
+
+def _draw_strip(axes: Axes, time: FloatArray, edges: FloatArray, panel: _StripPanel, path: FloatArray, scale: Scale) -> None:
+    half_steps = np.diff(time) / 2
+    time_edges = np.concatenate([[time[0]], time[:-1] + half_steps, [time[-1]]])
+    mappable = scale.mappable
+    axes.set_facecolor(EMPTY_COLOR)
+    axes.pcolormesh(
+        time_edges, edges, mappable.to_rgba(panel.values.T) * np.isfinite(panel.values.T)[..., None], rasterized=True
+    )
+    axes.plot(time, path, color="white", linewidth=2.6)
+    axes.plot(time, path, color=INK, linewidth=1.3)
+    axes.set_title(format_label(panel.title), fontsize=9)
+    axes.grid(visible=False)
+    axes.set_xlim(time[0], time[-1])

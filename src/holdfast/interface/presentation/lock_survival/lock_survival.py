@@ -1,0 +1,292 @@
+"""Presentation of the lock survival of a motion: which locks it survives, and how many any motion could survive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import capitalise_first, format_number, format_percent
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
+from holdfast.interface.presentation.renderers import write_json
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+    from holdfast.response.lock_survival.injection import LockTests
+    from holdfast.response.lock_survival.planning import LockSurvival
+
+_NEGLIGIBLE_SPEED_M_S = 1e-9  # m/s
+_SMALL_MOTION = 0.3  # rad and m along a whole curve
+_STANDSTILL_TOLERANCE = 1e-6  # rad and m along a whole curve
+_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
+_KIND_PREFIXES = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
+
+
+def to_dict(survival: LockSurvival) -> dict[str, Any]:
+    """Return the survival with its bounds, over time and by joint."""
+    names = survival.arm.joint_names
+    lower, upper = survival.interval or (None, None)
+    worst_time, worst_survival = survival.worst
+    return {
+        **survival.arm.entry(),
+        "task": survival.task.name,
+        "mode": survival.mode,
+        "kind": survival.kind,
+        "keep": [constraint.to_dict() for constraint in survival.keep],
+        "rates": dict(zip(names, survival.rates.each, strict=True)),
+        "rates_per_second": survival.rates.per_second,
+        "survival": survival.survival,
+        "bound": survival.survival_bound,
+        "gap": survival.gap,
+        "best_within_velocity_limits": lower,
+        "best_with_spacing_on_top": upper,
+        "guaranteed": survival.survives_all_locks,
+        "lost": survival.loss_probability,
+        "safe_from_s": survival.safe_from,
+        "safe_until_s": survival.safe_until,
+        "worst": {"at_s": worst_time, "survival": worst_survival},
+        "never": None if survival.never is None else {"at_s": survival.never[0], "joint": survival.never[1]},
+        "by_joint": survival.by_joint,
+        "fraction_of_velocity_limits": survival.speed,
+        "velocity_jump": {
+            "most_linear_m_per_s": survival.jump.most_linear,
+            "most_angular_rad_per_s": survival.jump.most_angular,
+            "mean_linear_m_per_s": survival.jump.mean_linear,
+            "mean_angular_rad_per_s": survival.jump.mean_angular,
+            "linear_m_per_s": survival.jump.linear,
+            "angular_rad_per_s": survival.jump.angular,
+        },
+        "beside": {baseline.name: baseline.survival for baseline in survival.comparisons},
+        "injected": None if survival.injected is None else _lock_test_entries(survival.injected),
+        "time_s": survival.time,
+        "survival_at": survival.curve(),
+        "q": survival.q,
+    }
+
+
+def _lock_test_entries(lock_tests: LockTests) -> dict[str, Any]:
+    interval = lock_tests.interval
+    return {
+        "locks": len(lock_tests.time),
+        "survived": interval.value,
+        "low": interval.low,
+        "high": interval.high,
+        "confidence": interval.confidence,
+        "alike": lock_tests.agreement,
+        "told": int(lock_tests.told.sum()),
+        "disagreements": lock_tests.disagreements,
+    }
+
+
+def present(survival: LockSurvival) -> Presentation:
+    """Present the survival of the motion, the largest one possible, and the joints whose lock ends the motion."""
+    arm, worst_time, worst_survival = survival.arm, *survival.worst
+    verb, prefix = "may be" if survival.kind == "upper bound" else "is", _KIND_PREFIXES[survival.kind]
+    bound = "" if survival.kind == "exact" else f" ({survival.kind})"
+    facts = [
+        Fact("locks survived", survival.survival, phrase=f"of the locks on the way are survived{bound}", style="percent"),
+    ]
+    if survival.survival_bound is not None:
+        phrase = "is the most that any motion could survive, up to the grid"
+        facts.append(Fact("no motion survives more than", survival.survival_bound, phrase=phrase, style="percent"))
+    start = f"{format_number(survival.safe_from)} s"
+    phrase = f"from then on every lock {verb} survived" if 0 < survival.safe_from < survival.time[-1] else ""
+    facts += [
+        Fact(f"every lock {verb} survived from", start, phrase=phrase),
+        Fact("at the worst instant", f"{prefix}{format_percent(worst_survival)}, at {format_number(worst_time)} s"),
+        Fact("largest loss of tool velocity at a lock", f"{format_number(survival.jump.most_linear)} m/s"),
+    ]
+    figures = {
+        "survival": FigureSpec(
+            partial(_draw, survival, "survival"),
+            "Survival over time",
+            "Probability that the rest of the path can be followed if a joint locks now.",
+        )
+    }
+    if survival.found is not None:
+        held = f" All of them hold {' and '.join(survival.found.held)}, as the motion does." if survival.found.held else ""
+        figures["map"] = FigureSpec(
+            partial(_draw, survival, "map"),
+            "Which locks are survivable where",
+            "Configurations found of every pose, by the joint that self-motion moves most; of several with the same value the "
+            "best. Line: the motion. First the part of all locks that is survivable there, then for each joint whether its "
+            f"lock is (yellow).{held}",
+        )
+    figures["jump"] = FigureSpec(
+        partial(_draw, survival, "jump"),
+        "What a lock takes from the tool",
+        "Velocity of the tool point that is lost when a joint stops at once, for each joint.",
+    )
+    return Presentation(
+        "Which locks a motion survives",
+        _compose_answer(survival),
+        about=f"{arm.title}, task {survival.task.name}, {survival.path.describe()}, "
+        + ("without leaving the path" if survival.mode == "on-path" else "with detours"),
+        lines=[f"{capitalise_first(line)}." for line in _list_reasons(survival)],
+        facts=[fact for fact in facts if not fact.phrase or fact.text != "0 %"],
+        tables=_build_tables(survival),
+        figures=figures,
+        sections=partial(_build_sections, survival),
+        method=[
+            ("Failure", "one joint locks, at a random time, and stays; later locks are not counted"),
+            ("Mode", survival.mode),
+            *(("Kept before a lock and after it", str(constraint)) for constraint in survival.keep),
+            ("Rates", "per second" if survival.rates.per_second else "relative"),
+            ("Poses", f"{len(survival.time)}, evenly spaced in time"),
+        ],
+        arm=arm,
+        exports={"endurance.json": partial(write_json, survival), "motion.csv": survival.to_csv},
+    )
+
+
+def _compose_answer(survival: LockSurvival) -> str:
+    if survival.survives_all_locks:
+        return "Every lock of a joint, at any sample of the path, is survived."
+    text = f"{_KIND_PREFIXES[survival.kind]}{format_percent(survival.survival)} of all locks of a joint on the way are survived"
+    if survival.survival_bound is not None:
+        text += f"; no motion along this path survives more than {format_percent(survival.survival_bound)}"
+    if survival.comparisons:
+        best_baseline = max(survival.comparisons, key=lambda baseline: baseline.survival)
+        text += f"; of the other motions {best_baseline.name} survives most, {format_percent(best_baseline.survival)}"
+    return f"{capitalise_first(text)}."
+
+
+def _list_reasons(survival: LockSurvival) -> list[str]:
+    """List the kind of the bound, the constraints, the injected locks, and the joints that no motion can save."""
+    lines, conditions, redundancy = [], survival.conditions, survival.redundancy
+    if survival.kind == "lower bound":
+        cone_text = ", or the axis that is kept in a cone and fewer joints" if conditions.left_to_arm else ""
+        lines.append(
+            "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
+            f"that hold {redundancy - 1} more of its joints{cone_text}"
+            if survival.mode == "on-path"
+            else "a lower bound: of the poses to come only what inverse kinematics found with the joint locked counts"
+        )
+    elif survival.found is not None:
+        lower, upper = survival.found.interval
+        best = "none is found" if np.isnan(lower) else f"the best survives {format_percent(lower)}"
+        lines.append(
+            f"the bound of every motion holds up to the grid of {len(survival.time)} poses and {survival.found.spacing:g} rad; "
+            f"over its nodes within the velocity limits {best}, with the spacing on top of them {format_percent(upper)}"
+        )
+    if survival.kept is not None and survival.kind != "lower bound":
+        lines.append("clearance is judged by shapes that cover the links; the arm is smaller and may survive more")
+    if survival.keep:
+        task_text = "" if conditions.left_to_arm else ", by the rows of the path alone"
+        lines.append(f"kept at every sample, before a lock and after it{task_text}: {'; '.join(map(str, survival.keep))}")
+    if survival.injected is not None:
+        interval = survival.injected.interval
+        lines.append(
+            f"of {len(survival.injected.time)} locks injected at random times {format_percent(interval.value)} were survived "
+            f"({format_percent(interval.low)} to {format_percent(interval.high)}, 95 %), "
+            f"{format_percent(survival.injected.agreement)} of them as the motion says"
+        )
+    if survival.never is not None:
+        time, name = survival.never
+        lines.append(
+            f"no motion survives all: at {format_significant(time)} s no configuration survives every lock, "
+            f"least of all {name}'s"
+        )
+    lines += _explain_pose_limits(survival)
+    if survival.speed > 1 + _PROBABILITY_TOLERANCE:
+        lines.append(f"the motion takes {survival.speed:.3g} times the velocity limit of a joint: slow the path down")
+    if survival.loss_probability is not None:
+        lines.append(f"probability that a lock loses the path: {survival.loss_probability:.3g}")
+    if survival.kind == "upper bound":
+        condition_text = "that keep what is kept" if survival.keep else "among obstacles"
+        lines.append(f"detours {condition_text} were not looked for: every probability is an upper bound")
+    jump = survival.jump
+    lines.append(
+        f"when a joint stops at once the tool loses at most {jump.most_linear:.3g} m/s and {jump.most_angular:.3g} rad/s, in "
+        f"the mean {jump.mean_linear:.3g} m/s and {jump.mean_angular:.3g} rad/s"
+    )
+    return lines
+
+
+def _explain_pose_limits(survival: LockSurvival) -> list[str]:
+    """Explain why some locks are hardly survived by any motion, for full poses mostly that of an elbow."""
+    if survival.found is None or survival.kind == "lower bound":
+        return []
+    is_fixed = (survival.found.moved <= _SMALL_MOTION) & (survival.rates.each > 0) & ~survival.survives.all(axis=0)
+    lines = []
+    for index in np.flatnonzero(is_fixed):
+        joint, motion_range = survival.arm.joints[index], survival.found.moved[index]
+        range_text = f" by more than {motion_range:.3g} {joint.unit}" if motion_range > _STANDSTILL_TOLERANCE else ""
+        lines.append(
+            f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical shoulder and "
+            "wrist their distance does), so that its lock is survived only while that hardly changes"
+        )
+    return lines
+
+
+def _build_tables(survival: LockSurvival) -> list[TableSpec]:
+    """Tabulate the survival of each joint, and that of other motions."""
+    lock_fractions = survival.rates.each / survival.rates.total
+    joint_results = zip(survival.by_joint.items(), lock_fractions, survival.jump.linear.T, strict=True)
+    joints = TableSpec(
+        "Survival by joint",
+        [
+            Column("joint", "joint"),
+            Column("part", "part of all locks", style="percent"),
+            Column("survived", "of its locks survived", style="percent"),
+            Column("loss", "largest loss of tool velocity"),
+        ],
+        [
+            [name, float(fraction), survived, _format_largest(velocity_loss, survival.time)]
+            for (name, survived), fraction, velocity_loss in joint_results
+        ],
+    )
+    motion_name = "most locks survived" if survival.found is not None else "this motion"
+    motions = TableSpec(
+        "Other motions along the path",
+        [
+            Column("motion", "motion"),
+            Column("survival", "locks survived", style="percent"),
+            Column("off", "off the path", style="percent"),
+        ],
+        [
+            [motion_name, survival.survival, 0.0],
+            *([baseline.name, baseline.survival, baseline.off] for baseline in survival.comparisons),
+        ],
+    )
+    return [joints, motions] if survival.comparisons else [joints]
+
+
+def _format_largest(values: FloatArray, time: FloatArray) -> str:
+    """Format the largest of speeds (T,) with its time; 0 where it is rounding."""
+    largest = float(values.max())
+    if largest <= _NEGLIGIBLE_SPEED_M_S:
+        return "0 m/s"
+    return f"{format_number(largest)} m/s, at {format_number(time[values.argmax()])} s"
+
+
+def _build_sections(survival: LockSurvival) -> Sequence[Section]:
+    """Animate the arm along its path."""
+    from holdfast.interface.presentation.arm.view import scene
+    from holdfast.interface.report.page import Picture, Section
+
+    view = scene(
+        survival.arm,
+        survival.q,
+        time=np.linspace(0.0, survival.time[-1], len(survival.time)),
+        path=survival.poses[:, :3, 3],
+        readings=[
+            f"{instant:.2f} s, {format_percent(survived)} of the locks survived"
+            for instant, survived in zip(survival.time, survival.curve(), strict=True)
+        ],
+        cell=None if survival.kept is None else survival.kept[0].cell,
+    )
+    description = f"{survival.arm.name} moving along its path"
+    return [Section("The motion", [Picture(view.to_html("motion", description), "The arm on its path (orange).")])]
+
+
+def _draw(survival: LockSurvival, name: str) -> Figure:
+    from holdfast.interface.presentation.lock_survival import figures
+
+    return getattr(figures, f"draw_{name}")(survival)  # type: ignore[no-any-return]

@@ -1,0 +1,250 @@
+"""Presentation of a recovery: whether the goal is met with the locked joints, the motion, and the remaining workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import capitalise_first, format_count
+from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
+from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
+from holdfast.interface.presentation.renderers import sentences, write_json
+from holdfast.model.collision.exact.exact_clearance import ExactClearance
+from holdfast.response.recovery.recovery import RecoveryOutcome
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+    from holdfast.response.recovery.goals import RelaxedRows
+    from holdfast.response.recovery.recovery import Recovery
+    from holdfast.response.recovery.timing.motion import TimedMotion
+
+_TIMING_CAPTION = "Rates and accelerations of the joints, each in parts of its limit, over time."
+
+
+def to_dict(recovery: Recovery) -> dict[str, Any]:
+    """Return the outcome, the motion, its check, the remaining workspace, and the relaxed rows."""
+    path_rest, timed_motion = recovery.rest, recovery.timed
+    return {
+        **recovery.arm.entry(),
+        "fingerprint": recovery.arm.fingerprint,
+        "locked": recovery.locked,
+        "degraded": recovery.degraded.to_dict(),
+        "goal": recovery.goal,
+        "task": recovery.task.name,
+        "within": recovery.within,
+        "ok": recovery.ok,
+        "ending": recovery.ending.name.lower(),
+        "sentence": recovery.ending.sentence,
+        "reason": recovery.reason,
+        "given_up": _relaxed_misses(recovery.relaxed),
+        "choices": [_relaxed_misses(choice) for choice in recovery.choices],
+        "verdict": {"answer": recovery.verdict.answer, "why": recovery.verdict.why, "kind": recovery.verdict.kind or None},
+        "verified": None
+        if recovery.verified is None
+        else {
+            "ok": recovery.verified.ok,
+            "faults": recovery.verified.faults,
+            "exact_by": recovery.verified.exact_by,
+            "goal_miss": recovery.verified.goal_miss,
+            "path_miss": recovery.verified.path_miss,
+            "kept": [{"off": deviation, "turned": tilt} for deviation, tilt in recovery.verified.kept],
+        },
+        "proof": recovery.proof,
+        "goal_configurations_found": recovery.found,
+        "starts": recovery.starts,
+        "metric": recovery.metric,
+        "unit": recovery.unit,
+        "length": recovery.length,
+        "lower_bound": recovery.lower_bound,
+        "legs": [
+            {"name": leg.name, "first": leg.first, "last": leg.last, "length": leg.length, "lower_bound": leg.lower_bound}
+            for leg in recovery.legs
+        ],
+        "joints": recovery.arm.joint_names,
+        "waypoints": recovery.q,
+        "timed": None
+        if timed_motion is None
+        else {
+            "duration_s": timed_motion.duration,
+            "without_accelerations_s": timed_motion.without,
+            "accelerations": timed_motion.accelerations,
+            "stops": timed_motion.stops,
+            "rows": len(timed_motion.time),
+            "period_s": timed_motion.period,
+        },
+        "check": recovery.check().to_dict() if len(recovery.q) else None,
+        "clearance": None if recovery.clearance is None else summarize_shape(recovery.clearance, recovery.margin),
+        "keep": [constraint.to_dict() for constraint in recovery.keep],
+        "left": None if recovery.left is None else recovery.left.to_dict(),
+        "rest_of_path": None
+        if path_rest is None
+        else {
+            "finished": path_rest.finished,
+            "furthest": path_rest.furthest,
+            "first_lost": path_rest.first_lost,
+            "deviation": path_rest.deviation,
+            "given_up": _relaxed_misses(path_rest.given_up),
+        },
+        "seed": recovery.seed,
+    }
+
+
+def _relaxed_misses(relaxed_rows: RelaxedRows | None) -> dict[str, float] | None:
+    """Return the errors of the relaxed rows by name with their unit."""
+    if relaxed_rows is None:
+        return None
+    return {
+        f"{name}_{unit}": residual
+        for name, unit, residual in zip(relaxed_rows.names, relaxed_rows.units, relaxed_rows.misses, strict=True)
+    }
+
+
+def present(recovery: Recovery) -> Presentation:
+    """Present whether the goal is met, the motion with its checks, and the remaining workspace."""
+    arm = recovery.arm
+    remainder = None if recovery.left is None else present_remainder(recovery.left)
+    timing = None if recovery.timed is None else FigureSpec(partial(_draw, recovery, "timing"), "The timing", _TIMING_CAPTION)
+    exports: dict[str, Any] = {"recovery.json": partial(write_json, recovery)}
+    return Presentation(
+        f"{arm.name} after a known failure",
+        _compose_answer(recovery),
+        about=f"{arm.title}, {recovery.degraded.describe()}; goal: {recovery.goal}",
+        lines=[*_list_reasons(recovery), *([] if remainder is None else [remainder.answer])],
+        facts=[*_list_facts(recovery), *([] if remainder is None else remainder.facts)],
+        tables=[_tabulate_joints(recovery)],
+        figures={
+            "motion": FigureSpec(partial(_draw, recovery, "motion"), on_page=False),
+            **({} if timing is None else {"timing": timing}),
+            **({} if remainder is None else remainder.figures),
+        },
+        sections=partial(_build_sections, recovery),
+        method=[
+            ("Goal", recovery.goal),
+            ("Task", recovery.task.describe()),
+            ("Search", f"{recovery.starts} random starts for configurations of the goal, seed {recovery.seed}"),
+            (
+                "Shortest",
+                "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
+            ),
+            *([] if recovery.timed is None else [("Timing", _describe_timing(recovery.timed))]),
+            *(("Kept all the way", str(constraint)) for constraint in recovery.keep),
+            ("Verified", "there is no motion" if recovery.verified is None else str(recovery.verified)),
+            (
+                "Clearance",
+                "not looked at" if recovery.clearance is None else describe_shape(recovery.clearance, recovery.margin),
+            ),
+        ],
+        arm=arm,
+        exports=exports | ({"waypoints.csv": recovery.to_csv} if len(recovery.q) else {}),
+    )
+
+
+def _compose_answer(recovery: Recovery) -> str:
+    answer = f"With {recovery.degraded.describe()}, {recovery.ending.sentence}"
+    if recovery.relaxed is not None:
+        answer += f", given up: {recovery.relaxed}"
+    if len(recovery.q) > 1:
+        is_shortest = recovery.length <= recovery.lower_bound * (1 + 1e-9)
+        bound = f"at least {format_significant(recovery.lower_bound)} are needed"
+        bound = "no route to any configuration found is shorter" if is_shortest else bound
+        answer += (
+            f"; the motion has {format_count(len(recovery.q), 'waypoint')} and {format_significant(recovery.length)} "
+            f"{recovery.unit}, {bound}"
+        )
+    elif recovery.ending == RecoveryOutcome.GOAL_REACHED:
+        answer += "; the arm is there already"
+    if not recovery.ok:
+        kind = f" ({recovery.verdict.kind})" if recovery.verdict.kind else ""
+        answer += f". What was asked for as a whole is {recovery.verdict.answer}{kind}"
+    return f"{answer}."
+
+
+def _list_reasons(recovery: Recovery) -> list[str]:
+    """List the verdict with its reason, the legs of the motion, and the results of the replay."""
+    is_verified = recovery.verdict.is_solved and recovery.verified is not None
+    lines = [f"verdict: {recovery.verdict}" + (f", {recovery.verified}" if is_verified else "")]
+    lines += [f"kept all the way: {constraint}" for constraint in recovery.keep]
+    if recovery.reason and recovery.reason != recovery.verdict.why:
+        lines.append(recovery.reason)
+    if len(recovery.q) and isinstance(recovery.clearance, ExactClearance):
+        lines.append(f"by the bound this is not clear; it is by exact distances ({recovery.clearance.exact_by}), all the way")
+    other_options = [
+        str(option)
+        for option in recovery.choices
+        if recovery.relaxed is None or not set(option.names) <= set(recovery.relaxed.names)
+    ]
+    if other_options:
+        lines.append("other sets of rows that could be given up: " + "; ".join(other_options[:6]))
+    for leg in recovery.legs:
+        text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {format_significant(leg.length)} {recovery.unit}"
+        if leg.name != "along the path":
+            kind = "a straight line" if leg.straight else "the shortest route found"
+            is_shortest = leg.length <= leg.lower_bound * (1 + 1e-9)
+            bound = "no route" if is_shortest else f"lower bound {format_significant(leg.lower_bound)} {recovery.unit}"
+            text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if is_shortest else ''})"
+        lines.append(text)
+    lines += [part.describe() for part in (recovery.timed, recovery.rest) if part is not None]
+    if len(recovery.q):
+        shape_note = "" if recovery.clearance is None else f" ({describe_shape(recovery.clearance, recovery.margin)})"
+        lines += [
+            f"independent replay: {sentence.removesuffix('.')}{shape_note * sentence.startswith('Least')}"
+            for sentence in sentences(recovery.check())
+        ]
+    return [f"{capitalise_first(line).removesuffix('.')}." for line in lines]
+
+
+def _list_facts(recovery: Recovery) -> list[Fact]:
+    facts = []
+    if len(recovery.q) > 1:
+        label = "length of the motion" if recovery.unit == "rad" else "duration of the motion"
+        facts.append(Fact(label, recovery.length, recovery.unit, phrase=label))
+        facts.append(Fact("waypoints", len(recovery.q), phrase="waypoints, with straight lines in joint space between them"))
+        if recovery.timed is not None:
+            label = "duration within the accelerations given"
+            facts.append(Fact(label, recovery.timed.duration, "s", phrase=label))
+    if recovery.found:
+        facts.append(Fact("configurations of the goal found", recovery.found, phrase="configurations of the goal were found"))
+    return facts
+
+
+def _tabulate_joints(recovery: Recovery) -> TableSpec:
+    configurations = recovery.q[[0, -1]] if len(recovery.q) > 1 else recovery.at[None].repeat(2, axis=0)
+    factors, units = zip(*(joint.display_unit for joint in recovery.arm.joints), strict=True)
+    start, end = np.array(factors) * configurations
+    marks = [recovery.degraded.mark(name) for name in recovery.arm.joint_names]
+    columns = [Column("joint", "joint"), Column("start", "start", units), Column("end", "end", units), Column("mark", "")]
+    rows = list(zip(recovery.arm.joint_names, start.tolist(), end.tolist(), marks, strict=True))
+    return TableSpec("Where the joints begin and end", columns, rows)
+
+
+def _describe_timing(timed_motion: TimedMotion) -> str:
+    moving_joints = np.flatnonzero(timed_motion.accelerations)
+    limits = ", ".join(
+        dict.fromkeys(
+            f"{format_significant(timed_motion.accelerations[joint])} {timed_motion.arm.joints[joint].unit}/s²"
+            for joint in moving_joints
+        )
+    )
+    return (
+        f"as fast as the speed limits and accelerations of {limits} allow, corners rounded where that is proved, by parabolas; "
+        f"rows every {format_significant(timed_motion.period)} s"
+    )
+
+
+def _build_sections(recovery: Recovery) -> Sequence[Section]:
+    from holdfast.interface.presentation.recovery.recovery_figures import build_sections
+
+    return build_sections(recovery)
+
+
+def _draw(recovery: Recovery, name: str) -> Figure:
+    from holdfast.interface.presentation.recovery import recovery_figures
+
+    return recovery_figures.draw_timing(recovery) if name == "timing" else recovery_figures.draw_motion(recovery)

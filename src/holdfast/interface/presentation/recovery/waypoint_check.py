@@ -1,0 +1,60 @@
+"""Presentation of the replay of waypoints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from holdfast.core.formatting import capitalise_first
+from holdfast.interface.presentation.presentation import Presentation
+from holdfast.interface.presentation.printing import format_significant
+
+if TYPE_CHECKING:
+    from holdfast.response.recovery.waypoints import WaypointCheck
+
+
+def to_dict(check: WaypointCheck) -> dict[str, Any]:
+    """Return the satisfied and the violated constraints, and the final pose of the end effector."""
+    return {
+        "ok": check.ok,
+        "waypoints": len(check.q),
+        "configurations_looked_at": check.looked_at,
+        "beyond_limits": check.beyond_limits,
+        "locks_moved": check.locks_moved,
+        "too_fast": check.too_fast,
+        "too_hard": check.too_hard,
+        "least_clearance_m": check.least_clearance,
+        "least_room_m": check.least_room,
+        "closest": check.closest or None,
+        "margin_m": check.margin,
+        "kept": [not violation for violation in check.kept],
+        "tool_at_end": check.poses[-1],
+    }
+
+
+def present(check: WaypointCheck) -> Presentation:
+    """Present the satisfied and the violated constraints."""
+    verdict = "keep everything that was asked for" if check.ok else "do NOT keep everything that was asked for"
+    lines = [f"{name} leaves its limits by {format_significant(excess)}" for name, excess in check.beyond_limits.items()]
+    lines += [
+        f"{name} should be locked and moves {format_significant(excess)} away" for name, excess in check.locks_moved.items()
+    ]
+    lines += [f"{name} is too fast: {format_significant(rate)} a second" for name, rate in check.too_fast.items()]
+    lines += [f"{name} accelerates by {format_significant(rate)} a second squared" for name, rate in check.too_hard.items()]
+    lines += [f"the tool is {violation}" for violation in check.kept if violation]
+    if check.kept and not any(check.kept):
+        lines.append("what is kept all the way is kept")
+    if check.least_clearance is None:
+        lines.append("clearance was not looked at")
+    else:
+        pair_text = f"{check.closest}, " if check.closest else ""
+        clearance, outcome = format_significant(check.least_clearance), "kept" if check.is_collision_free else "NOT KEPT"
+        lines.append(f"least clearance {clearance} m ({pair_text}margin {check.margin:g} m): {outcome}")
+    if not check.beyond_limits and not check.locks_moved:
+        lines.append("limits and locks are kept")
+    if check.paced and not check.too_fast and not check.too_hard:
+        lines.append(f"{check.paced} are kept")
+    return Presentation(
+        "Replay of waypoints",
+        f"The {len(check.q):,} waypoints {verdict}, at {check.looked_at:,} configurations on the way.",
+        lines=[f"{capitalise_first(line)}." for line in lines],
+    )

@@ -1,0 +1,228 @@
+"""Presentation of a study: its progress, and its report on the fractions that each arm retains, under which law."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from holdfast.core.errors import StoreError
+from holdfast.core.formatting import format_count, format_duration, list_alternatives
+from holdfast.core.progress import reports_progress
+from holdfast.core.sweeps.study import Study
+from holdfast.core.typing import T
+from holdfast.interface.presentation.presentation import Column, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.studies.answer import compose_answer, list_leaders
+from holdfast.studies.assessment.plan import AssessmentPlan
+from holdfast.studies.assessment.single_points import Structure, structure
+from holdfast.studies.study_files import results
+from holdfast.studies.study_files.ranking import Ended, Key, make_structure_key, rank_arms
+from holdfast.studies.study_files.results import AssessedCell
+from holdfast.studies.study_files.study_file import read_thresholds
+
+if TYPE_CHECKING:
+    from holdfast.interface.report.page import Block
+
+_MAX_TABLE_CELLS = 40  # cells in a table
+
+
+def to_dict(study: Study) -> dict[str, Any]:
+    """Return the progress of a study, cell by cell, as JSON data."""
+    cells = study.status()
+    return {
+        "folder": str(study.path),
+        "name": study.name,
+        "seed": study.seed,
+        "digest": study.digest,
+        "complete": all(cell.is_complete for cell in cells),
+        "chunks": sum(cell.chunks for cell in cells),
+        "chunks_done": sum(cell.chunks_done for cell in cells),
+        "thread_seconds": sum(cell.seconds for cell in cells),
+        "cells": [
+            {
+                "name": cell.name,
+                "chunks": cell.chunks,
+                "chunks_done": cell.chunks_done,
+                "rows": cell.rows,
+                "rows_done": cell.rows_done,
+            }
+            for cell in cells
+        ],
+        "made_by": study.makers,
+    }
+
+
+def present(study: Study) -> Presentation:
+    """Present the progress of a study; of many cells the table has only those that are not complete."""
+    cells = study.status()
+    done, total = sum(cell.chunks_done for cell in cells), sum(cell.chunks for cell in cells)
+    state = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
+    spent = format_duration(sum(cell.seconds for cell in cells))
+    listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
+    is_cut = len(listed_cells) > _MAX_TABLE_CELLS
+    columns = [Column("name", "cell"), Column("rows", "rows"), Column("chunks", "chunks"), Column("seconds", "processor time")]
+    rows = [
+        (
+            cell.name,
+            f"{cell.rows_done:,} of {cell.rows:,}",
+            f"{cell.chunks_done:,} of {cell.chunks:,}",
+            format_duration(cell.seconds),
+        )
+        for cell in listed_cells[:_MAX_TABLE_CELLS]
+    ]
+    title = f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if is_cut else ""
+    answer = f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {state}, {spent} of processor time to compute"
+    return Presentation(study.name, answer, tables=[TableSpec(title, columns, rows)])
+
+
+@reports_progress("drawing the report")
+def write(study: Study, path: Path, command: str = "") -> Path:
+    """Write the report of a study, also of one that is not complete; the report contains the instructions that repeat it.
+
+    Raises:
+        StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
+    """
+    from holdfast.interface.presentation.renderers import build_page
+    from holdfast.interface.report import page
+
+    return page.write(build_page(present_results(study), command), path)
+
+
+def save(study: Study, folder: Path, command: str = "") -> list[Path]:
+    """Write the report into a folder."""
+    return [write(study, folder / "report.html", command)]
+
+
+def present_results(study: Study) -> Presentation:
+    """Present the results: the arm and the law that retain most, with the reasons.
+
+    Raises:
+        StoreError: Nothing is computed, or a chunk is damaged.
+    """
+    cells = study.status()
+    chunks_done, chunk_count = sum(item.chunks_done for item in cells), sum(item.chunks for item in cells)
+    if not chunks_done:
+        raise StoreError(f"nothing of '{study.path}' is computed yet; run the study first")
+    assessed = read_cells(study, "assess", results.read_assessment)
+    laws = [result for result in read_cells(study, "convergence", results.read_convergence) if result is not None]
+    sweeps = [item for item in read_cells(study, "designs", results.read_design_sweep) if item is not None]
+    limits, fatal_structures = _choose_thresholds(study, assessed), find_fatal_structures(assessed)
+    ranking = rank_arms(
+        assessed,
+        laws,
+        limits,
+        {key: _format_fatal_joints(job_plan, item) for key, (job_plan, item) in fatal_structures.items()},
+    )
+    missing = f"{chunks_done:,} of {chunk_count:,} chunks are computed; run the same command again to resume."
+    arm_names = list(dict.fromkeys(cell["labels"]["arm"] for cell in study.cells))
+
+    def build_sections() -> Sequence[Any]:
+        from holdfast.interface.presentation.studies.sections import build_sections
+
+        return build_sections(study, assessed, laws, sweeps, limits, fatal_structures, ranking)
+
+    return Presentation(
+        study.name,
+        compose_answer(ranking, sweeps, has_rankings=bool(assessed or laws or not sweeps)),
+        about=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
+        notices=[Notice(missing, "bad", "Not complete.")] if chunks_done < chunk_count else [],
+        facts=list_leaders(ranking),
+        sections=build_sections,
+        method=_list_method(study, assessed),
+        again=partial(_build_rerun_blocks, study),
+    )
+
+
+def read_cells(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
+    """Read the results of the cells of one kind of job, as far as they exist."""
+    matching = [cell for cell in range(len(study.cells)) if results.read_labels(study, cell)["job"] == job]
+    return [read(study, cell) for cell in matching if study.cell_folder(cell).exists()]
+
+
+def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[Key, float]:
+    """Return the threshold of each index and task: the one of the study file, else one chosen from the results."""
+    specified = read_thresholds(study.source)
+    groups: dict[Key, list[AssessedCell]] = {}
+    for entry in assessed:
+        groups.setdefault(get_index_key(entry), []).append(entry)
+    return {key: specified.get(key[0], results.choose_threshold(group)) for key, group in groups.items()}
+
+
+def get_index_key(assessed: AssessedCell) -> Key:
+    """Return the index and the task of a cell."""
+    return assessed.labels["index"], assessed.labels["task"]
+
+
+def find_fatal_structures(assessed: Sequence[AssessedCell]) -> dict[Ended, tuple[AssessmentPlan, Structure]]:
+    """Return the structure of each arm and task that some lock makes impossible in every configuration, with its plan."""
+    fatal: dict[Ended, tuple[AssessmentPlan, Structure]] = {}
+    structures: dict[tuple[str, str], Structure] = {}
+    for entry in assessed:
+        if entry.labels.get("failures", "single") == "single":
+            job_plan, key = entry.plan, (entry.plan.arm.fingerprint, entry.plan.index.task.name)
+            if key not in structures:
+                structures[key] = structure(job_plan.arm, job_plan.index.task)
+            if not structures[key].survives:
+                fatal.setdefault(make_structure_key(entry), (job_plan, structures[key]))
+    return fatal
+
+
+def _format_fatal_joints(plan: AssessmentPlan, analysis: Structure) -> str:
+    """Name the joints whose lock ends a task in every configuration."""
+    return list_alternatives([plan.arm.joint_names[joint] for joint in analysis.fatal]) if analysis.fatal else "any joint"
+
+
+def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[str, str]]:
+    cells = study.status()
+    samples = sum(cell.rows_done for cell in cells)
+    processor_time, wall_time = sum(cell.seconds for cell in cells), sum(finished_run["seconds"] for finished_run in study.runs)
+    size = sum(results.stored_size_bytes(study.cell_store(k)) for k in range(len(cells)) if study.cell_folder(k).exists())
+    entries = [
+        ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
+        (
+            "Cells",
+            f"{len(cells):,}, {sum(cell.chunks_done for cell in cells):,} of {sum(cell.chunks for cell in cells):,} chunks",
+        ),
+        ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
+        (
+            "Time",
+            f"{format_duration(processor_time)} of processor time to compute; runs that ended took "
+            f"{format_duration(wall_time)}",
+        ),
+        ("On the disk", f"{size / 1e6:.3g} MB"),
+    ]
+    for position, run in enumerate(study.runs[-5:]):
+        run_text = f"{run['started']}: {run['chunks']:,} chunks in {format_duration(run['seconds'])} on {run['on']}"
+        entries.append(("Runs" if not position else "", run_text))
+    for position, maker in enumerate(study.makers):
+        entries.append(("Computed on" if not position else "", _describe_maker(maker)))
+    if len(study.makers) > 1:
+        entries.append(("Agreement", "computed on one of these alone, values agree to 1e-12; on one kind, in every bit"))
+    for region in dict.fromkeys((entry.labels["arm"], entry.plan.region.describe()) for entry in assessed):
+        entries.append((f"Region of {region[0]}", region[1]))
+    entries.append(
+        ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
+    )
+    return entries
+
+
+def _describe_maker(maker: dict[str, Any]) -> str:
+    versions = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+    return f"{maker['processor']}; Python {maker['python']}, {versions}"
+
+
+def _build_rerun_blocks(study: Study) -> list[Block]:
+    from markupsafe import Markup
+
+    from holdfast.interface.report.page import Code, Text
+
+    blocks: list[Block] = [Text("Same file, same versions, same kind of processor: the same bits.", quiet=True)]
+    if study.source:
+        lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        commands = [
+            Code("holdfast study run study.yaml --out DIR"),
+            Code("\n".join(lines), Markup("with <code>study.yaml</code>:")),
+        ]
+        return [*commands, *blocks]
+    return blocks

@@ -1,0 +1,177 @@
+"""Presentation of a run with faults: the outcome, the events, the alarms, and the actions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import capitalise_first
+from holdfast.interface.presentation.collision.contacts import list_contacts
+from holdfast.interface.presentation.collision.shape import describe_shape
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
+from holdfast.response.supervisor.run import OUTCOME_PHRASES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+    from holdfast.response.supervisor.run import FaultRun
+
+_RESPONSE_PHRASES = {
+    "none": "nobody notices",
+    "stop": "everything stops at an alarm",
+    "chain": "the controller reacts to what the monitor names",
+    "known": "every fault is known at once",
+}
+_CAPTION = (
+    "What the tool still has to go, how far each joint is behind its reference, and where the joints are. Upright lines: a "
+    "fault begins; it is noticed; something is done."
+)
+_MAX_POINTS = 1500  # of a line
+_MIN_PLOTTED_ERROR = 1e-5  # rad or m
+
+
+def to_dict(run: FaultRun) -> dict[str, Any]:
+    """Return the faults, the alarms, the actions, and the outcome."""
+    return {
+        **run.arm.entry(),
+        "outcome": run.outcome,
+        "ok": run.ok,
+        "react": run.react,
+        "time_s": run.time[-1],
+        "miss_m": run.position_error[-1],
+        "turn_rad": run.orientation_error[-1] if run.law.task.angular else None,
+        "faults": [event.to_stored() for event in run.events],
+        "id": run.events.id,
+        "noticed_s": run.detection_time,
+        "alarms": [{"time_s": verdict.time, "joint": verdict.joint, "kind": verdict.kind} for verdict in run.verdicts],
+        "actions": [
+            {"time_s": action.time, "what": action.what, "joint": action.joint, "why": action.why} for action in run.actions
+        ],
+        "braked": {} if run.degraded is None else dict(run.degraded.locked),
+        "q_final": dict(zip(run.arm.joint_names, run.q[-1], strict=True)),
+        "body_seed": run.body.seed,
+        "control_rate_hz": run.servos.rate,
+    } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
+
+
+def present(run: FaultRun) -> Presentation:
+    """Present the outcome, the times of faults and alarms, and the actions."""
+    angle_text = f" and {np.rad2deg(run.orientation_error[-1]):.3g} deg" if run.law.task.angular else ""
+    answer = (
+        f"{capitalise_first(OUTCOME_PHRASES[run.outcome])} ({_RESPONSE_PHRASES[run.react]}), "
+        f"{1e3 * run.position_error[-1]:.3g} mm{angle_text} off after {run.time[-1]:.4g} s."
+    )
+    lines = [] if run.events else ["no fault in this episode"]
+    if not run.actions and run.react != "none":
+        lines.append("nothing was noticed")
+    if run.contacts is not None:
+        lines += [contact.sentence() for contact in run.contacts] or ["it touched nothing"]
+    if run.false_alarm:
+        lines.append("the first alarm is false, nothing had failed: the bounds do not hold for this motion")
+    lines.append("everything here is simulated; the monitor and the reaction are no certified safety function")
+    distance = Fact(
+        "tool to its target at the end",
+        1e3 * run.position_error[-1],
+        "mm",
+        phrase="from the tool to its target at the end",
+        digits=3,
+    )
+    facts = [distance]
+    if np.isfinite(run.delay) and run.delay >= 0:
+        facts.append(Fact("fault to alarm", 1e3 * run.delay, "ms", phrase="from the fault to the alarm", digits=3))
+    events = [(event.onset, event.sentence()) for event in run.events]
+    events += [(action.time, action.sentence()) for action in run.actions]
+    names = run.arm.joint_names
+    rows = [
+        [time, sentence if sentence.split(":")[0] in names else capitalise_first(sentence)] for time, sentence in sorted(events)
+    ]
+    table = TableSpec("In order of time", [Column("time", "time, s", aligned=False), Column("event", "event")], rows)
+    return Presentation(
+        f"{run.arm.name} with faults",
+        answer,
+        about=f"{run.arm.title}, {run.law.describe()}",
+        lines=[f"{line if line.split(':')[0] in names else capitalise_first(line)}." for line in lines],
+        facts=facts,
+        tables=[table] if rows else [],
+        figures={"chain": FigureSpec(partial(_draw_run, run), "Over time", _CAPTION)},
+        sections=partial(_build_sections, run),
+        method=[
+            ("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
+            ("Clearance", "not looked at" if run.clearance is None else describe_shape(run.clearance, 0.0)),
+        ],
+        arm=run.arm,
+    )
+
+
+def _build_sections(run: FaultRun) -> Sequence[Section]:
+    from holdfast.interface.presentation.arm.view import scene
+    from holdfast.interface.report.page import Picture, Section
+
+    frame_indices = np.linspace(0, len(run.time) - 1, min(201, len(run.time))).astype(int)
+    locked_joints = {} if run.degraded is None else run.degraded.locked
+    brake_times = {
+        action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
+    }
+    caption = "The arm as it moved; joints that were braked are marked from then on."
+    motion_scene = scene(
+        run.arm,
+        run.q[frame_indices],
+        time=run.time[frame_indices],
+        readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
+        locked=brake_times,
+        targets=[run.target if run.law.task.angular else run.target[:3, 3]],
+        cell=None if run.clearance is None else run.clearance.cell,
+    )
+    return [Section("The motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
+
+
+def _draw_run(run: FaultRun) -> Figure:
+    """Draw over time the distance of the tool from its target, the tracking errors of the joints, and the joints."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report import figures as style
+
+    samples = np.unique(np.linspace(0, len(run.time) - 1, _MAX_POINTS).astype(int))
+    time, faulty_joints = run.time[samples], {event.joint for event in run.events}
+    unit = "rad or m" if run.arm.prismatic.any() else "rad"
+    with style.style():
+        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 6.2))
+        distance_axes, error_axes, joint_axes = figure.subplots(3, 1, sharex=True)
+        distance_axes.plot(time, 1e3 * run.position_error[samples], color=style.BLUE)
+        distance_axes.set(ylabel="mm", title="Tool to its target", ylim=(0, None))
+        tracking_error = np.abs(run.reference - run.q_measured)
+        for index, name in enumerate(run.arm.joint_names):
+            is_faulty = name in faulty_joints
+            line_style = {
+                "color": style.ORANGE if is_faulty else style.SKY,
+                "linewidth": 1.6 if is_faulty else 0.9,
+                "zorder": 2 + is_faulty,
+            }
+            error_axes.plot(time, np.maximum(tracking_error[samples, index], _MIN_PLOTTED_ERROR), **line_style)
+            joint_axes.plot(time, run.q[samples, index], label=name if is_faulty else None, **line_style)
+        error_axes.set(ylabel=unit, title="Joints behind their references", yscale="log")
+        joint_axes.set(ylabel=unit, title="Joints", xlabel="time, s", xlim=(0, max(float(time[-1]), 1e-3)))
+        if faulty_joints:
+            joint_axes.legend(loc="best", fontsize=8)
+        _mark_events(run, [distance_axes, error_axes, joint_axes])
+        figure.suptitle(style.format_label(f"{run.arm.name}, {run.law.name}: {run.outcome}", 200), fontsize=9, color=style.SOFT)
+        return style.settle_layout(figure)
+
+
+def _mark_events(run: FaultRun, panels: Sequence[Axes]) -> None:
+    """Draw a vertical line for each fault and action, and list them in the first panel."""
+    from holdfast.interface.report import figures as style
+
+    moments = [(event.onset, f"fault: {event.kind}", style.ORANGE) for event in run.events if event.onset <= run.time[-1]]
+    moments += [(action.time, action.what, style.INK) for action in run.actions]
+    for time, _, color in moments:
+        for axes in panels:
+            axes.axvline(time, color=color, linewidth=0.9, linestyle="--" if color == style.INK else "-")
+    legend_text = "\n".join(f"{time:.3f} s  {label}" for time, label, _ in sorted(moments)[:9])
+    panels[0].text(0.985, 0.95, legend_text, transform=panels[0].transAxes, fontsize=7.5, ha="right", va="top")

@@ -1,0 +1,291 @@
+"""Presentation of the analysis of an experiment: the effect of the law on the operators with the failed arm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_decimals, format_number
+from holdfast.interface.presentation import renderers
+from holdfast.interface.presentation.presentation import Column, FigureSpec, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.printing import to_json_types
+from holdfast.interface.presentation.teleop.tables import write_tables
+from holdfast.teleop.analysis.result import Analysis, Paths
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+    from holdfast.teleop.analysis.mixed_model import MixedModel
+    from holdfast.teleop.analysis.variance import Anova
+    from holdfast.teleop.protocol.protocol import Protocol
+
+_SMALLEST_PRINTED_P = 1e-4
+
+
+def to_dict(analysis: Analysis) -> dict[str, Any]:
+    """Return the subjects, and every table, row by row."""
+    data = {
+        "subjects": list(analysis.observed.subjects),
+        "simulated": analysis.is_simulated,
+        "left_out": analysis.left_out,
+        "notes": analysis.notes,
+        "tables": {name: table.to_dict("records") for name, table in analysis.tables.items()},
+    }
+    json_data: dict[str, Any] = to_json_types(data)
+    return json_data
+
+
+def write(
+    analysis: Analysis,
+    path: Path,
+    protocol: Protocol | None = None,
+    paths: Paths | None = None,
+    show: Sequence[int] | None = None,
+) -> Path:
+    """Write the report; see :func:`present` for the arguments."""
+    return renderers.write(analysis, path, protocol=protocol, paths=paths, shown_tasks=show)
+
+
+def save(
+    analysis: Analysis,
+    folder: Path,
+    protocol: Protocol | None = None,
+    paths: Paths | None = None,
+    show: Sequence[int] | None = None,
+) -> list[Path]:
+    """Write report.html as :func:`write` does, and every table as CSV with a data dictionary; files with other names stay."""
+    tables = write_tables(analysis, folder)
+    return [write(analysis, folder / "report.html", protocol, paths, show), *tables]
+
+
+def present(
+    analysis: Analysis,
+    protocol: Protocol | None = None,
+    paths: Paths | None = None,
+    shown_tasks: Sequence[int] | None = None,
+) -> Presentation:
+    """Present the effect of the law with the failed arm, with its tests.
+
+    Args:
+        analysis: The analysis.
+        protocol: Of the experiment: the workspace, the targets and what a failure takes away are drawn from it.
+        paths: Gives the tool points of recorded trials; without it no motions are drawn.
+        shown_tasks: Tasks, by number, whose motions and distributions are drawn; the middle one of each group if not given.
+
+    Raises:
+        InputError: A task to show that there is not.
+    """
+    observed = analysis.observed
+    tasks = middle_tasks(analysis) if shown_tasks is None else list(shown_tasks)
+    for task in tasks:
+        if task not in observed.tasks:
+            raise InputError(f"there is no task {task} to show; there are {observed.tasks[0]} to {observed.tasks[-1]}")
+    missing = int((observed.cause != "").sum())
+    lines = [
+        f"{analysis.subject_phrase}, {len(observed.tasks)} tasks, {len(observed.conditions)} scenarios: "
+        f"{observed.cause.size} trials, {missing} without a CPM."
+    ]
+    if analysis.mixed is not None:
+        lines.append(_describe_mixed_model(analysis.mixed))
+    names = ["cells", *["difficulty"] * bool(analysis.correlations), "tasks", "measures"]
+    names += ["power"] * ("power_curve" in analysis.tables)
+    return Presentation(
+        f"Teleoperation with a failed joint: {analysis.subject_phrase}",
+        _compose_answer(analysis),
+        about="" if protocol is None else protocol.name,
+        lines=lines,
+        notices=_list_notices(analysis),
+        tables=partial(build_tables, analysis),
+        figures={name: FigureSpec(partial(_draw, analysis, name), on_page=False) for name in names},
+        sections=partial(_build_sections, analysis, protocol, paths, tasks),
+        method=[
+            (
+                "CPM",
+                f"sum of {len(observed.normalisers)} measures, each divided by its largest value over all trials compared "
+                f"(eq. 11). The measures are a reconstruction: the table of the paper is lost",
+            ),
+            (
+                "Tests",
+                "F and p of the ANOVA are those of statsmodels; sphericity corrections and effect sizes are computed here",
+            ),
+            ("Trials", "training trials are not analysed"),
+            ("Tables", "each is a CSV file next to this report; data_dictionary.csv explains every column"),
+        ],
+    )
+
+
+def middle_tasks(analysis: Analysis) -> list[int]:
+    """Return the task of middle difficulty of each group."""
+    table = analysis.table("tasks")
+    chosen = []
+    for group in analysis.groups.names:
+        group_tasks = table.loc[table["difficulty"] == group, "task"].tolist()
+        chosen.append(int(group_tasks[(len(group_tasks) - 1) // 2]))
+    return chosen
+
+
+def _list_notices(analysis: Analysis) -> list[Notice]:
+    notices = []
+    if analysis.is_simulated:
+        notices.append(Notice("Every operator is a program; nothing here is measured on people.", "bad", "Simulated"))
+    if analysis.left_out:
+        notices.append(Notice(f"Left out because of empty cells: {', '.join(analysis.left_out)}.", "bad", "Not all subjects"))
+    if analysis.mixed is not None and not analysis.mixed.converged:
+        notices.append(Notice("Its numbers must not be used.", "bad", "The mixed model did not converge"))
+    if analysis.notes:
+        text = " ".join(f"{note.removesuffix('.')}." for note in analysis.notes)
+        notices.append(Notice(text, "note", "Before using these numbers"))
+    return notices
+
+
+def _compose_answer(analysis: Analysis) -> str:
+    means = sorted(analysis.law_means().items(), key=lambda law_mean: law_mean[1])
+    text = (
+        f"With a failed joint the {means[0][0]} law makes {analysis.subject_phrase} perform best on average: mean CPM "
+        f"{format_number(means[0][1])}, "
+    )
+    text += f"against {' and '.join(f'{format_number(mean)} ({law})' for law, mean in means[1:])}"
+    if analysis.anova is not None:
+        effect = analysis.anova.effects[0]
+        text += f"; F({effect.df}, {effect.df_error}) = {format_number(effect.F)}, p {format_p_relation(effect.p_gg)}"
+        if effect.p_gg >= analysis.limit:
+            text += ", which may be chance"
+    elif analysis.mixed is not None:
+        wald_test = analysis.mixed.tests[0]
+        text += f"; mixed model, chi²({wald_test.df}) = {format_number(wald_test.chi2)}, p {format_p_relation(wald_test.p)}"
+    rows = analysis.table("comparisons")
+    if len(analysis.conditions) == 2:
+        findings = []
+        for _, record in rows.iterrows():
+            if not record["p_holm"] < analysis.limit:
+                findings.append(f"for {record['difficulty']} tasks no difference was found")
+            else:
+                better = record["first"] if record["difference"] < 0 else record["second"]
+                findings.append(
+                    f"for {record['difficulty']} tasks {better} is better by {format_number(abs(record['difference']))}"
+                )
+        text += f". {'; '.join(findings).capitalize()}"
+    return text + "."
+
+
+def _describe_mixed_model(model: MixedModel) -> str:
+    deviations = ", ".join(f"{name} {format_number(float(np.sqrt(variance)))}" for name, variance in model.variances.items())
+    text = (
+        f"Linear mixed model of {model.trials:,} single trials, restricted maximum likelihood ({model.optimiser}, "
+        f"{'converged' if model.converged else 'NOT converged'}); standard deviations of the random intercepts: {deviations}. "
+        f"The tests are asymptotic. Tasks are random here: the model speaks of other tasks too, so difficulty is tested more "
+        f"strictly than in an ANOVA."
+    )
+    return text + (f" The software said: {'; '.join(model.messages)}." if model.messages else "")
+
+
+# ---- tables --------------------------------------------------------------------------------------------------------------
+
+
+def format_p_value(probability: float) -> str:
+    """Format a p value."""
+    if np.isnan(probability):
+        return "–"
+    return "< 0.0001" if probability < _SMALLEST_PRINTED_P else format_decimals(probability, 4)
+
+
+def format_p_relation(probability: float) -> str:
+    """Format a p value with a leading "=" or "<"."""
+    return format_p_value(probability) if probability < _SMALLEST_PRINTED_P else f"= {format_p_value(probability)}"
+
+
+def make_table(analysis: Analysis, title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> TableSpec:
+    """Make a table, which marks simulated operators; its section of the page shows it."""
+    title = f"{title} (simulated operators)" if analysis.is_simulated else title
+    return TableSpec(title, [Column(label, label, aligned=False) for label in head], rows, on_page=False)
+
+
+def build_tables(analysis: Analysis) -> list[TableSpec]:
+    """Build the tables of the means, and of the tests."""
+    tables = [_tabulate_means(analysis)]
+    if analysis.anova is not None:
+        tables.append(_tabulate_anova(analysis, analysis.anova))
+    if analysis.mixed is not None:
+        rows = [[test.name, test.df, test.chi2, format_p_value(test.p)] for test in analysis.mixed.tests]
+        tables.append(make_table(analysis, "Mixed model: Wald tests", ("effect", "df", "χ²", "p"), rows))
+    return [*tables, _tabulate_comparisons(analysis)]
+
+
+def _tabulate_means(analysis: Analysis) -> TableSpec:
+    means = analysis.table("means")
+    rows: list[list[Any]] = []
+    for law in analysis.cells.laws:
+        law_rows = means[means["law"] == law]
+        cells = [f"{format_number(r['mean'])} ± {format_number(r['sd'])}" for _, r in law_rows.iterrows()]
+        rows.append([law, *cells, analysis.law_means()[law]])
+    rows.append(["all laws", *analysis.group_means().values(), ""])
+    head = ["law", *analysis.cells.groups, "all tasks"]
+    return make_table(analysis, "Mean CPM with the failed arm ± standard deviation over subjects", head, rows)
+
+
+def _tabulate_anova(analysis: Analysis, anova: Anova) -> TableSpec:
+    rows = [
+        [
+            *(effect.name, f"{effect.df}, {effect.df_error}", effect.F, format_p_value(effect.p), effect.gg),
+            *(format_p_value(effect.p_gg), effect.hf, format_p_value(effect.p_hf)),
+            *(effect.partial_eta2, effect.generalised_eta2),
+        ]
+        for effect in anova.effects
+    ]
+    head = ("effect", "df", "F", "p", "ε GG", "p GG", "ε HF", "p HF", "partial η²", "generalised η²")
+    title = (
+        "Within-subjects ANOVA of CPM; GG and HF: corrected for departures from sphericity after Greenhouse and Geisser, and "
+        "Huynh and Feldt"
+    )
+    return make_table(analysis, title, head, rows)
+
+
+def _tabulate_comparisons(analysis: Analysis) -> TableSpec:
+    rows = [
+        [
+            str(record["difficulty"]),
+            f"{record['first']} − {record['second']}",
+            format_range(record, "difference", "low", "high"),
+            f"{format_number(record['t'])} ({record['df']})",
+            format_p_value(record["p_holm"]),
+            format_range(record, "dz", "dz_low", "dz_high", partial(format_decimals, digits=2)),
+            format_p_value(record["wilcoxon"]),
+            format_decimals(record["rank_biserial"], 2),
+        ]
+        for _, record in analysis.table("comparisons").iterrows()
+    ]
+    head = ("tasks", "difference", "mean", "t (df)", "p Holm", "dz", "p Wilcoxon", "rank-biserial")
+    intervals = f"{100 * analysis.confidence:g} % intervals"
+    title = f"Paired comparisons of CPM, two-sided, with {intervals}; above 0 the second law is better"
+    return make_table(analysis, title, head, rows)
+
+
+def format_range(
+    record: Any, value: str, low: str, high: str, format_value: Callable[[float], str] = format_number, factor: float = 1.0
+) -> str:
+    """Format a value of a record with its interval."""
+    texts = [format_value(factor * record[name]) for name in (value, low, high)]
+    return f"{texts[0]} ({texts[1]} to {texts[2]})"
+
+
+# ---- page ----------------------------------------------------------------------------------------------------------------
+
+
+def _build_sections(
+    analysis: Analysis, protocol: Protocol | None, paths: Paths | None, shown_tasks: Sequence[int]
+) -> Sequence[Section]:
+    from holdfast.interface.presentation.teleop.sections import build_sections
+
+    return build_sections(analysis, protocol, paths, shown_tasks)
+
+
+def _draw(analysis: Analysis, name: str) -> Figure:
+    from holdfast.interface.presentation.teleop.sections import draw_figure
+
+    return draw_figure(analysis, name)

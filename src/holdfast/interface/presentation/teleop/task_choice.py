@@ -1,0 +1,146 @@
+"""Presentation of the tasks chosen from a bank."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.files.output import write_files
+from holdfast.core.files.spreadsheet import write_csv_text
+from holdfast.core.formatting import format_percent
+from holdfast.interface.presentation.presentation import Column, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.printing import to_json_types
+from holdfast.model import arms
+from holdfast.teleop.bank.selection import TaskChoice
+from holdfast.teleop.bank.tasks import TaskBank
+from holdfast.teleop.protocol.protocol import Protocol, read_protocol
+from holdfast.teleop.records.tables import bank_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def to_dict(choice: TaskChoice) -> dict[str, Any]:
+    """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario."""
+    data = {
+        **choice.arm.entry(),
+        "tasks": len(choice.bank),
+        "cells_occupied": len(choice.cells.occupied_cells),
+        "chosen": choice.chosen + 1,
+        "most_disorienting": None if choice.disorienting is None else choice.disorienting + 1,
+        "trapped": None if choice.trapped is None else choice.trapped + 1,
+        "scenarios": _summarize_scenarios(choice.bank),
+    }
+    json_data: dict[str, Any] = to_json_types(data)
+    return json_data
+
+
+def _summarize_scenarios(bank: TaskBank) -> list[dict[str, Any]]:
+    summaries: list[dict[str, Any]] = []
+    for index, scenario in enumerate(bank.scenarios):
+        completed = ~np.isnan(bank.cpm[index])
+        medians = np.nanmedian(bank.measures[index], axis=0) if completed.any() else np.full(bank.measures.shape[2], np.nan)
+        summaries.append(
+            {
+                "scenario": scenario.number,
+                "label": scenario.label,
+                "not_reached": int((~completed).sum()),
+                "time_cycles": medians[0],
+                "path_m": medians[1],
+                "velocity_error": medians[6],
+                "peak_direction_error_rad": medians[9],
+                "cpm": np.median(bank.cpm[index][completed]) if completed.any() else np.nan,
+            }
+        )
+    return summaries
+
+
+def present(choice: TaskChoice) -> Presentation:
+    """Present the chosen tasks, numbered from 1, and medians over the tasks for each scenario."""
+    bank, completed = choice.bank, choice.bank.is_completed()
+    cell_count = (len(choice.cells.difficulty) - 1) * (len(choice.cells.ratio) - 1)
+    lines = [
+        "The level of CPM is set by the most extreme trial, so compare ratios.",
+        f"{len(choice.cells.occupied_cells)} of {cell_count} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
+        f"{' '.join(str(task + 1) for task in choice.chosen)}.",
+    ]
+    if choice.disorienting is not None:
+        trapped = (
+            "No task of the bank draws the failed arm under the pseudoinverse to a stationary point and can yet be steered; "
+            "another seed may have one, and the protocol goel2003 has one by construction."
+            if choice.trapped is None
+            else f"Drawn to a stationary point, and yet can be steered: {choice.trapped + 1}."
+        )
+        lines += [f"Most disorienting of the others: {choice.disorienting + 1}.", trapped]
+    columns = [
+        Column("scenario", "scenario"),
+        Column("label", ""),
+        Column("not_reached", "not completed"),
+        Column("time_cycles", "time, cycles", digits=3),
+        Column("path_m", "path, m", digits=3),
+        Column("velocity_error", "velocity error", digits=3),
+        Column("peak_direction_error_rad", "peak direction error, deg", digits=3),
+        Column("cpm", "CPM", digits=3),
+    ]
+    summaries = [
+        summary | {"peak_direction_error_rad": np.degrees(summary["peak_direction_error_rad"])}
+        for summary in _summarize_scenarios(bank)
+    ]
+    rows = [[summary[column.key] for column in columns] for summary in summaries]
+    return Presentation(
+        f"Tasks chosen from a bank for {choice.arm.name}",
+        f"With the failed arm the failure-tolerant inverse is better (CPM4/CPM3 below 1) in "
+        f"{format_percent(float((bank.ratio[completed] < 1).mean()))} of the tasks.",
+        about=f"Arm {choice.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers",
+        lines=lines,
+        tables=[TableSpec("Medians over the tasks that are completed", columns, rows)],
+        figures={"bank": FigureSpec(partial(_draw_bank, choice), "The bank and the chosen tasks")},
+        arm=choice.arm,
+    )
+
+
+def _draw_bank(choice: TaskChoice) -> Figure:
+    from holdfast.interface.presentation.teleop.bank import bank_figure
+
+    return bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)
+
+
+def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
+    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
+
+    Args:
+        choice: What was chosen.
+        folder: Made if it is not there.
+        spec: What the protocol names the arm by: a built-in name or a file.
+    """
+    from holdfast.interface.report.figures import save_png
+
+    files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
+    protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")
+    return [*files, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+
+
+def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:
+    """Return the protocol of the paper with this arm and the chosen tasks."""
+    bank, tasks = choice.bank, np.append(choice.chosen, choice.special_tasks)
+    file = None if spec in arms.names() else Path(spec)
+    protocol = replace(
+        read_protocol(),
+        name=f"{choice.arm.name}, {len(tasks)} tasks of a bank of {len(bank)}, seed {choice.seed}",
+        arm=choice.arm,
+        arm_spec=spec if file is None else file.name,
+        arm_file=file,
+        rows=choice.task,
+    )
+    with np.errstate(invalid="ignore"):
+        notes = [
+            f"bank task {task + 1}, CPM3 {bank.difficulty[task]:.3f}, CPM4/CPM3 {bank.ratio[task]:.3f}"
+            if np.isfinite(bank.ratio[task])
+            else f"bank task {task + 1}, not completed by the computer in every scenario"
+            for task in tasks
+        ]
+    return protocol.with_tasks(bank.tasks.take(tasks), notes)
