@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from holdfast.core.formatting import format_count, format_interval, format_number, indefinite_article
 from holdfast.interface.presentation.presentation import Fact
-from holdfast.studies.designs.ranking import choose_best_design, describe_farther_design
+from holdfast.studies.designs.designs import choose_best_design, describe_farther_design
 from holdfast.studies.study_files.ranking import ArmRanking, format_unit
 from holdfast.studies.study_files.results import DesignSweep
 

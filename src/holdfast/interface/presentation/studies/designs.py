@@ -15,7 +15,7 @@ from holdfast.kinematics.indices.index import by_name
 from holdfast.kinematics.indices.own_file import check_function_digest
 from holdfast.model.arm.task import Task
 from holdfast.model.arms.serial import from_dict
-from holdfast.studies.designs.designs import choose_best_design, describe_farther_design
+from holdfast.studies.designs.designs import choose_best_design
 from holdfast.studies.designs.search import find_pareto_front
 from holdfast.studies.study_files.jobs.designs import read_design_space
 from holdfast.studies.study_files.results import DesignSweep
