@@ -354,7 +354,7 @@ def _build_method_blocks(analysis: Analysis) -> list[Block]:
         Text(
             f"CPM is the sum of {count} measures, each divided by its largest value over all trials compared "
             f"(eq. 11). The measures are "
-            "a reconstruction: the table of the paper is lost. F and p of the ANOVA are those of statsmodels; "
+            "a reconstruction: the table of the paper is lost. The ANOVA, the "
             "sphericity corrections "
             "and effect sizes are computed here. Training trials are not analysed."
         )
