@@ -228,7 +228,7 @@ class TargetAnalysis:
 
 def prepare_analysis(
     law: Law,
-    target: ArrayLike,
+    target: ArrayLike | str | int | Places,
     configurations: int,
     points: int,
     method: Method,

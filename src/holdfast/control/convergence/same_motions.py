@@ -59,7 +59,7 @@ def compare_laws(
     **options: Any,
 ) -> LawChoice: ...
 @check_arguments
-def compare_laws(
+def compare_laws(  # type: ignore[misc]  # of the second signature it takes the options that belong to best
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike | str | int | Places,
     target: ArrayLike | str | int | Places,
@@ -130,11 +130,11 @@ def compare_laws(
     if best:
         if failures != "single" or cycles or radius != TARGET_RADIUS_M or restarts != _DEFAULT_RESTARTS or about:
             raise InputError("failures, cycles, radius, restarts and about belong to given motions; leave them out with best")
-        options = {} if tolerance is None else {"tolerance": tolerance}
+        options: dict[str, Any] = {} if tolerance is None else {"tolerance": tolerance}
         options |= {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
         return rank_laws(law_by_name, target, q0, progress, clearance=clearance, cell=cell, **options)
     joints = single_joints(arm, failures)
-    starts, _ = as_configurations(arm, q0)
+    starts, _ = as_configurations(arm, require_real_numbers(q0, "q0"))
     targets = require_real_numbers(target, "target")
     if not targets.ndim:
         raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")

@@ -154,7 +154,7 @@ def workspace(
 ) -> TargetMeasures: ...
 @check_arguments
 @reports_progress("simulating failures")
-def workspace(
+def workspace(  # type: ignore[misc]  # of the second signature it takes the options that belong to targets
     law: Law,
     target: ArrayLike | str | int | Places,
     starts: ArrayLike | str | int | Places | None = None,
