@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError, StoreError
+from holdfast.core.extras import import_extra
 from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, make_folder, replace_file
@@ -414,8 +415,9 @@ class Store:
 
         Raises:
             StoreError: The arrays are missing or damaged.
+            HoldfastError: xarray is not installed (extra ``xarray``).
         """
-        import xarray as xr
+        xr = import_extra("xarray", "xarray")
 
         try:
             with warnings.catch_warnings():
