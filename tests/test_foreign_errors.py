@@ -89,7 +89,10 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"law": law, "target": target, "locked": {1: 0.5}, "starts": 5, "grid": None, "seed": 0}
             | {"time_limit": 5.0, "confidence": 0.95},
         ),
-        "best_law": (hf.best_law, {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "targets": 2, "starts": 3}),
+        "compare_laws best": (
+            hf.compare_laws,
+            {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "q0": 3, "target": 2, "best": True},
+        ),
         "check_cell": (hf.check_cell, {"cell": hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[1.0, 1.0, 0.5])]), "arm": arm}),
         "compare_assessments": (hf.compare_assessments, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
         "compare_laws": (
@@ -183,7 +186,10 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         ),
         "solve_ik": (hf.solve_ik, {**at_planar, "poses": pose, "seed": 0, "restarts": 2, "tolerance": 1e-6, "start": q}),
         "stationary_points": (hf.stationary_points, {"law": law, "target": target, "locked": {1: 0.5}, "seed": 0}),
-        "target_measures": (hf.target_measures, {"law": law, "targets": [target], "starts": 3, "configurations": 1, "seed": 0}),
+        "workspace over targets": (
+            hf.workspace,
+            {"law": law, "target": [target], "over": "targets", "starts": 3, "configurations": 1, "seed": 0},
+        ),
         "find_working_ranges": (
             hf.find_working_ranges,
             {"arm": arm, "centre": (1.2, 0.5), "size": 0.1, "task": "planar", "rotation": None, "rpy": None}

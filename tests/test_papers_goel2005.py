@@ -174,7 +174,7 @@ def test_stuck_runs_of_the_panda_end_where_rest_points_are():
 
 def test_undecided_runs_widen_the_difference_of_two_laws():
     laws = {name: law for name, law in study.laws("position").items() if name in study.SHOWN[:2]}
-    choice = hf.best_law(laws, study.target(), 6, configurations=1, time_limit=20.0, seed=3)
+    choice = hf.compare_laws(laws, 6, study.target(), best=True, configurations=1, time_limit=20.0, seed=3)
     first, second = choice.names
     d = study.against(choice, first, second)
     assert d.worst <= d.value <= d.best

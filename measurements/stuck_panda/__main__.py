@@ -126,7 +126,7 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         "## How far to believe it",
         "",
         "- One target. Another one has other numbers; `holdfast` makes the same tables for any arm, task and target "
-        "(`hf.convergence_map`, `hf.best_law`, `hf.stationary_points`).",
+        "(`hf.convergence_map`, `hf.compare_laws`, `hf.stationary_points`).",
         "- *In reach* means that inverse kinematics found a configuration within the limits; what it misses is counted as out "
         "of "
         "reach. Runs themselves do not heed limits, and may arrive where the other would not.",

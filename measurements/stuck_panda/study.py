@@ -51,7 +51,9 @@ def laws(task: str) -> dict[str, Law]:
 
 def choose(task: str, places: int, configurations: int = 2) -> hf.LawChoice:
     """Every law on the same motions to the target: from random places, with each joint locked, and with none."""
-    return hf.best_law(laws(task), target(), places, configurations=configurations, time_limit=TIME_LIMIT, seed=SEED)
+    return hf.compare_laws(
+        laws(task), places, target(), best=True, configurations=configurations, time_limit=TIME_LIMIT, seed=SEED
+    )
 
 
 @dataclass(frozen=True)

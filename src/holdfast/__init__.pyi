@@ -11,11 +11,9 @@ from holdfast.control.convergence import LawComparison as LawComparison
 from holdfast.control.convergence import PointToPoint as PointToPoint
 from holdfast.control.convergence import TargetMeasures as TargetMeasures
 from holdfast.control.convergence import Workspace as Workspace
-from holdfast.control.convergence import best_law as best_law
 from holdfast.control.convergence import compare_laws as compare_laws
 from holdfast.control.convergence import convergence_map as convergence_map
 from holdfast.control.convergence import point_to_point as point_to_point
-from holdfast.control.convergence import target_measures as target_measures
 from holdfast.control.convergence import workspace as workspace
 from holdfast.control.equilibria import basins as basins
 from holdfast.control.equilibria import stationary_points as stationary_points

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
+import holdfast as hf
+from holdfast.core.errors import KernelError
 from holdfast.kernels import Kernel
 from holdfast.kernels.llvm.translation import SUPPORTED_OPERATIONS
 from holdfast.kernels.program import OP_NAMES
@@ -82,12 +84,6 @@ TABLE = {
     "sign": (ca.OP_SIGN, lambda x, y: ca.sign(x), lambda x, y: np.sign(x), ANY),
     "fmin": (ca.OP_FMIN, lambda x, y: ca.fmin(x, y), np.minimum, ANY),
     "fmax": (ca.OP_FMAX, lambda x, y: ca.fmax(x, y), np.maximum, ANY),
-    "sinh": (ca.OP_SINH, lambda x, y: ca.sinh(x), lambda x, y: np.sinh(x), ANY),
-    "cosh": (ca.OP_COSH, lambda x, y: ca.cosh(x), lambda x, y: np.cosh(x), ANY),
-    "tanh": (ca.OP_TANH, lambda x, y: ca.tanh(x), lambda x, y: np.tanh(x), ANY),
-    "erf": (ca.OP_ERF, lambda x, y: ca.erf(x), lambda x, y: erf(x), ANY),
-    "log1p": (ca.OP_LOG1P, lambda x, y: ca.log1p(x), lambda x, y: np.log1p(x), (-0.9, 5.0)),
-    "expm1": (ca.OP_EXPM1, lambda x, y: ca.expm1(x), lambda x, y: np.expm1(x), ANY),
     "hypot": (ca.OP_HYPOT, lambda x, y: ca.hypot(x, y), np.hypot, ANY),
 }
 
@@ -148,6 +144,48 @@ def test_one_bad_row_does_not_change_the_bits_of_its_neighbours(name, rng):
         a[:, 3] = bad
         dirty = kernel(a.ravel(), b.ravel()).reshape(1000, kernel.lanes, 3)
         np.testing.assert_array_equal(np.delete(dirty, 3, 1), np.delete(clean, 3, 1), err_msg=str(bad))
+
+
+UNTRANSLATED = {
+    "sinh": (ca.sinh, np.sinh),
+    "cosh": (ca.cosh, np.cosh),
+    "tanh": (ca.tanh, np.tanh),
+    "erf": (ca.erf, erf),
+    "log1p": (ca.log1p, np.log1p),
+    "expm1": (ca.expm1, np.expm1),
+    "floor": (ca.floor, np.floor),
+}
+
+
+@pytest.mark.parametrize("name", UNTRANSLATED)
+def test_an_operation_without_translation_runs_on_the_virtual_machine(name, rng, monkeypatch):
+    expression, formula = UNTRANSLATED[name]
+    x = ca.SX.sym("x")
+    with pytest.raises(KernelError, match=f"OP_{name.upper()}, which the llvm backend does not have"):
+        Kernel(name, [x], [expression(x)], backend="llvm")
+    monkeypatch.setenv("HOLDFAST_BACKEND", "llvm")
+    kernel = Kernel(name, [x], [expression(x)])
+    assert kernel.backend == "casadi"
+    values = rng.uniform(-0.9, 5.0, 3000)
+    np.testing.assert_allclose(kernel(values), formula(values), rtol=1e-14, atol=1e-15)
+    assert kernel.single_row()(0.5) == pytest.approx(formula(0.5), rel=1e-14)
+    assert np.isnan(kernel(np.array([0.5, np.nan]))).tolist() == [False, True]
+
+
+def test_an_index_with_the_error_function_and_its_gradient(monkeypatch, rng):
+    """erf(w) of the plain index w, and its slope 2 / sqrt(pi) exp(-w^2) times that of w."""
+    monkeypatch.setenv("HOLDFAST_BACKEND", "llvm")
+    arm = hf.arms.load("planar-3r")
+
+    def squared(j):
+        return ca.det(j @ j.T)
+
+    plain = hf.indices.CustomIndex(squared, arm, "planar", name="plain")
+    index = hf.indices.CustomIndex(lambda j: ca.erf(squared(j)), arm, "planar", name="own")
+    q = rng.uniform(-2, 2, (50, arm.n))
+    np.testing.assert_allclose(index.by_joint(q), erf(plain.by_joint(q)), rtol=1e-10, atol=1e-12)
+    slope = 2 / np.sqrt(np.pi) * np.exp(-(plain(q) ** 2))
+    np.testing.assert_allclose(index.gradient(q), slope[:, None] * plain.gradient(q), rtol=1e-8, atol=1e-10)
 
 
 def test_every_row_of_the_table_has_a_test():

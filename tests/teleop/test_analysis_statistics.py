@@ -7,6 +7,7 @@ import pandas as pd
 import pingouin as pg
 import pytest
 from scipy import integrate, stats
+from statsmodels.stats.anova import AnovaRM
 from statsmodels.stats.power import TTestPower
 
 from holdfast.core.errors import InputError
@@ -76,6 +77,15 @@ def test_equal_to_pingouin(rng, n, a, b):
         averaged = table.groupby(["who", *within], as_index=False)["y"].mean()
         hf = pg.epsilon(averaged, dv="y", subject="who", within=within if k == 2 else within[0], correction="hf")
         assert e.hf == pytest.approx(hf, rel=1e-8)
+
+
+def test_equal_to_statsmodels(rng):
+    y = correlated(rng, 24, 2, 3)
+    table = long(y)
+    theirs = AnovaRM(table, "y", "who", within=["first", "second"]).fit().anova_table.loc[["first", "second", "first:second"]]
+    effects = anova(y).effects
+    np.testing.assert_allclose([effect.F for effect in effects], theirs["F Value"], rtol=1e-10)
+    np.testing.assert_allclose([effect.p for effect in effects], theirs["Pr > F"], rtol=1e-10)
 
 
 def test_first_factor_of_two_levels_is_a_t_test(rng):

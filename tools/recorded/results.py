@@ -56,10 +56,15 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "reachable_after_a_lock": lambda: hf.reachable_when_locked(FLAT, [1.5, 1.5], {1: np.deg2rad([0, 60, 170])}, task="planar"),
     "tolerant_workspace": lambda: hf.tolerant_workspace(FLAT, "planar", optimise=True),
     "workspace": lambda: hf.workspace(LAW, [1.5, 1.5], "grid:5", configurations=4, points=2, method="procedure"),
-    "target_measures": lambda: hf.target_measures(LAW, "grid:3", 3, configurations=2, points=1, time_limit=60),
+    "target_measures": lambda: hf.workspace(LAW, "grid:3", 3, over="targets", configurations=2, points=1, time_limit=60),
     "convergence_map": lambda: hf.convergence_map(LAW, [1.0, 1.0], 8, configurations=4, time_limit=60),
-    "best_law": lambda: hf.best_law(
-        {"plain": LAW, "damped": control.damped(FLAT, 0.1, "planar")}, [1.0, 1.0], 4, configurations=2, time_limit=60
+    "best_law": lambda: hf.compare_laws(
+        {"plain": LAW, "damped": control.damped(FLAT, 0.1, "planar")},
+        4,
+        [1.0, 1.0],
+        best=True,
+        configurations=2,
+        time_limit=60,
     ),
     "recovery": lambda: hf.recover(
         PANDA, {"panda_joint4": -2.0}, [2, 0.6, 0, -2, 0, 2.5, 0.8], task="position", samples=40, starts=32

@@ -3,6 +3,7 @@
 import re
 
 COMMAND_SUCCESSORS = {
+    "best-law": "compare-laws --best",
     "ceiling": "upper-bound",
     "endure": "plan-motion",
     "judge": "compare-arms",
@@ -10,6 +11,7 @@ COMMAND_SUCCESSORS = {
     "probe": "identify",
     "records": "record-designs",
     "rehearse": "simulate-logs",
+    "target-measures": "workspace --over targets",
 }
 REPOSITORY_COMMANDS = {"bench": "python -m benchmarks.planners", "synthesise": "python -m measurements.synthesis"}
 OPTION_SUCCESSORS = {
@@ -24,7 +26,8 @@ _PUBLIC_NAMES = """
 holdfast: ceilings=index_bounds clearance=collision engine=sweeps keep=tool_constraints
   motion=path_following reaction=supervisor Endurance=LockSurvival Reach=PoseSolutions endurance_of=evaluate_motion
   endure=plan_motion
-  endure_to=plan_motion_to
+  endure_to=plan_motion_to best_law=compare_laws target_measures=workspace
+holdfast.control.convergence: best_law=compare_laws target_measures=workspace
 holdfast.kinematics.index_bounds: Average=AverageBound Ceiling=UpperBound CeilingTable=UpperBoundTable
   SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound of_index=bound_of_index
   singular_value=bound_singular_value singular_value_of_index=bound_singular_value_of_index

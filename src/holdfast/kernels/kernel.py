@@ -17,6 +17,7 @@ from holdfast.core.labels import is_count
 from holdfast.core.typing import FloatArray
 from holdfast.kernels import casadi_backend
 from holdfast.kernels.compiled import CompiledProgram
+from holdfast.kernels.llvm.translation import UnsupportedOperationError
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 
@@ -76,29 +77,36 @@ class Kernel:
         inputs: CasADi ``SX`` symbols.
         outputs: CasADi ``SX`` expressions of them.
         backend: ``"llvm"`` (machine code, SIMD, threads), ``"casadi"`` (virtual machine), ``"cuda"`` (the first NVIDIA GPU) or
-            ``"cuda:1"`` (the second); None: the default.
+            ``"cuda:1"`` (the second); None: the default, or ``"casadi"`` for an operation that ``"llvm"`` does
+            not have.
 
     Attributes:
         lanes: Rows handled at once.
 
     Raises:
-        KernelError: Unknown backend, an operation the backend does not have, or no GPU, no driver or too old a GPU.
+        KernelError: Unknown backend, an operation that the named backend does not have, or no GPU, no driver or too old a GPU.
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
-        self._set_program(Program(name, inputs, outputs), backend or default_backend())
-        self._fixed = backend is not None
+        self._set_program(Program(name, inputs, outputs), backend)
 
     @classmethod
     def from_program(cls, program: Program) -> Kernel:
         """Return the kernel of a program on the default backend."""
         kernel = cls.__new__(cls)
-        kernel._set_program(program, default_backend())
+        kernel._set_program(program, None)
         return kernel
 
-    def _set_program(self, program: Program, backend: str) -> None:
-        self.program, self.name, self.backend = program, program.name, _check_backend(backend)
-        self._compiled = CompiledProgram(program) if backend == "llvm" else None
+    def _set_program(self, program: Program, named_backend: str | None) -> None:
+        self.program, self.name, self._fixed = program, program.name, named_backend is not None
+        backend = _check_backend(named_backend or default_backend())
+        try:
+            self._compiled = CompiledProgram(program) if backend == "llvm" else None
+        except UnsupportedOperationError:
+            if self._fixed:
+                raise
+            self._compiled, backend = None, "casadi"
+        self.backend = backend
         self._on_device = None
         if backend.startswith("cuda"):
             from holdfast.kernels.gpu.launch import DeviceProgram
@@ -112,8 +120,6 @@ class Kernel:
         self._in_dims = [_squeeze_shape(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze_shape(s) for s in self.program.output_shapes]
 
-    _fixed = False  # whether its backend was named when it was made
-
     def current(self) -> Kernel:
         """Return the kernel, or the same one on the GPU that :func:`set_backend` has named since it was made."""
         must_move = _chosen is not None and _chosen != self.backend and not self._fixed and _chosen.startswith("cuda")
@@ -125,7 +131,6 @@ class Kernel:
         if moved is None:
             moved = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
             moved._set_program(self.program, backend)
-            moved._fixed = True
         return moved
 
     @property

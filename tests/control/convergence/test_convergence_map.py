@@ -150,7 +150,9 @@ def test_files(sampled, tmp_path):
 def test_laws_meet_the_same_failures():
     arm = hf.arms.load("planar-3r")
     plain, weak = pseudoinverse(arm, "planar"), damped(arm, 9.0, "planar")
-    choice = hf.best_law({"plain": plain, "again": plain, "weak": weak}, [1.5, 1.0], 8, configurations=2, time_limit=40.0)
+    choice = hf.compare_laws(
+        {"plain": plain, "again": plain, "weak": weak}, 8, [1.5, 1.0], best=True, configurations=2, time_limit=40.0
+    )
     assert all(np.array_equal(m.q0, choice.maps[0].q0) for m in choice.maps)
     same = choice.difference("again", "plain")
     assert same.value == 0
@@ -170,7 +172,7 @@ def test_the_best_law_by_runs_of_scipy():
     """Share of every law, their differences and the ranking, from an integrator and a law of its own."""
     arm = hf.arms.load("planar-3r")
     laws = {"plain": pseudoinverse(arm, "planar"), "weak": damped(arm, 1.5, "planar")}
-    choice = hf.best_law(laws, [2.1, 1.2], 4, configurations=2, seed=5)
+    choice = hf.compare_laws(laws, 4, [2.1, 1.2], best=True, configurations=2, seed=5)
     shares = {}
     for name, damping in (("plain", 0.0), ("weak", 1.5)):
         q0 = choice.map_of(name).q0
@@ -209,9 +211,9 @@ def test_words_that_are_none_are_told(sampled, spatial):
         sampled.values("lost")
     law = pseudoinverse(spatial, "position")
     with pytest.raises(hf.InputError, match="two or more"):
-        hf.best_law([law, law], 1, 1)
-    with pytest.raises(hf.InputError, match="one arm and task"):
-        hf.best_law({"a": law, "b": pseudoinverse(hf.arms.load("planar-3r"), "planar")}, 1, 1)
+        hf.compare_laws([law], 1, 1, best=True)
+    with pytest.raises(hf.InputError, match="another arm or task"):
+        hf.compare_laws({"a": law, "b": pseudoinverse(hf.arms.load("planar-3r"), "planar")}, 1, 1, best=True)
 
 
 def test_motions_as_a_data_set(sampled):
@@ -228,8 +230,8 @@ def test_the_best_law_in_a_cell_is_told_with_what_it_touches():
     arm, cell = hf.arms.load("planar-3r"), hf.Cell([Sphere("post", 0.3, pose=cells.placed(0.9, 1.1, 0))], name="disc")
     laws = {"plain": pseudoinverse(arm, "planar"), "weak": damped(arm, 0.5, "planar")}
     call = {"configurations": 1, "time_limit": 30.0, "seed": 4}
-    choice = hf.best_law(laws, [1.5, 0.9], 2, cell=cell, **call)
-    plain = hf.best_law(laws, [1.5, 0.9], 2, **call)
+    choice = hf.compare_laws(laws, 2, [1.5, 0.9], best=True, cell=cell, **call)
+    plain = hf.compare_laws(laws, 2, [1.5, 0.9], best=True, **call)
     assert choice.ranking == plain.ranking
     alone = hf.convergence_map(laws["weak"], [1.5, 0.9], 2, cell=cell, **call)
     touched = alone.touched[alone.has_configuration]

@@ -18,7 +18,7 @@ from holdfast.interface.cli.program import main
 def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
     goals = np.array([[1.5, 1.5], [-0.7, 2.0], [4.0, 0.0]])
     starts = np.array([[2.0, -1.4], [0.7, 2.1], [-2.0, 0.5]])
-    found = hf.target_measures(three, goals, starts, configurations=6, points=2, cells=40)
+    found = hf.workspace(three, goals, starts, over="targets", configurations=6, points=2, cells=40)
     for k in (0, 1):
         one = hf.workspace(three, goals[k], starts, configurations=6, points=2, cells=40)
         for name, values in one.measures.items():
@@ -39,7 +39,7 @@ def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
 def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
     """R100, Ravg and Rsens of each joint: the healthy motion by scipy, and the ring that two links reach in closed form."""
     goals, starts, cells = np.array([[1.5, 1.5], [-0.7, 1.9]]), np.array([[2.0, -1.4], [0.7, 2.1]]), 50
-    found = hf.target_measures(three, goals, starts, configurations=5, points=0, cells=cells)
+    found = hf.workspace(three, goals, starts, over="targets", configurations=5, points=0, cells=cells)
     check_card(found)
     owner, q0 = StartConfigurations(
         three, read_places(three.arm, three.task, starts, np.random.default_rng(0)), 5, "brute", 0
@@ -65,7 +65,19 @@ def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
 
 
 def test_on_the_command_line(tmp_path, monkeypatch, capsys):
-    command = ["holdfast", "target-measures", "planar-3r", "--target", "grid:3", "--starts", "4", "--configurations", "3"]
+    command = [
+        "holdfast",
+        "workspace",
+        "planar-3r",
+        "--over",
+        "targets",
+        "--target",
+        "grid:3",
+        "--starts",
+        "4",
+        "--configurations",
+        "3",
+    ]
     monkeypatch.setattr("sys.argv", [*command, "--points", "1", "--out", str(tmp_path / "out")])
     with pytest.raises(SystemExit) as done:
         main()

@@ -163,7 +163,7 @@ def test_targets_of_a_spatial_arm_are_analyses_of_their_own(spatial, goal):
     goals = np.stack([goal, goal])
     goals[1, 0, 3] += 40.0
     options = {"configurations": 2, "points": 1, "cells": 4, "time_limit": 100.0}
-    found = hf.target_measures(spatial, goals, 3, seed=2, **options)
+    found = hf.workspace(spatial, goals, 3, over="targets", seed=2, **options)
     one = hf.workspace(spatial, goal, found.starts, seed=2, **options)
     for name, values in one.measures.items():
         np.testing.assert_array_equal(found.values[name][0], values)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -49,6 +51,25 @@ def test_the_interval_of_paired_shares_is_the_published_one_with_exact_limits(co
     found = Difference.of_pairs(first, second)
     np.testing.assert_allclose((found.low, found.high), square_and_add(turned, "exact"), rtol=1e-9)
     assert found.value == pytest.approx((counts[1] - counts[2]) / sum(counts))
+
+
+@pytest.mark.parametrize(("hits", "size"), [(1, 2), (3, 40), (17, 18), (250, 1000), (0, 5), (5, 5)])
+def test_the_limits_of_a_share_are_those_of_clopper_and_pearson(hits, size):
+    """At the lower limit as many hits or more, and at the upper limit as few or fewer, have the probability of one tail."""
+    interval = Interval.from_counts(np.int64(hits), np.int64(size), 0.9)
+    assert isinstance(interval.low, float)
+
+    def chances(p):
+        return [math.comb(size, k) * p**k * (1 - p) ** (size - k) for k in range(size + 1)]
+
+    assert interval.low == 0 if hits == 0 else sum(chances(interval.low)[hits:]) == pytest.approx(0.05, rel=1e-9)
+    assert interval.high == 1 if hits == size else sum(chances(interval.high)[: hits + 1]) == pytest.approx(0.05, rel=1e-9)
+
+
+@given(st.floats(0, 1), st.floats(1, 1e8), st.sampled_from([0.9, 0.95, 0.99]))
+def test_the_limits_of_a_share_enclose_it_for_numbers_of_cases_that_are_not_whole(share, size, confidence):
+    interval = Interval.from_counts(share * size, size, confidence)
+    assert 0 <= interval.low <= interval.value <= interval.high <= 1
 
 
 def test_an_interval_of_pairs_holds_nought_where_the_test_does_not_refuse_it():

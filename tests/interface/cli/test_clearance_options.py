@@ -218,7 +218,6 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
 
 CALLS = {
     "assess": ("planar-3r", "--poses", 5),
-    "best-law": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
     "compare-laws": ("planar-3r", "--motions", 2),
     "convergence-map": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
     "plan-motion": ("panda", "line.yaml"),

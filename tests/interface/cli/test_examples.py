@@ -54,7 +54,6 @@ FIRST = {  # commands before
 CHEAPER = {  # options at the end, the last of which counts
     "assess": "--poses 16",
     "basins": "--grid 4",
-    "best-law": "--starts 2 --configurations 2 --time-limit 60",
     "compare-laws": "--motions 2",
     "convergence-map": "--starts 2 --configurations 2 --time-limit 60",
     "optimise": "--starts 2",
@@ -64,7 +63,6 @@ CHEAPER = {  # options at the end, the last of which counts
     "recover": "--samples 0",
     "simulate-logs": "--records 1 --duration 0.2",
     "free-swing": "--duration 0.2",
-    "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",
     "teleop tasks": "--per-joint 20 --select 4 --no-special",
     "tolerant-workspace": "--points 50",

@@ -66,12 +66,12 @@ def offered(monkeypatch, capsys):
 
 
 def test_a_shell_is_offered_names(offered):
-    assert offered("holdfast", "best") == ["best-law"]
+    assert offered("holdfast", "convergence") == ["convergence-map"]
     assert offered("holdfast", "study", "me") == ["merge"]
     assert offered("holdfast", "index", "pa") == [name for name in arms.names() if name.startswith("pa")] != []
     assert offered("holdfast", "assess", "panda", "--index", "") == list(INDEX_REGISTRY)
     assert offered("holdfast", "simulate", "panda", "--law", "fail") == ["failure-tolerant"]
-    assert set(offered("holdfast", "best-law", "panda", "--law", "")) == set(LAW_REGISTRY)
+    assert set(offered("holdfast", "compare-laws", "panda", "--law", "")) == set(LAW_REGISTRY)
     assert offered("holdfast", "susceptibility", "panda", "--measure", "") == list(SUSCEPTIBILITY_REGISTRY)
     assert offered("holdfast", "workspace", "panda", "--task", "planar-") == ["planar-pose"]
     assert offered("holdfast", "workspace", "panda", "--out", "res") == []  # the shell knows the folders

@@ -55,7 +55,7 @@ RICHER = [
     (["workspace", *PLANAR, *FEW], FILES | {"scipy"}),
     (["trade-off", "planar-3r", "--samples", "10"], FILES | {"scipy", "scipy.stats"}),
     (["compare-laws", "planar-3r", *LAWS], FILES | {"scipy", "scipy.stats"}),
-    (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "home"], FILES),
+    (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "home"], FILES | {"scipy"}),
     (["export", "planar-3r", "--law", "pseudoinverse", "--out", "."], FILES),
     (["study", "new", "cell.yaml", "--arm", "planar-3r", "--poses", "64"], FILES | {"scipy"}),
 ]

@@ -17,7 +17,7 @@ def test_a_renamed_command_names_its_successor(cli, old):
     assert error.startswith(f"holdfast: No such command '{old}'")
     assert error.endswith(f"; it is now '{renamed.COMMAND_SUCCESSORS[old]}'\n")
     assert len(error.splitlines()) == 1
-    assert cli(renamed.COMMAND_SUCCESSORS[old], "--help")[0] == 0
+    assert cli(*renamed.COMMAND_SUCCESSORS[old].split(), "--help")[0] == 0
 
 
 @pytest.mark.parametrize("old", sorted(renamed.REPOSITORY_COMMANDS))

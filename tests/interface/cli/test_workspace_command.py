@@ -1,4 +1,4 @@
-"""``holdfast workspace``, ``target-measures``, ``convergence-map`` and ``best-law``: what they print and write."""
+"""``holdfast workspace``, ``convergence-map`` and ``compare-laws --best``: what they print and write."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_measures_of_a_planar_arm(cli, tmp_path):
 
 def test_maps_and_several_laws(cli, ask, tmp_path):
     few = ["--starts", "4", "--configurations", "2", "--time-limit", "60"]
-    both = ask("best-law", "planar-3r", "--target", "1,1", *few, "--law", "pseudoinverse", "--law", "damped:0.1")
+    both = ask("compare-laws", "planar-3r", "--best", "--target", "1,1", *few, "--law", "pseudoinverse", "--law", "damped:0.1")
     assert len(both["maps"]) == 2
     assert both["best"] in both["laws"]
     assert both["maps"][0]["places"] == 4
@@ -51,7 +51,7 @@ def test_measures_by_sampling_come_with_intervals(cli, tmp_path):
 
 
 def test_points_over_targets_are_those_asked_for(ask):
-    few = ["target-measures", "planar-3r", "--target", "grid:3", "--starts", "3", "--configurations", "2"]
+    few = ["workspace", "planar-3r", "--over", "targets", "--target", "grid:3", "--starts", "3", "--configurations", "2"]
     counts = [np.sum(ask(*few, *more)["ends"]) for more in ((), ("--points", "2"), ("--points", "5"))]
     assert counts[0] == counts[1] < counts[2]
 
@@ -63,9 +63,9 @@ def test_points_over_targets_are_those_asked_for(ask):
         (["workspace", "--target", "1.5,1.5", "--method", "nothing"], "--method"),
         (["workspace", "--target", "9,9"], "within its reach"),
         (["convergence-map", "--target", "1.5,1.5", "--over", "nothing"], "--over"),
-        (["best-law", "--target", "1.5,1.5", "--law", "damped:x"], "not a number"),
-        (["best-law", "--target", "1.5,1.5", "--law", "pseudoinverse:2"], "takes no setting"),
-        (["best-law", "--target", "1.5,1.5", "--law", "pseudoinverse"], "give two or more"),
+        (["compare-laws", "--best", "--target", "1.5,1.5", "--law", "damped:x"], "not a number"),
+        (["compare-laws", "--best", "--target", "1.5,1.5", "--law", "pseudoinverse:2"], "takes no setting"),
+        (["compare-laws", "--best", "--target", "1.5,1.5", "--law", "pseudoinverse"], "give two or more"),
     ],
 )
 def test_bad_input(cli, more, message):

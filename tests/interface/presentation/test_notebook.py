@@ -95,7 +95,9 @@ MADE = {
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
     "LockSurvival": found(lambda: hf.plan_motion(arm(), timed(), task="planar", samples=5, spacing=0.3)),
     "Law": law,
-    "LawChoice": found(lambda: hf.best_law([law(), hf.control.damped(arm(), 0.3, "planar")], 1, 2, configurations=1)),
+    "LawChoice": found(
+        lambda: hf.compare_laws([law(), hf.control.damped(arm(), 0.3, "planar")], 2, 1, best=True, configurations=1)
+    ),
     "LawComparison": found(
         lambda: hf.compare_laws([law(), hf.control.damped(arm(), 0.3, "planar")], [X, X + 0.1], TARGET, restarts=2)
     ),

@@ -28,9 +28,10 @@ def some(**more):
         "alarm_time": 1.2,
         "joint": 1,
         "isolation_time": 1.22,
-        "findings": ((1.32, "b is <locked>"),),
+        "kind": "locked",
+        "classification_time": 1.32,
+        "findings": ("b is <locked>",),
         "inconclusive": ("a did not",),
-        "record_html": "",
     }
     return MonitorDemo(
         motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more}
@@ -47,6 +48,29 @@ def test_what_is_known_comes_with_time():
     assert "a did not" in end
     points = [re.findall(r'points="([^"]*)"', text)[0].split() for text in (before, end)]
     assert len(points[0]) < len(points[1]) == 80  # one is not a number
+
+
+@pytest.mark.parametrize(
+    ("changes", "current", "sentence"),
+    [
+        ({}, 1.19, "No alarm so far."),
+        ({}, 1.21, "Alarm 200 ms after the fault; the joint: not known."),
+        ({}, 1.27, "Alarm 200 ms after the fault; the joint: b."),
+        ({}, 4.0, "Alarm 200 ms after the fault; the joint: b, locked."),
+        ({"kind": "unknown"}, 4.0, "Alarm 200 ms after the fault; the joint: b."),
+        (
+            {"joint": None, "isolation_time": np.inf, "kind": "contact"},
+            4.0,
+            "Alarm 200 ms after the fault; the joint: not known.",
+        ),
+        ({"onset": 2.0}, 1.21, "Alarm at 1.200 s, before any fault; the joint: not known."),
+        ({"onset": np.inf}, 1.21, "Alarm at 1.200 s, before any fault; the joint: not known."),
+    ],
+)
+def test_the_sentence_about_the_alarm_follows_the_time(changes, current, sentence):
+    html = monitor_html(some(**changes), NAMES, current)
+    assert sentence in html
+    assert ("data-alarm" in html) == (sentence != "No alarm so far.")
 
 
 def test_there_must_be_a_target():

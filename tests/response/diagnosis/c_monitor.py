@@ -166,41 +166,13 @@ def as_bytes(arm, record):
     return rows.tobytes()
 
 
-IN_NODE = """
-import {{Monitor}} from "./monitor.mjs";
-const n={n},wide=3*n+18;
-let monitor,cycle,at=0;
-for(let i=0;i<input.length;i+=wide){{
-const row=input.subarray(i,i+wide);
-if(row[0]>1e300){{monitor=new Monitor();cycle=0;continue;}}
-if(++cycle==={again})monitor.rearm();
-const torque=row[2*n]>0?row.subarray(2*n+1,3*n+1):null,pose=row[3*n+1]>0?row.subarray(3*n+2):null;
-const t=monitor.step(row.subarray(0,n),row.subarray(n,2*n),torque,pose),stale=monitor.stale();
-output.set([...monitor.r,...monitor.level,...monitor.overY,monitor.overW,t.alarm?1:0,t.time,t.joint,t.kind,t.loss,
-stale.includes("joints")+2*stale.includes("tool"),monitor.push,t.suspect],at);
-at+=3*n+9;
-}}
-"""
-
-
-def run_in_node(arm, bounds, records):
-    """What the monitor in JavaScript says of records, as the harness writes it."""
-    import javascript
-
-    data = np.frombuffer(b"".join(as_bytes(arm, record) for record in records))
-    script = IN_NODE.format(n=arm.n, again=REARMED)
-    size = len(records) * CYCLES * (3 * arm.n + 9)
-    out = javascript.run(script, data, size, monitor=hf.diagnosis.javascript_of(arm, bounds, sensors=SENSORS))
-    return out.reshape(len(records), CYCLES, 3 * arm.n + 9)
-
-
-def compared(arm, program, count, rng, bounds, *, node=False):
-    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named; in Node too."""
+def compared(arm, program, count, rng, bounds):
+    """The largest difference in units of what is compared, verdicts that differ, and kinds that were named."""
     monitor, worst, unlike, named = hf.diagnosis.Monitor(arm, bounds, sensors=SENSORS), 0.0, 0, set()
     n = arm.n
     records = [random_record(arm, rng, k % 10) for k in range(count)]  # each of what can be wrong
     ours = [said_by_python(monitor, record) for record in records]
-    pairs = list(zip(ours, run_in_node(arm, bounds, records), strict=True)) if node else []
+    pairs = []
     for record, one in zip(records, ours, strict=True):
         done = subprocess.run([str(program)], input=as_bytes(arm, record), capture_output=True, check=True)
         pairs.append((one, np.frombuffer(done.stdout).reshape(CYCLES, 3 * n + 9)))

@@ -68,3 +68,20 @@ def test_each_set_is_minimal_beside_scipy(davit, rng):
         assert least_miss(davit, pose, np.delete(np.arange(6), lost), rng) < 1e-6
     for kept in (1, 3, 4, 5):  # nor is there another set of one row
         assert least_miss(davit, pose, np.delete(np.arange(6), kept), rng, 4) > 1e-4
+
+
+def test_the_miss_of_the_row_given_up_is_the_least_beside_scipy(davit, rng):
+    """A penalty for the rows that are met, weighed ever more, leads to the same miss as the search under constraints."""
+    pose = oracles.forward(davit, np.zeros((1, 7)))[0]
+    found = hf.recover(davit, ["a4"], AT, goal=np.zeros(7), clearance=False, samples=0)
+    weights = np.where(np.arange(6) == 2, 1.0, 1e4)
+
+    def errors(x):
+        return weights * rows_missed(davit, np.insert(x[None], 3, AT[3], axis=1), pose)[0]
+
+    misses = []
+    for start in rng.uniform(-2, 2, (30, 6)):
+        solution = least_squares(errors, start, x_scale="jac", bounds=(-2, 2), ftol=1e-15, xtol=1e-15, gtol=1e-15).fun / weights
+        if np.abs(np.delete(solution, 2)).max() < 1e-6:
+            misses.append(abs(solution[2]))
+    assert found.relaxed.misses[1] == pytest.approx(min(misses), rel=1e-4)

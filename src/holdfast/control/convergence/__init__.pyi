@@ -1,6 +1,5 @@
 from holdfast.control.convergence.healthy_cost import HealthyCost as HealthyCost
 from holdfast.control.convergence.law_choice import LawChoice as LawChoice
-from holdfast.control.convergence.law_choice import best_law as best_law
 from holdfast.control.convergence.law_comparison import Case as Case
 from holdfast.control.convergence.law_comparison import LawComparison as LawComparison
 from holdfast.control.convergence.maps import ConvergenceMap as ConvergenceMap
@@ -12,6 +11,5 @@ from holdfast.control.convergence.random_motions import PointToPoint as PointToP
 from holdfast.control.convergence.random_motions import point_to_point as point_to_point
 from holdfast.control.convergence.same_motions import compare_laws as compare_laws
 from holdfast.control.convergence.start_workspace import Workspace as Workspace
-from holdfast.control.convergence.start_workspace import workspace as workspace
 from holdfast.control.convergence.targets import TargetMeasures as TargetMeasures
-from holdfast.control.convergence.targets import target_measures as target_measures
+from holdfast.control.convergence.targets import workspace as workspace

@@ -227,7 +227,7 @@ class TargetAnalysis:
 
 def prepare_analysis(
     law: Law,
-    target: ArrayLike,
+    target: ArrayLike | str | int | Places,
     configurations: int,
     points: int,
     method: Method,
@@ -262,7 +262,7 @@ def prepare_analysis(
     run_limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
     targets = read_places(arm, task, target, np.random.default_rng(seed))
     if len(targets) != 1:
-        raise InputError(f"there are {len(targets)} targets; a workspace is that of one, see target_measures for more")
+        raise InputError(f"there are {len(targets)} targets; a workspace is that of one; say over='targets' for more")
     target_pose = targets.poses[0]
     bounds = tuple(tuple(arcs) for arcs in joint_bounds(arm.without_idle_limits, target_pose, task, seed=seed))
     arcs = None

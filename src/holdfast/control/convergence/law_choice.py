@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.convergence.maps import ConvergenceMap, average_fraction, convergence_map
+from holdfast.control.convergence.maps import ConvergenceMap, Progress, average_fraction, convergence_map
 from holdfast.control.convergence.places import Places
 from holdfast.control.laws.law import Law
 from holdfast.core.errors import InputError
@@ -17,7 +17,6 @@ from holdfast.core.probability.intervals import Difference, Interval, check_conf
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
-from holdfast.core.validation import check_arguments
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,52 +118,22 @@ class LawChoice(Result):
         return values.mean(axis=1) if joint is None else values[:, law_map.law.arm.joint_index(joint)]
 
 
-@check_arguments
 @reports_progress("simulating failures")
-def best_law(
-    laws: Mapping[str, Law] | Sequence[Law],
+def rank_laws(
+    laws: Mapping[str, Law],
     targets: ArrayLike | str | int | Places,
-    starts: ArrayLike | str | int | Places = 300,
-    *,
-    progress: Callable[[int, int], None] | None = None,
+    starts: ArrayLike | str | int | Places,
+    progress: Progress | None,
     **options: Any,
 ) -> LawChoice:
-    """Choose the law that most often reaches the target with a locked joint of which the controller has no information.
-
-    Every law meets the same failures: :func:`holdfast.convergence_map` with the same places, configurations and seed. To
-    find the best pre-failure error, give the failure-tolerant law with several.
-
-    Args:
-        laws: Two or more of one arm and task, by name; a sequence is named by :meth:`holdfast.control.laws.Law.phrase`, without
-            the task.
-        targets: As for :func:`holdfast.convergence_map`.
-        starts: Likewise.
-        progress: Called with (runs done, runs in all).
-        options: Everything else that :func:`holdfast.convergence_map` takes; with ``cell`` it is said how often each law leads
-            into something, which does not change the ranking.
-
-    Raises:
-        InputError: Fewer than two laws, laws of different arms or tasks, or as :func:`holdfast.convergence_map`.
-    """
-    law_by_name = dict(laws) if isinstance(laws, Mapping) else {_label_law(law): law for law in laws}
-    if len(law_by_name) < 2 or len(law_by_name) != len(laws):
-        raise InputError(
-            f"there are {len(law_by_name)} different laws; give two or more, or name them yourself: {{'a': law, ...}}"
-        )
-    first_law = next(iter(law_by_name.values()))
-    for name, law in law_by_name.items():
-        if law.arm.fingerprint != first_law.arm.fingerprint or not law.task.same_rows(first_law.task):
-            raise InputError(f"the law '{name}' has another arm or task than the first; compare laws of one arm and task")
-
+    """Return the laws, by name, on the same failures; see :func:`holdfast.compare_laws`."""
+    if len(laws) < 2:
+        raise InputError(f"there is {len(laws)} law; give two or more different ones to find the best")
     maps = []
-    for number, law in enumerate(law_by_name.values()):
-        law_progress = None if progress is None else _shift_progress(progress, number, len(law_by_name))
+    for number, law in enumerate(laws.values()):
+        law_progress = None if progress is None else _shift_progress(progress, number, len(laws))
         maps.append(convergence_map(law, targets, starts, progress=law_progress, **options))
-    return LawChoice(tuple(law_by_name), tuple(maps))
-
-
-def _label_law(law: Law) -> str:
-    return law.phrase().replace(f", task {law.task.describe()}", "")
+    return LawChoice(tuple(laws), tuple(maps))
 
 
 def _shift_progress(progress: Callable[[int, int], None], number: int, law_count: int) -> Callable[[int, int], None]:

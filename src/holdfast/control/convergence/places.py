@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
+from holdfast.core.extras import import_extra
 from holdfast.core.labels import is_count
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
@@ -58,8 +59,11 @@ class Places:
     def dataset(self, values: Mapping[str, Any], **names: Sequence[str]) -> xr.Dataset:
         """Return values over the dimension ``place``, with the tool points as coordinates x, y, and z, m, and names
         of others.
+
+        Raises:
+            HoldfastError: xarray is not installed (extra ``xarray``).
         """
-        import xarray as xr
+        xr = import_extra("xarray", "xarray")
 
         points = {axis: ("place", values_m, {"units": "m"}) for axis, values_m in zip("xyz", self.points.T, strict=True)}
         return xr.Dataset(values, {**points, **{name: list(labels) for name, labels in names.items()}})

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.convergence.healthy_cost import measure_healthy_cost
+from holdfast.control.convergence.law_choice import LawChoice, rank_laws
 from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison, target_error_threshold
+from holdfast.control.convergence.maps import Over, Progress
+from holdfast.control.convergence.places import Places
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.closed_loop import DEFAULT_TOLERANCE, TARGET_RADIUS_M, simulate
 from holdfast.control.simulation.runs import RunOutcome, Runs
@@ -25,33 +28,74 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes import FailureSpec, single_joints
 
+_DEFAULT_RESTARTS = 24
 
-@check_arguments
+
+@overload
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,
     target: ArrayLike,
     *,
+    best: Literal[False] = False,
     failures: FailureSpec | None = "single",
     cycles: bool = False,
     time_limit: float | None = None,
-    tolerance: float = DEFAULT_TOLERANCE,
+    tolerance: float | None = None,
     radius: float = TARGET_RADIUS_M,
-    restarts: int = 24,
+    restarts: int = _DEFAULT_RESTARTS,
     seed: int = 0,
     about: str = "",
     clearance: Clearance | bool | None = None,
     cell: CellLike | None = None,
-) -> LawComparison:
+) -> LawComparison: ...
+@overload
+def compare_laws(
+    laws: Sequence[Law] | Mapping[str, Law],
+    q0: ArrayLike | str | int | Places,
+    target: ArrayLike | str | int | Places,
+    *,
+    best: Literal[True],
+    **options: Any,
+) -> LawChoice: ...
+@check_arguments
+def compare_laws(  # type: ignore[misc]  # of the second signature it takes the options that belong to best
+    laws: Sequence[Law] | Mapping[str, Law],
+    q0: ArrayLike | str | int | Places,
+    target: ArrayLike | str | int | Places,
+    *,
+    best: bool = False,
+    failures: FailureSpec | None = "single",
+    cycles: bool = False,
+    time_limit: float | None = None,
+    tolerance: float | None = None,
+    radius: float = TARGET_RADIUS_M,
+    restarts: int = _DEFAULT_RESTARTS,
+    seed: int = 0,
+    about: str = "",
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
+    configurations: int = 20,
+    over: Over = "starts",
+    progress: Progress | None = None,
+) -> LawComparison | LawChoice:
     """Simulate the same motions under several control laws, without a failure and with each joint locked from the start.
 
     Nobody tells the laws: see :func:`holdfast.control.simulation.simulate`, which this is one call of for each law.
 
+    With ``best=True`` the result is the law that most often reaches the target: every law meets the failures of
+    :func:`holdfast.convergence_map` with the same starts, targets, configurations and seed. To find the best pre-failure error,
+    give the failure-tolerant law with several.
+
     Args:
         laws: Laws of one arm and task, the first being the one that the others are compared with; or a
-            dictionary of them by name. Without names they are called by their labels.
-        q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
-        target: As :func:`holdfast.control.simulation.simulate` takes it, one or N.
+            dictionary of them by name. Without names they are called by their labels, with ``best`` by their phrases.
+        q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`. With ``best`` the
+            ``starts`` of :func:`holdfast.convergence_map`, for example 300 random places.
+        target: As :func:`holdfast.control.simulation.simulate` takes it, one or N. With ``best`` the ``targets`` of
+            :func:`holdfast.convergence_map`.
+        best: Rank the laws by how often they reach their targets, instead of comparing them on given motions; ``failures``,
+            ``cycles``, ``radius``, ``restarts`` and ``about`` are then left out.
         failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0, each of which locks alone; None:
             no failures.
         cycles: As for :func:`holdfast.control.simulation.simulate`, and so the next three.
@@ -64,21 +108,33 @@ def compare_laws(
         clearance: As for :func:`holdfast.control.simulation.simulate`, and so ``cell``: every run is looked at, one after the
             other, for what it touches first; that changes none.
         cell: Objects around the arm, or their file.
+        configurations: With ``best``, motions for each place.
+        over: With ``best``, the places of the map: ``starts`` or ``targets``.
+        progress: With ``best``, called with (runs done, runs in all).
+
+    Returns:
+        A :class:`holdfast.LawComparison`, with ``best`` a :class:`holdfast.LawChoice`.
 
     Raises:
-        InputError: Wrong shapes or options; laws of different arms or tasks.
+        InputError: Wrong shapes or options; laws of different arms or tasks; with ``best`` fewer than two laws.
         TaskError: Failures that are not of one joint each.
     """
-    law_by_name = dict(laws) if isinstance(laws, Mapping) else _index_by_label(laws)
+    law_by_name = dict(laws) if isinstance(laws, Mapping) else _index_by_label(laws, best)
     all_laws = tuple(law_by_name.values())
     if not all_laws:
         raise InputError("there is no law to compare; give one or more, for example hf.control.pseudoinverse(arm)")
     arm, task = all_laws[0].arm, all_laws[0].task
     for name, law in law_by_name.items():
-        if law.arm is not arm or not law.task.same_rows(task):
+        if law.arm.fingerprint != arm.fingerprint or not law.task.same_rows(task):
             raise InputError(f"law '{name}' is of another arm or task than '{next(iter(law_by_name))}'; make both of the same")
+    if best:
+        if failures != "single" or cycles or radius != TARGET_RADIUS_M or restarts != _DEFAULT_RESTARTS or about:
+            raise InputError("failures, cycles, radius, restarts and about belong to given motions; leave them out with best")
+        options: dict[str, Any] = {} if tolerance is None else {"tolerance": tolerance}
+        options |= {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+        return rank_laws(law_by_name, target, q0, progress, clearance=clearance, cell=cell, **options)
     joints = single_joints(arm, failures)
-    starts, _ = as_configurations(arm, q0)
+    starts, _ = as_configurations(arm, require_real_numbers(q0, "q0"))
     targets = require_real_numbers(target, "target")
     if not targets.ndim:
         raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")
@@ -104,7 +160,7 @@ def compare_laws(
                     locked=locked_joints,
                     cycles=cycles,
                     time_limit=time_limit,
-                    tolerance=tolerance,
+                    tolerance=DEFAULT_TOLERANCE if tolerance is None else tolerance,
                     radius=radius,
                     clearance=checked_clearance,
                 )
@@ -129,12 +185,13 @@ def compare_laws(
     )
 
 
-def _index_by_label(laws: Sequence[Law]) -> dict[str, Law]:
+def _index_by_label(laws: Sequence[Law], by_phrase: bool) -> dict[str, Law]:
     law_by_label: dict[str, Law] = {}
     for law in laws:
-        if law.label in law_by_label:
-            raise InputError(f"two laws are called '{law.label}'; give a dictionary with names of your own")
-        law_by_label[law.label] = law
+        label = law.phrase().replace(f", task {law.task.describe()}", "") if by_phrase else law.label
+        if label in law_by_label:
+            raise InputError(f"two laws are called '{label}'; give a dictionary with names of your own")
+        law_by_label[label] = law
     return law_by_label
 
 

@@ -8,41 +8,32 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.convergence.analysis import (
     END_ARRIVING,
     END_NO_SINK,
     FAILURE_ENDS,
-    PATH_CELLS,
-    RUN_TOLERANCE,
     Method,
     RelativeTo,
     StartConfigurations,
     TargetAnalysis,
-    choose_method,
-    prepare_analysis,
 )
-from holdfast.control.convergence.measures import FINISH_NAMES, MEASURE_NAMES, REACH_NAMES, Arcs, Measures
-from holdfast.control.convergence.places import Places, read_places
+from holdfast.control.convergence.measures import FINISH_NAMES, MEASURE_NAMES, REACH_NAMES, Measures
+from holdfast.control.convergence.places import Places
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.errors import InputError
 from holdfast.core.probability.intervals import Interval, check_confidence
-from holdfast.core.progress import reports_progress
-from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.result import Result
 from holdfast.core.sweeps.store import Store
 from holdfast.core.typing import FloatArray, IndexArray, Rows
-from holdfast.core.validation import check_arguments
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Progress = Callable[[int, int], None]
 
-LATTICE_DEFAULTS: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
-SAMPLE_DEFAULTS: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
 _CHUNK_STARTS = 128  # starts analysed together and stored as one; no result depends on it
 
 
@@ -174,100 +165,6 @@ class Workspace(Result):
                 "from every sink, which makes convergence very likely but does not prove it"
             )
         return lines
-
-
-@check_arguments
-@reports_progress("simulating failures")
-def workspace(
-    law: Law,
-    target: ArrayLike,
-    starts: ArrayLike | str | int | Places | None = None,
-    *,
-    configurations: int | None = None,
-    points: int | None = None,
-    method: Method | None = None,
-    cells: int = PATH_CELLS,
-    time_limit: float | None = None,
-    tolerance: float = RUN_TOLERANCE,
-    relative_to: RelativeTo = "inside",
-    sinks: Mapping[int, Arcs] | None = None,
-    seed: int = 0,
-    store: str | Path | None = None,
-    progress: Progress | None = None,
-) -> Workspace:
-    """Compute from which starts a target is still reached when a joint locks on the way and is not detected.
-
-    From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
-    space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
-    locks where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in
-    reach: R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens
-    its greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
-    (:func:`holdfast.control.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the
-    failed arm reaches the target. *Any* joint: all joints must be inside, and the arm must reach the target whichever fails.
-
-    Near the very ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit
-    counts as converged if it is next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
-    counted in ``ends``.
-
-    Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
-    in proportion; both are weighted by their lengths.
-
-    **By sampling** (``method="sampled"``), for any redundant arm and task: of every start up to
-    ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
-    more those at which inverse kinematics converges from random starts, which are not spread evenly over the manifold. The
-    measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
-    than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
-    every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
-    :meth:`holdfast.Workspace.intervals`.
-
-    Args:
-        law: The control law.
-        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.control.simulation.simulate`.
-        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
-            places, as in the paper); a number of random places (where the end effector is at random configurations); or (P, m)
-            positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none.
-        configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
-            of redundancy. 36 on a lattice, else 8, if not given.
-        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given.
-        method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
-            failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
-        cells: Of the way.
-        time_limit: s; 2000/Ke if not given.
-        tolerance: Of the simulation's steps, rad.
-        relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
-            of the whole way.
-        sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
-            given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
-            either side of Hopf points, beside which limit cycles live.
-        seed: Of the search for configurations, and of random starts.
-        store: A folder to keep the results in; a stopped analysis resumes there.
-        progress: Called with (starts done, starts in all).
-
-    Raises:
-        InputError: Wrong shapes or options, a target out of reach, or the procedure where stationary points form surfaces.
-        TaskError: An arm without redundancy for the task.
-        StoreError: A folder of another analysis, or one that cannot be written.
-
-    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
-    effector's
-    path: the paper does not define it. Sampling and its intervals are ours.
-    """
-    if store is not None:
-        LAW_REGISTRY.label(law)  # says so where there is none
-    chosen = choose_method(law) if method is None else method
-    defaults = LATTICE_DEFAULTS if choose_method(law) == "brute" else SAMPLE_DEFAULTS
-    configuration_count = defaults[1] if configurations is None else configurations
-    failures = defaults[2] if points is None else points
-    places = read_places(law.arm, law.task, defaults[0] if starts is None else starts, np.random.default_rng(seed))
-    job = prepare_analysis(
-        law, target, configuration_count, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed
-    )
-    if not job.is_reached:
-        position = ", ".join(f"{coordinate:g}" for coordinate in job.pose[:3, 3])
-        raise InputError(
-            f"no configuration of '{law.arm.name}' was found at the target ({position}) m; choose one within its reach"
-        )
-    return compute_workspace(job, StartConfigurations(law, places, configuration_count, chosen, seed), store, progress)
 
 
 def compute_workspace(

@@ -1,10 +1,11 @@
-"""The workspace measures over targets instead of starts, which show the targets that a lock puts at risk from any start."""
+"""Analysis of a workspace: the measures over starts, or over targets, which show the targets that a lock puts at risk."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,17 +13,29 @@ from numpy.typing import ArrayLike
 from holdfast.control.convergence.analysis import (
     FAILURE_END_TEXTS,
     FAILURE_ENDS,
+    PATH_CELLS,
+    RUN_TOLERANCE,
     Method,
+    RelativeTo,
     StartConfigurations,
     choose_method,
     prepare_analysis,
 )
-from holdfast.control.convergence.measures import MEASURE_NAMES
+from holdfast.control.convergence.maps import Over
+from holdfast.control.convergence.measures import MEASURE_NAMES, Arcs
 from holdfast.control.convergence.places import Places, read_places
-from holdfast.control.convergence.start_workspace import compute_workspace, mean_ignoring_nan, mean_intervals
+from holdfast.control.convergence.start_workspace import (
+    Progress,
+    Workspace,
+    compute_workspace,
+    mean_ignoring_nan,
+    mean_intervals,
+)
 from holdfast.control.laws.law import Law
+from holdfast.core.errors import InputError
 from holdfast.core.probability.intervals import check_confidence
 from holdfast.core.progress import reports_progress
+from holdfast.core.registry import LAW_REGISTRY
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
@@ -31,10 +44,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-LATTICE_DEFAULTS: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
-SAMPLE_DEFAULTS: tuple[str | int, int] = (50, 4)  # and where they are sampled
-DEFAULT_STARTS = 20
-DEFAULT_POINTS = 2
+# Starts, configurations and failures, by the places of the map and whether places can be a lattice.
+_DEFAULT_SAMPLE_SIZES: dict[tuple[Over, bool], tuple[str | int, int, int]] = {
+    ("starts", True): ("grid", 36, 10),
+    ("starts", False): (100, 8, 3),
+    ("targets", True): (20, 8, 2),
+    ("targets", False): (20, 4, 2),
+}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -108,62 +124,162 @@ class TargetMeasures(Result):
         return self.targets.dataset(values, joint=(*self.law.arm.joint_names, "any"), ending=FAILURE_ENDS)
 
 
-@check_arguments
-@reports_progress("simulating failures")
-def target_measures(
+@overload
+def workspace(
     law: Law,
-    targets: ArrayLike | str | int | Places | None = None,
+    target: ArrayLike,
     starts: ArrayLike | str | int | Places | None = None,
     *,
+    over: Literal["starts"] = "starts",
     configurations: int | None = None,
     points: int | None = None,
     method: Method | None = None,
+    cells: int = PATH_CELLS,
+    time_limit: float | None = None,
+    tolerance: float = RUN_TOLERANCE,
+    relative_to: RelativeTo = "inside",
+    sinks: Mapping[int, Arcs] | None = None,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    store: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Workspace: ...
+@overload
+def workspace(
+    law: Law,
+    target: ArrayLike | str | int | Places,
+    starts: ArrayLike | str | int | Places | None = None,
+    *,
+    over: Literal["targets"],
     **options: Any,
-) -> TargetMeasures:
-    """Compute the measures of :func:`holdfast.workspace` for many targets, over the same starts.
+) -> TargetMeasures: ...
+@check_arguments
+@reports_progress("simulating failures")
+def workspace(  # type: ignore[misc]  # of the second signature it takes the options that belong to targets
+    law: Law,
+    target: ArrayLike | str | int | Places,
+    starts: ArrayLike | str | int | Places | None = None,
+    *,
+    over: Over = "starts",
+    configurations: int | None = None,
+    points: int | None = None,
+    method: Method | None = None,
+    cells: int = PATH_CELLS,
+    time_limit: float | None = None,
+    tolerance: float = RUN_TOLERANCE,
+    relative_to: RelativeTo = "inside",
+    sinks: Mapping[int, Arcs] | None = None,
+    seed: int = 0,
+    store: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Workspace | TargetMeasures:
+    """Compute from which starts a target is still reached when a joint locks on the way and is not detected.
+
+    From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
+    space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
+    locks where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in
+    reach: R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens
+    its greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
+    (:func:`holdfast.control.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the
+    failed arm reaches the target. *Any* joint: all joints must be inside, and the arm must reach the target whichever fails.
+
+    Near the very ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit
+    counts as converged if it is next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
+    counted in ``ends``.
+
+    Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
+    in proportion; both are weighted by their lengths.
+
+    **By sampling** (``method="sampled"``), for any redundant arm and task: of every start up to
+    ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
+    more those at which inverse kinematics converges from random starts, which are not spread evenly over the manifold. The
+    measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
+    than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
+    every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
+    :meth:`holdfast.Workspace.intervals`.
+
+    **Over targets** (``over="targets"``): the same measures for each of many targets, over the same starts.
 
     Args:
-        law: The law of the controller, of a redundant arm.
-        targets: A lattice (``"grid:14"``, for a task in a plane), a number of random ones, (T, m) positions or (T, 4, 4)
-            poses. If not given: the lattice ``"grid:12"``, or 50 random ones where there is none.
-        starts: Likewise; 20 random ones if not given.
-        configurations: Of each start, as in :func:`holdfast.workspace`; 8 on a lattice, else 4, if not given.
-        points: Failures of each joint on each motion; 2 if not given.
-        method: As in :func:`holdfast.workspace`.
-        seed: Of random places and of the search for configurations.
-        progress: Is told how many targets are done, and of how many.
-        options: Further ones of :func:`holdfast.workspace`: ``cells``, ``time_limit``, ``tolerance``, ``relative_to``.
+        law: The control law.
+        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.control.simulation.simulate`; over targets also several, a
+            lattice or a number of random ones, as for the starts.
+        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
+            places, as in the paper); a number of random places (where the end effector is at random configurations); or (P, m)
+            positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none; over targets 20
+            random ones.
+        over: ``starts`` or ``targets``, the places of the map.
+        configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
+            of redundancy. 36 on a lattice, else 8, if not given; over targets 8 or 4.
+        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given; over
+            targets 2.
+        method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
+            failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
+        cells: Of the way.
+        time_limit: s; 2000/Ke if not given.
+        tolerance: Of the simulation's steps, rad.
+        relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
+            of the whole way.
+        sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
+            given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
+            either side of Hopf points, beside which limit cycles live.
+        seed: Of the search for configurations, and of random starts.
+        store: A folder to keep the results in; a stopped analysis resumes there. Only over starts.
+        progress: Called with (starts done, starts in all), or with targets over targets.
 
     Returns:
-        A :class:`holdfast.TargetMeasures`.
+        A :class:`holdfast.Workspace`, or over targets a :class:`holdfast.TargetMeasures`.
 
     Raises:
-        InputError, TaskError: As :func:`holdfast.workspace`.
+        InputError: Wrong shapes or options, a target out of reach, or the procedure where stationary points form surfaces.
+        TaskError: An arm without redundancy for the task.
+        StoreError: A folder of another analysis, or one that cannot be written.
 
-    Source: the measures are those of Goel, Maciejewski, Balakrishnan 2005, section 5; over targets they are ours.
+    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
+    effector's
+    path: the paper does not define it. Sampling, its intervals, and the measures over targets are ours.
     """
+    if over not in ("starts", "targets"):
+        raise InputError(f"over '{over}' is not known; use starts or targets")
+    if store is not None:
+        if over == "targets":
+            raise InputError("store keeps an analysis over starts; leave it out with over='targets'")
+        LAW_REGISTRY.label(law)  # says so where there is none
     chosen = choose_method(law) if method is None else method
-    defaults = LATTICE_DEFAULTS if choose_method(law) == "brute" else SAMPLE_DEFAULTS
-    configuration_count = defaults[1] if configurations is None else configurations
-    failures = DEFAULT_POINTS if points is None else points
+    kind: tuple[Over, bool] = over, choose_method(law) == "brute"
+    default_starts, default_configurations, default_points = _DEFAULT_SAMPLE_SIZES[kind]
+    count = default_configurations if configurations is None else configurations
+    failures = default_points if points is None else points
+    settings = (count, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed)
     generator = np.random.default_rng(seed)
-    target_places = read_places(law.arm, law.task, defaults[0] if targets is None else targets, generator)
-    places = read_places(law.arm, law.task, DEFAULT_STARTS if starts is None else starts, generator)
-    start_configurations = StartConfigurations(law, places, configuration_count, chosen, seed)
-    shape = len(target_places), len(places)
+    targets = read_places(law.arm, law.task, target, generator) if over == "targets" else None
+    places = read_places(law.arm, law.task, default_starts if starts is None else starts, generator)
+    start_configurations = StartConfigurations(law, places, count, chosen, seed)
+    if targets is not None:
+        return _measure_targets(law, targets, start_configurations, settings, progress)
+    job = prepare_analysis(law, target, *settings)
+    if not job.is_reached:
+        position = ", ".join(f"{coordinate:g}" for coordinate in job.pose[:3, 3])
+        raise InputError(
+            f"no configuration of '{law.arm.name}' was found at the target ({position}) m; choose one within its reach"
+        )
+    return compute_workspace(job, start_configurations, store, progress)
+
+
+def _measure_targets(
+    law: Law, targets: Places, starts: StartConfigurations, settings: tuple[Any, ...], progress: Progress | None
+) -> TargetMeasures:
+    shape = len(targets), len(starts.places)
     values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in MEASURE_NAMES}
     tried_counts = np.zeros(shape, dtype=np.int64)
-    ends = np.zeros((len(target_places), len(FAILURE_ENDS)), dtype=np.int64)
-    for index, pose in enumerate(target_places.poses):
-        job = prepare_analysis(law, pose, configuration_count, failures, chosen, seed=seed, **options)
+    ends = np.zeros((len(targets), len(FAILURE_ENDS)), dtype=np.int64)
+    for index, pose in enumerate(targets.poses):
+        job = prepare_analysis(law, pose, *settings)
         if job.is_reached:
-            target_workspace = compute_workspace(job, start_configurations)
+            target_workspace = compute_workspace(job, starts)
             for name, columns in target_workspace.measures.items():
                 values[name][index] = columns
             tried_counts[index] = target_workspace.configurations - target_workspace.lost
             ends[index] = target_workspace.ends.sum(axis=0)
         if progress is not None:
-            progress(index + 1, len(target_places))
-    return TargetMeasures(law=law, targets=target_places, starts=places, values=values, configurations=tried_counts, ends=ends)
+            progress(index + 1, len(targets))
+    return TargetMeasures(law=law, targets=targets, starts=starts.places, values=values, configurations=tried_counts, ends=ends)

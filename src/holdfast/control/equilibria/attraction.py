@@ -16,6 +16,7 @@ from holdfast.control.laws.law import Law
 from holdfast.control.simulation.closed_loop import simulate
 from holdfast.control.simulation.runs import RunOutcome, Runs
 from holdfast.core.errors import InputError
+from holdfast.core.extras import import_extra
 from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
@@ -96,8 +97,12 @@ class Basins(Result):
         return [self.points.describe()[0], f"{self.convergence} of {len(self.end)} starts reach the target"]
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes."""
-        import xarray as xr
+        """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes.
+
+        Raises:
+            HoldfastError: xarray is not installed (extra ``xarray``).
+        """
+        xr = import_extra("xarray", "xarray")
 
         values = {"start": (("start_number", "joint"), self.starts), "end": ("start_number", self.end)}
         return xr.Dataset(values, {"joint": list(self.points.law.arm.joint_names)})

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
-from holdfast.core.probability.beta import beta_quantile
 from holdfast.core.typing import FloatArray
 
 BETTING_ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly depends on the order they came in
@@ -35,9 +34,11 @@ class Interval:
 
         Source: Clopper and Pearson 1934.
         """
+        from scipy.special import betaincinv
+
         rest = (1 - confidence) / 2
-        low = beta_quantile(hits, size - hits + 1, rest) if hits > 0 else 0.0
-        high = beta_quantile(hits + 1, size - hits, 1 - rest) if hits < size else 1.0
+        low = float(betaincinv(hits, size - hits + 1, rest)) if hits > 0 else 0.0
+        high = float(betaincinv(hits + 1, size - hits, 1 - rest)) if hits < size else 1.0
         return cls(value=float(hits / size), low=low, high=high, confidence=confidence)
 
     @classmethod

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import StoreError
+from holdfast.core.extras import import_extra
 from holdfast.core.files.output import guard_writing
 from holdfast.core.sweeps.folder import is_valid_folder_name, shorten
 from holdfast.core.typing import Rows
@@ -149,12 +150,11 @@ class SampleArrays:
 
     def open_dataset(self) -> xr.Dataset:
         """Return all rows as a dataset; see :meth:`holdfast.core.sweeps.Store.dataset`."""
-        import xarray as xr
-
+        xr = import_extra("xarray", "xarray")
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", category=UserWarning)
-                data: xr.Dataset = xr.open_zarr(self.path, consolidated=False, mask_and_scale=False, chunks=None)
+                data = xr.open_zarr(self.path, consolidated=False, mask_and_scale=False, chunks=None)
         except Exception as error:  # zarr and xarray raise many kinds for damaged files
             raise self.damage_error(error) from error
         return data

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError, StoreError
+from holdfast.core.extras import import_extra
 from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, make_folder, replace_file
@@ -376,6 +377,7 @@ class Store:
 
         Raises:
             StoreError: The arrays are missing or damaged.
+            HoldfastError: xarray is not installed (extra ``xarray``).
         """
         return self._samples.open_dataset()
 

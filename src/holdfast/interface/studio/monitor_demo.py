@@ -1,12 +1,9 @@
 """Demonstration of a monitor, calibrated on the healthy arm, that identifies a joint fault during a motion: simulation and
 drawing.
-
-The page has that monitor too, and runs it over what the robot told so far: what is said of the alarm comes from there.
 """
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -20,13 +17,12 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.studio.motions import MOTION_SAMPLES, PlayedMotion
 from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
-from holdfast.model.arm.poses import pose_from_quaternion, rotations_of_quaternions
+from holdfast.model.arm.poses import pose_from_quaternion
 from holdfast.response.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
 
 if TYPE_CHECKING:
     from holdfast.response.diagnosis.answer import Diagnosis
     from holdfast.response.diagnosis.bounds import Bounds
-    from holdfast.response.faults.log import Log
     from holdfast.response.supervisor.run import FaultRun
 
 
@@ -74,9 +70,10 @@ class MonitorDemo:
         alarm_time: s; infinite without one.
         joint: The one that was named, from 0; None if none was.
         isolation_time: When, s; infinite if none was.
-        findings: What was known, each with the time from which on, s.
+        kind: Kind of the fault, as the monitor names it.
+        classification_time: Time from which the kind and the findings are known, s; infinite without an alarm.
+        findings: Sentences about the fault.
         inconclusive: What could not be told.
-        record_html: HTML that shows nothing: what the robot told, and the monitor as a module of JavaScript.
     """
 
     motion: PlayedMotion
@@ -86,9 +83,10 @@ class MonitorDemo:
     alarm_time: float
     joint: int | None
     isolation_time: float
-    findings: tuple[tuple[float, str], ...]
+    kind: str
+    classification_time: float
+    findings: tuple[str, ...]
     inconclusive: tuple[str, ...]
-    record_html: str
 
 
 _last_thresholds: dict[object, Bounds] = {}  # of the last question: to inject another fault takes one motion, not five
@@ -152,16 +150,13 @@ def _to_task_target(machine: CompiledArm, pose: FloatArray) -> FloatArray:
 
 
 def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: tuple[str, ...]) -> MonitorDemo:
-    import holdfast as hf
-
     verdict, scaled, stride = diagnosis.verdict, diagnosis.scaled, max(1, len(run.time) // MAX_LINE_POINTS)
-    findings: list[tuple[float, str]] = []
+    findings: list[str] = []
     alarm_time = float(verdict.time) if verdict.alarm else np.inf
     isolation_time = alarm_time + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
     if verdict.alarm:
         fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
-        known_time = isolation_time if verdict.kind == "sensor" else isolation_time + CLASSIFICATION_TIME_S
-        findings = [(known_time, text) for text in (fault, *verdict.evidence)]
+        findings = [fault, *verdict.evidence]
     inconclusive = [f"did not move enough to tell: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
     if verdict.alarm and len(verdict.candidates) > 1:
         inconclusive.append(f"not told apart: {', '.join(verdict.candidates)}")
@@ -182,27 +177,10 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
         alarm_time=alarm_time,
         joint=names.index(verdict.joint) if verdict.joint in names else None,
         isolation_time=np.inf if verdict.joint is None else isolation_time,
+        kind=verdict.kind,
+        classification_time=isolation_time if verdict.kind == "sensor" else isolation_time + CLASSIFICATION_TIME_S,
         findings=tuple(findings),
         inconclusive=tuple(inconclusive),
-        record_html=_encode_log_html(diagnosis.log, hf.diagnosis.javascript_of(run.arm, diagnosis.bounds), onset),
-    )
-
-
-def _encode_log_html(log: Log, monitor: str, onset: float) -> str:
-    """Encode for the page the rows of joints, references and torques, the measured poses, (4, 4) by rows, and the monitor."""
-    assert log.tau is not None
-    assert log.x is not None
-    assert log.quat is not None
-    measured_rows = np.flatnonzero(np.isfinite(log.x[:, 0]))
-    poses = np.tile(np.eye(4), (len(measured_rows), 1, 1))
-    poses[:, :3, :3], poses[:, :3, 3] = rotations_of_quaternions(log.quat[measured_rows]), log.x[measured_rows]
-    arrays = (np.concatenate([log.q, log.q_ref, log.tau], axis=1), poses)
-    texts = (*(b64encode(array.tobytes()).decode() for array in arrays), monitor)
-    elements, pose_stride = "".join(f"<b>{escape(text)}</b>" for text in texts), int(np.diff(measured_rows)[0])
-    onset_text = onset if np.isfinite(onset) else ""
-    return (
-        f'<div hidden class="hf-record" data-rate="{log.rate:g}" data-every="{pose_stride}" '
-        f'data-onset="{onset_text}">{elements}</div>'
     )
 
 
@@ -229,14 +207,28 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
         for quantity, values in demo.residuals.items()
         if np.isfinite(values).any()
     ]
-    past_findings = [text for time, text in demo.findings if time <= current]
-    lines = [*past_findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
+    findings = demo.findings if current >= demo.classification_time else ()
+    lines = [*findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
     legend = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
     return (
-        f'<div class="hf-watch"><strong class="hf-head" data-now="{current:.6g}"></strong><div class="hf-soft">{legend}</div>'
+        f'<div class="hf-watch"{" data-alarm" if current >= demo.alarm_time else ""}>'
+        f'<strong class="hf-head">{escape(_describe_alarm(demo, names, current))}</strong><div class="hf-soft">{legend}</div>'
         f"{''.join(panels)}<ul>{items}</ul></div>"
     )
+
+
+def _describe_alarm(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
+    """Describe when the alarm came, and which joint and which kind of fault the monitor has named by the current time."""
+    if current < demo.alarm_time:
+        return "No alarm so far."
+    delay = demo.alarm_time - demo.onset
+    when = f"at {demo.alarm_time:.3f} s, before any fault" if delay < 0 else f"{1000 * delay:.0f} ms after the fault"
+    joint = "not known"
+    if demo.joint is not None and current >= demo.isolation_time:
+        is_classified = current >= demo.classification_time and demo.kind != "unknown"
+        joint = names[demo.joint] + (f", {demo.kind}" if is_classified else "")
+    return f"Alarm {when}; the joint: {joint}."
 
 
 def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: float, names: tuple[str, ...]) -> str:

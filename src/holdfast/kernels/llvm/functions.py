@@ -3,14 +3,12 @@ machine.
 
 Nothing is called: a processor's C library, a graphics processor and every lane of a batch would each round in their own way.
 What is left to the machine is whether it has fused multiply-add. Largest errors, measured against exact values, in units in
-the last place: exp 0.83, log 0.79, pow 0.86, asin 0.65, acos 0.68, atan 0.75, atan2 0.94; of what no kernel of holdfast uses
-log1p 0.76, erf 0.86, expm1 1.1, sinh and cosh 1.7, tanh 2.2. ``tests/kernels/test_kernel_functions.py`` holds limits on them
-and compares special values.
+the last place: exp 0.83, log 0.79, pow 0.86, asin 0.65, acos 0.68, atan 0.75, atan2 0.94.
+``tests/kernels/test_kernel_functions.py`` holds limits on them and compares special values.
 
 Source: reductions and polynomials of fdlibm (Sun Microsystems 1993, 2004; ``e_exp.c``, ``e_log.c``, ``e_pow.c``, ``s_atan.c``,
-``e_asin.c``, ``s_erf.c``), whose branches are choices here; the rounding of a quotient or product is carried along as in
-T. J. Dekker, "A floating-point technique for extending the available precision" (1971). Hyperbolic functions, ``expm1`` and
-``log1p`` from the same pieces: derived here.
+``e_asin.c``), whose branches are choices here; the rounding of a quotient or product is carried along as in
+T. J. Dekker, "A floating-point technique for extending the available precision" (1971).
 """
 
 from __future__ import annotations
@@ -32,7 +30,6 @@ _LN2_HIGH = 6.93147180369123816490e-01
 _LN2_LOW = 1.90821492927058770002e-10
 _QUARTER_TURN = 1.57079632679489655800e00, 6.12323399573676603587e-17  # of a turn, in two parts, as of all pairs here
 _ATAN_OF_HALF = 4.63647609000806093515e-01, 2.26987774529616870924e-17
-_ERF_AT_1 = 8.45062911510467529297e-01  # rounded to 24 bits
 _EXP_COEFFICIENTS = _read_coefficients(
     "4.1381367970572385e-08 -1.6533902205465252e-06 6.613756321437934e-05 -0.0027777777777015593 0.16666666666666602"
 )
@@ -53,25 +50,6 @@ _ASIN_NUMERATOR = _read_coefficients(
     "0.16666666666666666"
 )
 _ASIN_DENOMINATOR = _read_coefficients("0.07703815055590194 -0.6882839716054533 2.0209457602335057 -2.403394911734414 1.0")
-_ERF_COEFFICIENTS = [  # numerator and denominator to 0.84375, to 1.25, to 1/0.35, and beyond
-    _read_coefficients(row)
-    for row in (
-        "-2.3763016656650163e-05 -0.005770270296489442 -0.02848174957559851 -0.3250421072470015 0.12837916709551256",
-        "-3.960228278775368e-06 0.00013249473800432164 0.005081306281875766 0.0650222499887673 0.39791722395915535 1.0",
-        "-0.002166375594868791 0.035478304325618236 -0.11089469428239668 0.31834661990116175 -0.3722078760357013 "
-        "0.41485611868374833 -0.0023621185607526594",
-        "0.011984499846799107 0.01363708391202905 0.12617121980876164 0.07182865441419627 0.540397917702171 "
-        "0.10642088040084423 1.0",
-        "-9.814329344169145 -81.2874355063066 -184.60509290671104 -162.39666946257347 -62.375332450326006 "
-        "-10.558626225323291 -0.6938585727071818 -0.009864944034847148",
-        "-0.0604244152148581 6.570249770319282 108.63500554177944 429.00814002756783 645.3872717332679 434.56587747522923 "
-        "137.65775414351904 19.651271667439257 1.0",
-        "-483.5191916086514 -1025.0951316110772 -637.5664433683896 -160.63638485582192 -17.757954917754752 "
-        "-0.799283237680523 -0.0098649429247001",
-        "-22.44095244658582 474.52854120695537 2553.0504064331644 3199.8582195085955 1536.729586084437 325.7925129965739 "
-        "30.33806074348246 1.0",
-    )
-]
 _RANGE_CENTERS = (  # of the thirds of a range; their logarithms in two parts
     (1.5, 0.75, 1.0),
     (0.4054651081081644, -0.2876820724517809, 0.0),
@@ -99,9 +77,9 @@ def _scale_by_power(e: Arithmetic, x: str, k: str) -> str:
     return e.mul(e.mul(x, _power_of_2(e, half)), _power_of_2(e, e.sub(k, half)))
 
 
-def _reduce_exp_argument(e: Arithmetic, x: str, correction: str | None = None, low: float = -746.0) -> tuple[str, str, str]:
-    """Return the k, a and b of ``exp(x + rest) = 2^k (1 + a + b)``, |b| small against a; x is taken from ``low`` to 720."""
-    upper, lower = e.constant(720.0), e.constant(low)
+def _reduce_exp_argument(e: Arithmetic, x: str, correction: str | None = None) -> tuple[str, str, str]:
+    """Return the k, a and b of ``exp(x + rest) = 2^k (1 + a + b)``, |b| small against a; x is taken from -746 to 720."""
+    upper, lower = e.constant(720.0), e.constant(-746.0)
     x = e.select(e.compare("ogt", x, upper), upper, e.select(e.compare_less(x, lower), lower, x))
     shift = e.constant(ROUNDING_SHIFT)
     k = e.sub(e.fma(x, e.constant(1.44269504088896338700), shift), shift)
@@ -118,39 +96,6 @@ def _reduce_exp_argument(e: Arithmetic, x: str, correction: str | None = None, l
 def _emit_exp(e: Arithmetic, x: str, correction: str | None = None) -> str:
     k, a, b = _reduce_exp_argument(e, x, correction)
     return _scale_by_power(e, e.add(e.constant(1.0), e.add(a, b)), k)
-
-
-def _emit_expm1(e: Arithmetic, x: str, doublings: float = 0.0) -> str:
-    """(exp(x) - 1) 2^doublings."""
-    k, a, b = _reduce_exp_argument(e, x, low=-60.0)
-    total, rounding_error = _sum_and_error(
-        e,
-        e.sub(e.constant(1.0), _power_of_2(e, e.negate(e.select(e.compare_less(k, e.constant(60.0)), k, e.constant(60.0))))),
-        a,
-    )
-    y = _scale_by_power(e, e.add(total, e.add(rounding_error, b)), e.add(k, e.constant(doublings)))
-    return e.select(e.compare("oeq", x, e.constant(0.0)), x, y)
-
-
-def _emit_sinh(e: Arithmetic, x: str) -> str:
-    size = e.intrinsic("fabs", x)
-    h = _emit_expm1(e, size, -1.0)
-    y = e.add(h, e.binary("fdiv", h, e.add(e.add(h, h), e.constant(1.0))))
-    y = e.select(e.compare("oeq", h, e.constant(_INFINITY)), h, e.select(e.compare_less(size, e.constant(2.0**-28)), size, y))
-    return e.intrinsic("copysign", y, x)
-
-
-def _emit_cosh(e: Arithmetic, x: str) -> str:
-    k, a, b = _reduce_exp_argument(e, e.intrinsic("fabs", x))
-    w = _scale_by_power(e, e.add(e.constant(1.0), e.add(a, b)), e.add(k, e.constant(-1.0)))
-    return e.add(w, e.binary("fdiv", e.constant(0.25), w))
-
-
-def _emit_tanh(e: Arithmetic, x: str) -> str:
-    size = e.intrinsic("fabs", x)
-    size = e.select(e.compare("ogt", size, e.constant(25.0)), e.constant(25.0), size)
-    t = _emit_expm1(e, e.add(size, size))
-    return e.intrinsic("copysign", e.binary("fdiv", t, e.add(t, e.constant(2.0))), x)
 
 
 # ---- logarithm -----------------------------------------------------------------------------------------------------
@@ -185,14 +130,6 @@ def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
     y = e.select(e.compare("oeq", x, e.constant(_INFINITY)), x, y)
     y = e.select(e.compare("oeq", x, e.constant(0.0)), e.constant(-_INFINITY), y)
     return e.select(e.compare("oge", x, e.constant(0.0)), y, e.constant(_NOT_A_NUMBER))
-
-
-def _emit_log1p(e: Arithmetic, x: str) -> str:
-    u, rounding_error = _sum_and_error(e, e.constant(1.0), x)
-    finite = e.compare_less(x, e.constant(2.0**60))  # infinity loses itself
-    y = _emit_log(e, u, e.select(finite, e.binary("fdiv", rounding_error, u), e.constant(0.0)))
-    y = e.select(e.compare("oeq", u, e.constant(0.0)), e.constant(-_INFINITY), y)
-    return e.select(e.compare("oeq", x, e.constant(0.0)), x, y)
 
 
 # ---- powers --------------------------------------------------------------------------------------------------------
@@ -357,37 +294,6 @@ def _emit_acos(e: Arithmetic, x: str) -> str:
     return e.add(first, e.add(e.add(rounding_error, turned[1]), e.mul(sign, e.fma(v, r, c))))
 
 
-# ---- error function ------------------------------------------------------------------------------------------------
-
-
-def _emit_erf(e: Arithmetic, x: str) -> str:
-    size, one = e.intrinsic("fabs", x), e.constant(1.0)
-    size = e.select(e.compare("ogt", size, e.constant(6.0)), e.constant(6.0), size)
-    square = e.mul(size, size)
-    ends = [e.compare_less(size, e.constant(end)) for end in (0.84375, 1.25, 1 / 0.35)]
-
-    def select_by_range(values: list[str]) -> str:
-        value = values[3]
-        for mask, other in zip(reversed(ends), reversed(values[:3]), strict=True):
-            value = e.select(mask, other, value)
-        return value
-
-    z = select_by_range([square, e.sub(size, one), *[e.binary("fdiv", one, e.select(ends[0], one, square))] * 2])
-
-    def evaluate_part(part: int) -> str:
-        value = e.constant(0.0)
-        for degree in reversed(range(9)):
-            row = [c[-1 - degree] if degree < len(c) else 0.0 for c in _ERF_COEFFICIENTS[part::2]]
-            value = e.fma(value, z, select_by_range([e.constant(c) for c in row]))
-        return value
-
-    ratio = e.binary("fdiv", evaluate_part(0), evaluate_part(1))
-    tail = e.binary("fdiv", _emit_exp(e, e.add(e.sub(e.constant(-0.5625), square), ratio)), e.select(ends[0], one, size))
-    beyond = e.sub(one, tail)
-    value = select_by_range([e.fma(size, ratio, size), e.add(e.constant(_ERF_AT_1), ratio), beyond, beyond])
-    return e.intrinsic("copysign", value, x)
-
-
 EMITTED_FUNCTIONS: dict[int, Callable[[Arithmetic, str, str], str]] = {
     ca.OP_EXP: lambda e, x, _: _emit_exp(e, x),
     ca.OP_LOG: lambda e, x, _: _emit_log(e, x),
@@ -397,10 +303,4 @@ EMITTED_FUNCTIONS: dict[int, Callable[[Arithmetic, str, str], str]] = {
     ca.OP_ACOS: lambda e, x, _: _emit_acos(e, x),
     ca.OP_ATAN: lambda e, x, _: _emit_atan2(e, x, e.constant(1.0)),
     ca.OP_ATAN2: _emit_atan2,
-    ca.OP_SINH: lambda e, x, _: _emit_sinh(e, x),
-    ca.OP_COSH: lambda e, x, _: _emit_cosh(e, x),
-    ca.OP_TANH: lambda e, x, _: _emit_tanh(e, x),
-    ca.OP_ERF: lambda e, x, _: _emit_erf(e, x),
-    ca.OP_LOG1P: lambda e, x, _: _emit_log1p(e, x),
-    ca.OP_EXPM1: lambda e, x, _: _emit_expm1(e, x),
 }

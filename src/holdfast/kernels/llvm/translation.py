@@ -24,13 +24,17 @@ FUNCTION_NAME = "rows"  # of the function
 _COMPARISON_NAMES = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
+class UnsupportedOperationError(KernelError):
+    """A program with an operation that has no translation to LLVM."""
+
+
 def emit_llvm_function(program: Program, machine: TargetMachine) -> str:
     """The function ``void rows(in, out, stride, n)`` as text.
 
     Input k of row i is ``in[k * stride + i]``, output k ``out[k * stride + i]``; n is a multiple of the lanes.
 
     Raises:
-        KernelError: The program uses an operation that has no translation; the message names it.
+        UnsupportedOperationError: The program uses an operation that has no translation; the message names it.
     """
     return Emitter(program, machine).module_text()
 
@@ -176,7 +180,7 @@ ret void
             return {ca.OP_SIN: sine, ca.OP_COS: cosine}.get(op) or self.binary("fdiv", sine, cosine)
         one = _EMITTERS_BY_OPERATION.get(op)
         if one is None:
-            raise KernelError(
+            raise UnsupportedOperationError(
                 f"kernel '{self.program.name}': instruction {k} is CasADi operation {OP_NAMES[op]}, which the llvm "
                 "backend does not have; write the expression with operations listed in docs/extending"
             )

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError, TaskError
+from holdfast.core.extras import import_extra
 from holdfast.core.probability.intervals import Interval, check_confidence
 from holdfast.core.progress import ProgressCount, reports_progress, track
 from holdfast.core.result import Result
@@ -112,8 +113,12 @@ class TolerantWorkspace(Result):
         return lines
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``."""
-        import xarray as xr
+        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``.
+
+        Raises:
+            HoldfastError: xarray is not installed (extra ``xarray``).
+        """
+        xr = import_extra("xarray", "xarray")
 
         count = round(np.sqrt(len(self.points)))
         shape, dimensions = ((count, count), ["v", "u"]) if self.exact else ((len(self.points),), ["point"])

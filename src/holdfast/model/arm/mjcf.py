@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.core.errors import ArmError, HoldfastError
+from holdfast.core.errors import ArmError
+from holdfast.core.extras import import_extra
 from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
@@ -32,13 +33,8 @@ def import_mujoco() -> ModuleType:
     Raises:
         HoldfastError: It is not installed.
     """
-    try:
-        import mujoco
-    except ImportError as error:
-        raise HoldfastError(
-            "MuJoCo is needed here and is not installed; install holdfast-arms[physics] (pip install 'holdfast-arms[physics]')"
-        ) from error
-    return mujoco  # type: ignore[no-any-return, unused-ignore]
+    module: ModuleType = import_extra("mujoco", "physics", "MuJoCo")
+    return module
 
 
 @contextmanager

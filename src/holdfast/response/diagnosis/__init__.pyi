@@ -13,7 +13,6 @@ from holdfast.response.diagnosis.detectability.probe import plan_identification 
 from holdfast.response.diagnosis.detectability.separation import self_motion_rates as self_motion_rates
 from holdfast.response.diagnosis.export import ExportedMonitor as ExportedMonitor
 from holdfast.response.diagnosis.export import export_c as export_c
-from holdfast.response.diagnosis.export import javascript_of as javascript_of
 from holdfast.response.diagnosis.kinds import FaultVerdict as FaultVerdict
 from holdfast.response.diagnosis.monitor import Monitor as Monitor
 from holdfast.response.diagnosis.monitor import diagnose as diagnose

@@ -21,7 +21,6 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.c_backend import c_number
-from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis import decision, kinds
@@ -174,8 +173,8 @@ def _c_array(name: str, values: FloatArray) -> str:
     return f"static const double {name}[{len(values)}] = {{{', '.join(map(c_number, values))}}};\n"
 
 
-def _model_functions(arm: Arm, bounds: Bounds) -> dict[str, CFunction]:
-    """Return the functions of the arm's equations, from the same graph as the Python monitor."""
+def _model_source(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
+    """Return names, bounds, and the functions of the arm's equations, in C and from the same graph as the Python monitor."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
     moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
@@ -185,76 +184,16 @@ def _model_functions(arm: Arm, bounds: Bounds) -> dict[str, CFunction]:
     if np.isfinite(bounds.torque).all():
         terms = zip(("p", "energy", "gravity"), momentum_terms(bounds.body(arm), q, v), strict=True)
         functions["momentum"] = CFunction({"q": q, "v": v}, {term: [term_expression] for term, term_expression in terms})
-    return functions
-
-
-def javascript_of(arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -> str:
-    """Return the monitor as a JavaScript module that exports a class ``Monitor``, with the same numbers and verdicts.
-
-    ``monitor.step(q, reference, torque, pose)`` takes arrays, the last two or ``null``, and returns the verdict of C's struct:
-    ``{alarm, time, joint, kind, loss}``; ``monitor.kind()`` is the word. ``monitor.stale()`` has the words of
-    :attr:`Monitor.stale`. It is no certified safety function.
-
-    Args:
-        arm: The arm.
-        bounds: Of the healthy arm.
-        sensors: How good they are.
-
-    Raises:
-        InputError: Bounds of another arm.
-        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
-    """
-    bounds.require(arm, bounds.rate)
-    sensor_accuracy = sensors or Sensors()
-    replacements = {
-        "COUNT": str(arm.n),
-        "RATE_HZ": repr(bounds.rate),
-        "NAME": "monitor",
-        **_c_constants(arm, bounds, sensor_accuracy),
-    }
-    replacements = {word: text.replace("HUGE_VAL", "Infinity") for word, text in replacements.items()}
-    programs = [
-        write_javascript(function.program(function_name), function_name)
-        for function_name, function in _model_functions(arm, bounds).items()
-    ]
-    arrays = {
-        "torqueBound": bounds.torque,
-        "changeBound": bounds.change,
-        "trackingBound": bounds.tracking,
-        "weight": _pose_weights(sensor_accuracy),
-        "viscous": bounds.viscous,
-        "coulomb": bounds.coulomb,
-    }
-    numbers = [f"const {key} = [{', '.join(map(c_number, values))}];\n" for key, values in arrays.items()]
-    joint_export = f"export const joints = {json.dumps(arm.joint_names)};\n"
-    text = "".join(numbers).replace("HUGE_VAL", "Infinity") + joint_export
-    return "\n".join(
-        [
-            _heading_comment(arm, bounds, "monitor", _monitor_digest(bounds, sensor_accuracy), "JavaScript, needs nothing"),
-            *programs,
-            text,
-            fill_template("holdfast.response.diagnosis", "c", "monitor.js", replacements),
-        ]
-    )
-
-
-def _pose_weights(sensors: Sensors) -> FloatArray:
-    return np.repeat(1 / np.array([sensors.position, sensors.angle]), 3)
-
-
-def _model_source(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
-    """Return names, bounds, and the functions of the arm's equations as C source."""
-    functions = _model_functions(arm, bounds)
     source = generate_c_functions(functions)
     joints = ", ".join(quote_c_string(quantity) for quantity in arm.joint_names)
     source += f"\nconst char *const {name}_joints[{arm.n}] = {{{joints}}};\n\n"
     source += "".join(_c_array(f"{quantity}_bound", getattr(bounds, quantity)) for quantity in ("torque", "change", "tracking"))
-    source += _c_array("weight", _pose_weights(sensors))
+    source += _c_array("weight", np.repeat(1 / np.array([sensors.position, sensors.angle]), 3))
     source += _c_array("viscous", bounds.viscous) if "momentum" in functions else ""
     return source + _c_array("coulomb", bounds.coulomb)
 
 
-def _heading_comment(arm: Arm, bounds: Bounds, name: str, digest: str, needs: str = "C99, needs only math.h") -> str:
+def _heading_comment(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
     false_alarm_rates = bounds.false_alarms()
     limit = (
         "unknown"
@@ -264,10 +203,10 @@ def _heading_comment(arm: Arm, bounds: Bounds, name: str, digest: str, needs: st
     lines = [
         f"{name}: watches the arm {arm.title} for joint faults, {bounds.rate:g} cycles a second.",
         f"Made by holdfast {holdfast_version()} of the arm {arm.fingerprint}",
-        f"and the bounds {digest}; {needs}.",
+        f"and the bounds {digest}; C99, needs only math.h.",
         "",
         f"False alarms: {limit}.",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
-        *(["Compile without -ffast-math."] if "C99" in needs else []),
+        "Compile without -ffast-math.",
     ]
     return write_c_comment(lines)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-from holdfast.kinematics.solvers.descent import minimise_constrained
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
 
@@ -16,6 +16,7 @@ _MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest 
 _SELF_MOTION_STEPS = 25
 _DUPLICATE_TOLERANCE = 1e-4  # rad and m
 _STARTS_PER_SET = 96
+_SLSQP_OPTIONS: Any = {"ftol": 1e-12, "maxiter": 100}  # the tolerance is a fraction of the squared error at the start
 _POLISHED_CONFIGURATIONS = 4  # of the best configurations of a set, each another one
 
 
@@ -245,28 +246,48 @@ def _select_least_error(
 
 def _minimize_row_errors(search: PoseSearch, pose: FloatArray, q: FloatArray, lost_rows: list[int]) -> FloatArray:
     """Minimize the errors of the lost rows from q (n,), where the other rows are met."""
-    arm, clearance = search.solver.arm, search.space.clearance
-    met_rows = [index for index in range(search.solver.rows.m) if index not in lost_rows]
+    from scipy.optimize import minimize
+
+    solver, space = search.solver, search.space
+    clearance, free = space.clearance, np.flatnonzero(space.free)
+    met_rows = [index for index in range(solver.rows.m) if index not in lost_rows]
+    lower, upper = solver.arm.lower[free], solver.arm.upper[free]
+
+    def expand(x: FloatArray) -> FloatArray:
+        full = q.copy()
+        full[free] = x
+        return full
 
     def errors(x: FloatArray) -> FloatArray:
-        return np.asarray(search.solver.compute_errors(x[None], pose[None])[0])
+        return np.asarray(solver.compute_errors(expand(x)[None], pose[None])[0])
 
-    def evaluate_objective(x: FloatArray) -> tuple[float, FloatArray, FloatArray, FloatArray]:
-        error, jacobian = errors(x), search.solver.compute_jacobian(x, pose)
-        values, gradients = error[met_rows], jacobian[met_rows]
-        if clearance is not None:
-            values = np.append(values, clearance.margin_left(x) - search.space.margin)
-            gradients = np.vstack([gradients, clearance.gradient(x)])
-        return float(error[lost_rows] @ error[lost_rows]), 2 * error[lost_rows] @ jacobian[lost_rows], values, gradients
+    def jacobian(x: FloatArray) -> FloatArray:
+        return np.asarray(solver.compute_jacobian(expand(x), pose)[:, free])
 
-    lower, upper = np.where(search.space.free, arm.lower, q), np.where(search.space.free, arm.upper, q)
+    scale = 1 / max(float(np.square(errors(q[free])[lost_rows]).sum()), 1e-300)
+    constraints: list[Any] = [{"type": "eq", "fun": lambda x: errors(x)[met_rows], "jac": lambda x: jacobian(x)[met_rows]}]
+    if clearance is not None:
+        margin, gradient = clearance.margin_left, clearance.gradient  # the margin of an arm without pairs is infinite
+        constraints.append(
+            {
+                "type": "ineq",
+                "fun": lambda x: np.minimum(margin(expand(x)) - space.margin, 1.0),
+                "jac": lambda x: gradient(expand(x))[free],
+            }
+        )
     with np.errstate(all="ignore"):
-        minimum = minimise_constrained(evaluate_objective, q, lower, upper, len(met_rows))
+        minimum = minimize(  # type: ignore[call-overload]
+            lambda x: scale * float(np.square(errors(x)[lost_rows]).sum()),
+            q[free],
+            jac=lambda x: 2 * scale * errors(x)[lost_rows] @ jacobian(x)[lost_rows],
+            method="SLSQP",
+            bounds=list(zip(lower, upper, strict=True)),
+            constraints=constraints,
+            options=_SLSQP_OPTIONS,
+        ).x
     if not np.isfinite(minimum).all():
         return q
     row_mask = search.make_row_masks(1, tuple(lost_rows))
-    projected = search.solver.solve(
-        np.where(search.space.free, np.clip(minimum, lower, upper), q)[None], pose[None], row_mask, search.space.free
-    )
-    is_better = np.linalg.norm(errors(projected[0])[lost_rows]) < np.linalg.norm(errors(q)[lost_rows])
+    projected = solver.solve(expand(np.clip(minimum, lower, upper))[None], pose[None], row_mask, space.free)
+    is_better = np.linalg.norm(errors(projected[0, free])[lost_rows]) < np.linalg.norm(errors(q[free])[lost_rows])
     return np.asarray(projected[0] if is_better and search.are_valid(projected, pose[None], row_mask)[0] else q)

@@ -45,8 +45,6 @@ class ExportedController(Result):
         law_header: ``NAME_law.h``.
         law_source: ``NAME_law.c``: the law without the joints that no longer follow.
         example: ``NAME_example.cpp``, a loop by the clock around an arm without dynamics.
-        ros: ``NAME_ros.cpp``, the same as a chainable controller of ROS 2, not compiled against ROS 2.
-        plugin: ``NAME_plugin.xml``, for that.
         monitor: Its monitor's files.
     """
 
@@ -56,12 +54,10 @@ class ExportedController(Result):
     law_header: Path
     law_source: Path
     example: Path
-    ros: Path
-    plugin: Path
     monitor: ExportedMonitor
 
     def __iter__(self) -> Iterator[Path]:
-        own = (self.header, self.source, self.law_header, self.law_source, self.example, self.ros, self.plugin)
+        own = (self.header, self.source, self.law_header, self.law_source, self.example)
         return iter((*own, *self.monitor))
 
     def describe(self) -> list[str]:
@@ -83,7 +79,7 @@ def export_controller(
 ) -> ExportedController:
     """Write a C++17 controller that moves the tool by a twist, monitors the joints, and continues with the remaining joints.
 
-    Its life cycle is that of a chainable controller of ROS 2, and it needs nothing of it; a file that does is beside it. It
+    Its life cycle is that of a chainable controller of ROS 2, and it needs nothing of it. It
     reacts as :func:`holdfast.simulate_faults` does with ``react="chain"``, but knows no target, hence no other posture and no
     route: it brakes a joint and leaves it out of the law, slows down, or stops. Joints are commanded rates. It is no certified
     safety function.
@@ -113,10 +109,8 @@ def export_controller(
         f"{name}_law.c": f'{comment}\n#include "{name}_law.h"\n\n#include '
         f"<math.h>\n\n{_masked_law_source(law)}\n{text_of('law.c')}",
         f"{name}_example.cpp": text_of("example.cpp"),
-        f"{name}_ros.cpp": text_of("ros.cpp"),
-        f"{name}_plugin.xml": text_of("plugin.xml"),
     }
-    keys = ("header", "source", "law_header", "law_source", "example", "ros", "plugin")
+    keys = ("header", "source", "law_header", "law_source", "example")
     return ExportedController(law=law, monitor=watching, **dict(zip(keys, write_files(folder, texts), strict=True)))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.errors import InputError
+from holdfast.core.extras import import_extra
 from holdfast.core.probability.distribution import Distribution, Interval
 from holdfast.core.probability.intervals import check_confidence
 from holdfast.core.progress import reports_progress
@@ -319,8 +320,9 @@ class Assessment(Result):
 
         Raises:
             InputError: The rows were not kept; give ``store`` or ``keep=True``.
+            HoldfastError: xarray is not installed (extra ``xarray``); ``columns`` has the same values as NumPy arrays.
         """
-        import xarray as xr
+        xr = import_extra("xarray", "xarray")
 
         if self._rows is None and self.store is not None:
             return self.store.dataset()

@@ -153,8 +153,6 @@ def anova(
 ) -> Anova:
     """Compute the within-subjects analysis of variance with two factors, every subject in every cell.
 
-    F and p are those of statsmodels' ``AnovaRM``; the corrections and effect sizes, which it does not have, are ours.
-
     Args:
         values: (n, A, B) one value of each of n subjects for A levels of the first factor and B of the second.
         factors: Their names.
@@ -179,7 +177,8 @@ def anova(
     for name, error in zip(names, sums.errors.tolist(), strict=True):
         if error <= _ERROR_TOLERANCE * scale:
             raise InputError(f"the effect of {name} is the same in every subject: there is no error to test it against")
-    f_values, p_values = _anova_by_statsmodels(y)
+    f_values = (sums.effects / df) / (sums.errors / df_error)
+    p_values = np.asarray(stats.f.sf(f_values, df, df_error))
     effects = []
     for index, name in enumerate(names):
         gg, hf = sphericity_epsilons(_compute_effect_contrasts(y, index))
@@ -188,10 +187,10 @@ def anova(
         effects.append(
             Effect(
                 name=name,
-                F=f_values[index],
+                F=float(f_values[index]),
                 df=int(df[index]),
                 df_error=int(df_error[index]),
-                p=p_values[index],
+                p=float(p_values[index]),
                 gg=gg,
                 p_gg=corrected[0],
                 hf=hf,
@@ -233,21 +232,6 @@ def _orthonormal_contrasts(levels: int) -> FloatArray:
     from scipy.linalg import helmert
 
     return np.asarray(helmert(levels).T)
-
-
-def _anova_by_statsmodels(y: FloatArray) -> tuple[list[float], list[float]]:
-    from pandas import DataFrame
-    from statsmodels.stats.anova import AnovaRM
-
-    n, a, b = y.shape
-    subject, first, second = (index.ravel() for index in np.indices((n, a, b)))
-    # Its search for the subject's name in those of the effects takes parts of words: the names are ours, not the caller's.
-    table = DataFrame({"value": y.ravel(), "subject": subject, "one": first, "two": second})
-    results = AnovaRM(table, "value", "subject", within=["one", "two"]).fit().anova_table
-    effect_names = ["one", "two", "one:two"]
-    return [float(value) for value in results.loc[effect_names, "F Value"]], [
-        float(value) for value in results.loc[effect_names, "Pr > F"]
-    ]
 
 
 def _check_values(

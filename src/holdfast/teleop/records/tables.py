@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.errors import HoldfastError
+from holdfast.core.extras import import_extra
 from holdfast.core.files.output import guard_writing, make_folder, replace_file
 from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.progress import reports_progress
@@ -148,7 +149,7 @@ def _collect_trial_metadata(subject: Subject, entry: TrialRecord) -> dict[str, A
 
 
 def _build_trial_table(protocol: Protocol, trials: Trials, trial_metadata: list[dict[str, Any]]) -> pd.DataFrame:
-    import pandas as pd
+    pd = import_extra("pandas", "stats")
 
     table = pd.DataFrame(
         trial_metadata, columns=[column for column in _TRIAL_COLUMNS if not trial_metadata or column in trial_metadata[0]]
@@ -182,7 +183,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
         the end effector
         did not reach it.
     """
-    import pandas as pd
+    pd = import_extra("pandas", "stats")
 
     tasks, joint_names = bank.tasks, (*arm.joint_names, "")
     columns: dict[str, Any] = {
@@ -234,7 +235,7 @@ def cycle_table(records: Records) -> pd.DataFrame:
 
 
 def _build_cycle_table(records: Records) -> pd.DataFrame:
-    import pandas as pd
+    pd = import_extra("pandas", "stats")
 
     protocol = records.protocol
     entries = records.entries()
@@ -265,7 +266,7 @@ def _axis_name(axis: int, axis_count: int) -> str:
 
 def describe_columns(protocol: Protocol) -> pd.DataFrame:
     """Return a table that describes every column of the tables: table, column, unit, description."""
-    import pandas as pd
+    pd = import_extra("pandas", "stats")
 
     rows = [("trials", name, *description) for name, description in _TRIAL_COLUMNS.items()]
     rows += [
@@ -287,10 +288,10 @@ def export_tables(records: Records, folder: str | Path, parquet: bool = False) -
         The files.
 
     Raises:
-        HoldfastError: Parquet was asked for and pyarrow is not installed.
+        HoldfastError: pandas is not installed, or Parquet was asked for and pyarrow is not installed.
         StoreError: The records are damaged, or a file cannot be written.
     """
-    import pandas as pd
+    pd = import_extra("pandas", "stats")
 
     if parquet:
         try:

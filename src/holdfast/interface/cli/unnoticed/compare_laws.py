@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
+from holdfast.interface.cli.laws import (
+    CyclesOption,
+    GainOption,
+    LawsOption,
+    SpeedLimitOption,
+    TimeLimitOption,
+    read_laws,
+    read_position_sampling,
+    read_targets,
+)
 from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
+from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_target
 from holdfast.interface.presentation.results import current_command, print_result
 
@@ -26,6 +36,12 @@ DEFAULT_MOTIONS = 100
 def command(
     arm: ArmArgument,
     law: LawsOption = None,
+    best: Annotated[
+        bool, "Rank the laws by how often they reach --target after a lock, on the failures of 'holdfast convergence-map'."
+    ] = False,
+    starts: Annotated[str, "With --best: a number of random places, or a lattice as grid:52."] = "1000",
+    configurations: Annotated[int, "With --best: motions for each place."] = 20,
+    over: Annotated[Literal["starts", "targets"], "With --best: the places of the map, starts or targets."] = "starts",
     motions: Annotated[
         int | None,
         typer.Option(
@@ -38,7 +54,9 @@ def command(
         str | None, "Random motions whose target is still within reach after these failures, as --failures takes them."
     ] = None,
     start: Annotated[str | None, "Instead: one motion from these joint values, rad and m, ..."] = None,
-    target: Annotated[str | None, "... to this target, given as in 'holdfast simulate'."] = None,
+    target: Annotated[
+        str | None, "... to this target, as in 'holdfast simulate'; with --best also grid:12 or random:200."
+    ] = None,
     failures: Annotated[
         str, "Joints that lock from the start, each alone: single (all of them), 'joint2; joint3', or none."
     ] = "single",
@@ -59,9 +77,24 @@ def command(
     dexterity a failure leaves.
 
     Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
+
+    Example: holdfast compare-laws panda --best --task position --target 0.5,0.2,0.4 --starts 100
     """
     model = chain.resolve_arm(arm)
     laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
+    clearance = touched.build_contact_clearance(model)
+    if best:
+        if target is None:
+            raise InputError("--best needs --target; give a position, grid:12 or random:200")
+        motion_options = (start, motions, distance, reachable_after)
+        if any(option is not None for option in motion_options) or failures != "single" or cycles:
+            raise InputError("--best looks at the failures of a convergence map; leave out the options about given motions")
+        map_options: dict[str, Any] = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+        targets, places = read_targets(laws[0], target), read_position_sampling(starts)
+        with ProgressBar(json_, "runs") as progress:
+            choice = hf.compare_laws(laws, places, targets, best=True, progress=progress, clearance=clearance, **map_options)
+        print_result(choice, json_, [] if out is None else choice.save(out, command=current_command()))
+        return
     if start is None and target is None:
         sampled_motions = _sample_motions(
             model, laws[0].task, DEFAULT_MOTIONS if motions is None else motions, seed, distance, reachable_after
@@ -75,7 +108,6 @@ def command(
         q0, targets = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         description = f"one motion of '{model.name}'"
     failure_spec = None if failures == "none" else read_failures(model, failures)
-    clearance = touched.build_contact_clearance(model)
     common_options: dict[str, Any] = {
         "cycles": cycles,
         "time_limit": time_limit,

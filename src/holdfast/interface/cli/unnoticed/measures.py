@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 FolderOption = Annotated[Path | None, "Folder for report, figures, table and summary."]
 MeasureTimeOption = Annotated[float | None, "Time limit, s.", "2000/gain s"]
+PlacesOption = Annotated[Literal["starts", "targets"], "What the places of the map are: starts or targets."]
 MapTimeOption = Annotated[float | None, "Time limit, s.", "500/gain s"]
 
 
@@ -50,4 +51,4 @@ class MapOptions:
     out: FolderOption = None
     starts: Annotated[str, "A number of random places, or a lattice as grid:52."] = "1000"
     configurations: Annotated[int, "Motions for each place."] = 20
-    over: Annotated[Literal["starts", "targets"], "What the places of the map are: starts or targets."] = "starts"
+    over: PlacesOption = "starts"

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.laws import LawOption, TargetOption, read_law_for_arm, read_position_sampling
+from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
-from holdfast.interface.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption
-from holdfast.interface.cli.values import read_target
+from holdfast.interface.cli.unnoticed.measures import MeasureOptions, MeasureTimeOption, PlacesOption
 from holdfast.interface.presentation.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
-    target: TargetOption,
+    target: TargetsOption,
+    over: PlacesOption = "starts",
     measured: MeasureOptions = MeasureOptions(),
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
@@ -26,19 +26,20 @@ def command(
     """Map the start positions from which a target is still reached after an undetected lock.
 
     The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
-    with 95 % intervals. A stopped analysis resumes if --out is the same. Over targets: 'holdfast target-measures'.
+    with 95 % intervals. A stopped analysis resumes if --out is the same.
+    With --over targets the same measures for many targets, each over the same starts: how much a lock endangers each target.
 
     Example: holdfast workspace planar-3r --target 1.5,1.5 --method procedure --out results
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
+
+    Example: holdfast workspace planar-3r --over targets --target grid:12 --out results
     """
     control_law = read_law_for_arm(law, arm, task, chain)
-    target_value, places = (
-        read_target(control_law.arm, control_law.task, target),
-        None if measured.starts is None else read_position_sampling(measured.starts),
-    )
-    store = None if measured.out is None else measured.out / "run"
-    options = {"time_limit": time_limit, "seed": seed, "store": store, **measured.library_arguments()}
-    with ProgressBar(json_, "starts") as progress:
-        result = hf.workspace(control_law, target_value, places, progress=progress, **options)
+    targets = read_targets(control_law, target)
+    places = None if measured.starts is None else read_position_sampling(measured.starts)
+    store = None if measured.out is None or over == "targets" else measured.out / "run"
+    options = {"over": over, "time_limit": time_limit, "seed": seed, "store": store, **measured.library_arguments()}
+    with ProgressBar(json_, over) as progress:
+        result = hf.workspace(control_law, targets, places, progress=progress, **options)
     print_result(result, json_, [] if measured.out is None else result.save(measured.out, command=current_command()))

@@ -112,7 +112,7 @@ def present(
             ),
             (
                 "Tests",
-                "F and p of the ANOVA are those of statsmodels; sphericity corrections and effect sizes are computed here",
+                "The ANOVA, the sphericity corrections and the effect sizes are computed by holdfast",
             ),
             ("Trials", "training trials are not analysed"),
             ("Tables", "each is a CSV file next to this report; data_dictionary.csv explains every column"),

@@ -154,7 +154,7 @@ class ControlPanel:
             )
         self._add_button("Move, fail and watch", "watch")
         self._add_button("Inject the fault now", "inject")
-        self.monitor, self.record = self.gui.add_html("", visible=False), self.gui.add_html("")
+        self.monitor = self.gui.add_html("", visible=False)
         self._add_button("Clear", "clear")
 
     def _add_region_tab(self, state: State) -> None:
@@ -206,9 +206,6 @@ class ControlPanel:
         content = "" if demo is None else monitor_html(demo, state.names, state.time)
         if self.monitor.content != content:
             self.monitor.content, self.monitor.visible = content, content != ""
-        record = "" if demo is None else demo.record_html
-        if self.record.content != record:
-            self.record.content = record
 
     def show_reading(self, reading: LiveReading, state: State) -> None:
         """Show the live numbers."""

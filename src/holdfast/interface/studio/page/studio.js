@@ -111,46 +111,6 @@
     button.setAttribute("aria-expanded", String(open));
   }
 
-  // ---- the monitor of the tab Watch: it runs here, over what the robot told so far ---------------------------------------
-
-  let watched = null;
-
-  async function begin(record) {
-    const [rows, poses, code] = [...record.children].map((part) => part.textContent);
-    const numbers = (text) => new Float64Array(Uint8Array.from(atob(text), (x) => x.charCodeAt(0)).buffer);
-    const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
-    const { Monitor, joints } = await import(address);
-    URL.revokeObjectURL(address);
-    if (watched?.record !== record) return; // another one came meanwhile
-    Object.assign(watched, { Monitor, joints, rows: numbers(rows), poses: numbers(poses), cycle: Infinity });
-    watch();
-  }
-
-  function watch() { // before the page is drawn: its head comes without words
-    const head = document.querySelector(".hf-head"), record = document.querySelector(".hf-record");
-    if (record !== (watched?.record ?? null)) {
-      watched = record && { record };
-      if (record) begin(record);
-    }
-    if (head === null || !watched?.rows) return;
-    const { Monitor, joints, rows, poses } = watched, n = joints.length;
-    const rate = Number(record.dataset.rate), every = Number(record.dataset.every), onset = record.dataset.onset;
-    const end = Math.min(Math.floor(Number(head.dataset.now) * rate) + 1, rows.length / (3 * n));
-    if (end < watched.cycle) Object.assign(watched, { monitor: new Monitor(), cycle: 0 });
-    for (; watched.cycle < end; ++watched.cycle) {
-      const at = 3 * n * watched.cycle, part = (k) => rows.subarray(at + k * n, at + (k + 1) * n);
-      const pose = every && watched.cycle % every === 0 ? poses.subarray(16 * (watched.cycle / every)).subarray(0, 16) : null;
-      watched.monitor.step(part(0), part(1), part(2), pose);
-    }
-    const { alarm, time, joint } = watched.monitor.verdict, kind = watched.monitor.kind();
-    const late = 1000 * (time - Number(onset)), early = onset === "" || late < 0;
-    const told = joint < 0 ? "not known" : `${joints[joint]}${kind === "unknown" ? "" : `, ${kind}`}`;
-    const when = early ? `at ${time.toFixed(3)} s, before any fault` : `${late.toFixed(0)} ms after the fault`;
-    const text = alarm ? `Alarm ${when}; the joint: ${told}.` : "No alarm so far.";
-    if (head.textContent !== text) head.textContent = text;
-    head.parentElement.toggleAttribute("data-alarm", alarm);
-  }
-
   let waiting = false;
   function changed() {
     if (waiting) return;
@@ -162,6 +122,6 @@
     document.body.append(document.getElementById("holdfast-legend").content);
     document.getElementById("holdfast-legend-box").open = innerWidth > 768;
     const what = { subtree: true, childList: true, characterData: true, attributeFilter: ["aria-hidden"] };
-    new MutationObserver(() => { watch(); changed(); }).observe(document.body, what);
+    new MutationObserver(changed).observe(document.body, what);
   });
 })();
