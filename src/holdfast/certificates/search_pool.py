@@ -259,7 +259,7 @@ class SearchPool:
         time_slice = np.inf if self._memory is not None and np.isinf(deadline) else _TIME_SLICE_S
         while (running or self._open_jobs) and monotonic() < deadline and not should_stop():
             waiting, self._open_jobs = self._open_jobs, []
-            continuations = [*running, *waiting]
+            continuations: list[RunningJob | SearchJob] = [*running, *waiting]
             running = []
             for remaining, next_job in zip(range(len(continuations), 0, -1), continuations, strict=True):
                 now = monotonic()
@@ -333,4 +333,5 @@ def _run_job(job: SearchJob, deadline: float) -> JobResult:
 
     if not running.finished:
         running.run(deadline, _worker_state["halt"].is_set, report_progress)
-    return running.result()
+    result: JobResult = running.result()
+    return result

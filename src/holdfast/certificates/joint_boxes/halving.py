@@ -55,7 +55,7 @@ class BoxBisection:
         self.box, self.halvings, self.width = box, halvings, box[:, 1] - box[:, 0]
         middle, depth = root_box(box) if boxes is None else boxes
         self.tree = BisectionTree(len(middle), DEFERRED_TOKEN)
-        self._waiting = [(np.arange(len(middle)), middle, depth)]
+        self._waiting: list[tuple[IndexArray, FloatArray, IndexArray]] = [(np.arange(len(middle)), middle, depth)]
         self.tested, self.proved, self.undecided = 0, 0.0, 0.0
 
     @property
@@ -80,10 +80,10 @@ class BoxBisection:
         while self._waiting:
             if monotonic() > deadline or should_stop() or self.tree.nodes > max_nodes:
                 return False
-            waiting = self._waiting.pop()
-            if len(waiting[0]) > _BATCH_BOXES:
-                self._waiting.append(tuple(values[_BATCH_BOXES:] for values in waiting))  # type: ignore[arg-type]
-            node_ids, middle, depth = (values[:_BATCH_BOXES] for values in waiting)
+            node_ids, middle, depth = self._waiting.pop()
+            if len(node_ids) > _BATCH_BOXES:
+                self._waiting.append((node_ids[_BATCH_BOXES:], middle[_BATCH_BOXES:], depth[_BATCH_BOXES:]))
+                node_ids, middle, depth = node_ids[:_BATCH_BOXES], middle[:_BATCH_BOXES], depth[:_BATCH_BOXES]
             half = self.width * 0.5 ** (depth + 1)
             self.tested += len(node_ids)
             tokens, axis = choose_halved_axes(test, middle, half, depth < self.halvings)
@@ -94,7 +94,8 @@ class BoxBisection:
             self.undecided += float(fractions[~is_decided & ~is_split].sum())
             if is_split.any():
                 axes, rows = np.repeat(axis[is_split], 2), np.arange(2 * is_split.sum())
-                middle, depth, half = (np.repeat(values[is_split], 2, axis=0) for values in (middle, depth, half))
+                middle, half = (np.repeat(values[is_split], 2, axis=0) for values in (middle, half))
+                depth = np.repeat(depth[is_split], 2, axis=0)
                 depth[rows, axes] += 1
                 middle[rows, axes] += np.where(rows % 2, 0.5, -0.5) * half[rows, axes]
                 self._waiting.append((self.tree.split_nodes(node_ids[is_split], axes[::2]), middle, depth))

@@ -189,10 +189,10 @@ class LockedTrackingEnclosure:
         self, is_first: BoolArray, previous: PathFormBatch, forms: PathFormBatch, cells: PathCellBatch
     ) -> BoolArray:
         """Return a mask of valid cells whose solution is that of the previous cell, or of the lock instants for first cells."""
-        continues = self._continues_previous_solution(previous, forms)
-        return np.asarray(forms.good & np.where(is_first, self._contains_lock_configurations(forms, cells), continues))
+        continues = self.continues_previous_solution(previous, forms)
+        return np.asarray(forms.good & np.where(is_first, self.contains_lock_configurations(forms, cells), continues))
 
-    def _contains_lock_configurations(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
+    def contains_lock_configurations(self, forms: PathFormBatch, cells: PathCellBatch) -> BoolArray:
         """Return a mask of cells whose solutions contain the configurations at all lock instants of their slabs."""
         q, rate = (values[:, self.free] for values in self.healthy_joints_and_rates(cells.begin + cells.stop, cells.stop))
         start = np.column_stack([q, (cells.begin + cells.stop) / (2 * SEGMENT_INSTANTS)])
@@ -200,7 +200,7 @@ class LockedTrackingEnclosure:
         offsets = (departure - forms.own[:, :, 0]) * forms.half[:, :1]
         return self._is_in_unique_box(start, offsets[:, :, None], forms, np.zeros(len(q), dtype=bool))
 
-    def _continues_previous_solution(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
+    def continues_previous_solution(self, previous: PathFormBatch, forms: PathFormBatch) -> BoolArray:
         """Return a mask of cells whose solution is that of the previous cell, on the face where the previous cell ends."""
         end_q, end_position = self.cell_end_configurations(previous)
         columns = [column for column in range(previous.half.shape[1] - self.m) if column != 1]
