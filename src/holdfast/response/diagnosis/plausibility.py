@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,11 +94,11 @@ def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatAr
         InputError: The message names the joints and the probable cause.
     """
     torque_pairs: list[list[FloatArray]] = []
-    checked_s, friction = 0.0, {"coulomb": coulomb, "viscous": viscous}
+    checked_s, signals_of = 0.0, partial(compute_signals, arm, coulomb=coulomb, viscous=viscous)
     for log in logs:
         if log.tau is not None and checked_s < _CHECKED_S:
             torques = log.tau, np.where(np.isfinite(log.tau), 0.0, np.nan)
-            signal_pair = [compute_signals(arm, replace(log, tau=tau), **friction) for tau in torques]
+            signal_pair = [signals_of(replace(log, tau=tau)) for tau in torques]
             torque_pairs.append([signals.torque[signals.seen] for signals in signal_pair])
             checked_s += log.duration
     if not torque_pairs:
