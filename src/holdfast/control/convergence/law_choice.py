@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -131,10 +131,10 @@ def rank_laws(
         raise InputError(f"there is {len(laws)} law; give two or more different ones to find the best")
     maps = []
     for number, law in enumerate(laws.values()):
-        law_progress = None if progress is None else _shift_progress(progress, number, len(laws))
-        maps.append(convergence_map(law, targets, starts, progress=law_progress, **options))
+
+        def report(done: int, total: int, number: int = number) -> None:
+            if progress is not None:
+                progress(number * total + done, len(laws) * total)
+
+        maps.append(convergence_map(law, targets, starts, progress=report, **options))
     return LawChoice(tuple(laws), tuple(maps))
-
-
-def _shift_progress(progress: Callable[[int, int], None], number: int, law_count: int) -> Callable[[int, int], None]:
-    return lambda done, total: progress(number * total + done, law_count * total)

@@ -31,10 +31,6 @@ class CFunction:
             name: ca.vertcat(*[ca.vec(ca.densify(expression)) for expression in parts]) for name, parts in self.outputs.items()
         }
 
-    def program(self, name: str) -> Program:
-        """Return the program from all inputs, one after the other, to all outputs."""
-        return Program(name, list(self.inputs.values()), list(self.arrays.values()))
-
 
 def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
     """Return the C99 text of functions ``static void CALL(const double *input, ..., double *output, ...)``.
@@ -47,7 +43,8 @@ def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
         sizes = (
             {array_name: array.numel() for array_name, array in arrays.items()} for arrays in (function.inputs, function.arrays)
         )
-        texts.append(write_c_function(function.program(function_name), function_name, *sizes))
+        program = Program(function_name, list(function.inputs.values()), list(function.arrays.values()))
+        texts.append(write_c_function(program, function_name, *sizes))
     return "\n".join(texts)
 
 
