@@ -17,7 +17,12 @@ from holdfast.core.formatting import (
 from holdfast.core.probability.intervals import Interval
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.assessment import Thresholds, collect_numbers
-from holdfast.interface.presentation.assessment.tables import list_gain_cells, rank_optimised_upgrades
+from holdfast.interface.presentation.assessment.tables import (
+    best_intervals_are_disjoint,
+    find_leaders,
+    list_gain_cells,
+    rank_optimised_upgrades,
+)
 from holdfast.interface.presentation.collision.shape import describe_cell
 from holdfast.interface.presentation.presentation import Column, FigureSpec, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import to_json_types
@@ -116,18 +121,6 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
                 f"{format_interval(probability)}."
             )
     return text
-
-
-def find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
-    """List the candidates with the largest probability of meeting the threshold."""
-    probabilities = {name: comparison.interval(name, optimised).value for name in comparison.names}
-    return [name for name, value in probabilities.items() if value == max(probabilities.values())]
-
-
-def best_intervals_are_disjoint(comparison: Comparison) -> bool:
-    """Return whether the intervals of the two best candidates do not overlap."""
-    best_interval, runner_up = (comparison.interval(name) for name in comparison.ranking()[:2])
-    return runner_up.high < best_interval.low
 
 
 def _describe_nearest_candidate(comparison: Comparison) -> str:
