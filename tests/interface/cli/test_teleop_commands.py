@@ -59,14 +59,14 @@ def test_tasks_writes_a_bank_and_a_protocol_that_runs(cli, tmp_path):
     code, text, err = cli(*call, "--out", out)
     assert (code, err) == (0, "")
     assert "Arm planar-3r: 18 tasks in 4 scenarios" in text
-    assert "most disorienting of the others" in text
+    assert "Most disorienting of the others" in text
     assert {f.name for f in out.iterdir()} == {"bank.csv", "bank.png", "protocol.yaml"}
     bank = table(out / "bank.csv")
     assert len(bank) == 18
     protocol = read_protocol(out / "protocol.yaml")
     data = json.loads(cli(*call, "--json")[1])
     special = [data["most_disorienting"], *([data["trapped"]] if data["trapped"] else [])]
-    assert (data["trapped"] is None) == ("no task of the bank draws" in text)
+    assert (data["trapped"] is None) == ("No task of the bank draws" in text)
     assert len(data["chosen"]) == 4
     for k, number in enumerate([*data["chosen"], *special]):
         row = bank[number - 1]

@@ -129,7 +129,7 @@ def test_how_a_recovery_ended(ending):
     found = MADE["Recovery"]()
     gone = replace(found, ending=ending, q=np.zeros((0, 3)), legs=(), left=None)
     for each in (replace(found, ending=ending), gone):
-        says_something(call_presenter(each, "story").answer)
+        says_something(call_presenter(each, "present").answer)
 
 
 @pytest.mark.parametrize("outcome", list(swing.ENDS) if hasattr(swing, "ENDS") else ["rest", "stop", "balanced", "moving"])

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError, StoreError
-from holdfast.core.extras import import_extra
 from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, make_folder, replace_file

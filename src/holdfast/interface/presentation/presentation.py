@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -201,7 +201,7 @@ class Presentation:
     lines: Sequence[str] = ()
     notices: Sequence[Notice] = ()
     facts: Sequence[Fact] = ()
-    tables: Sequence[TableSpec] | Callable[[], Sequence[TableSpec]] = ()
+    tables: Sequence[TableSpec] | Callable[[], Iterable[TableSpec]] = ()
     figures: Mapping[str, FigureSpec] = field(default_factory=dict)
     sections: Callable[[], Sequence[Section]] = tuple
     method: Sequence[tuple[str, Any]] = ()
@@ -209,6 +209,6 @@ class Presentation:
     again: Callable[[], Sequence[Block]] | None = None
     exports: Mapping[str, Callable[[Path], Any]] = field(default_factory=dict)
 
-    def list_tables(self) -> Sequence[TableSpec]:
+    def list_tables(self) -> Iterable[TableSpec]:
         """List the tables of the result."""
         return self.tables() if callable(self.tables) else self.tables

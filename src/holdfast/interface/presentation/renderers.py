@@ -95,7 +95,9 @@ def in_notebook(thing: Presentable) -> str:
     answer, *remarks = sentences(thing)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
     facts = TextTable(["", ""], _list_facts(presentation))
-    parts.append(format_table(facts if facts.rows or not presentation.tables else presentation.list_tables()[0].texts()))
+    parts.append(
+        format_table(facts if facts.rows or not presentation.tables else next(iter(presentation.list_tables())).texts())
+    )
     parts += [
         embed_figure(figure.draw(), f"{name}: {presentation.answer}") for name, figure in list(presentation.figures.items())[:1]
     ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,12 @@ from holdfast.core.formatting import (
 from holdfast.core.probability.intervals import Interval
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.assessment import Thresholds, collect_numbers
-from holdfast.interface.presentation.assessment.tables import list_gain_cells, rank_optimised_upgrades
+from holdfast.interface.presentation.assessment.tables import (
+    best_intervals_are_disjoint,
+    find_leaders,
+    list_gain_cells,
+    rank_optimised_upgrades,
+)
 from holdfast.interface.presentation.collision.shape import describe_cell
 from holdfast.interface.presentation.presentation import Column, FigureSpec, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import to_json_types
@@ -118,18 +123,6 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
     return text
 
 
-def find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
-    """List the candidates with the largest probability of meeting the threshold."""
-    probabilities = {name: comparison.interval(name, optimised).value for name in comparison.names}
-    return [name for name, value in probabilities.items() if value == max(probabilities.values())]
-
-
-def best_intervals_are_disjoint(comparison: Comparison) -> bool:
-    """Return whether the intervals of the two best candidates do not overlap."""
-    best_interval, runner_up = (comparison.interval(name) for name in comparison.ranking()[:2])
-    return runner_up.high < best_interval.low
-
-
 def _describe_nearest_candidate(comparison: Comparison) -> str:
     """Name the candidate with the best median where no candidate meets the threshold, and the reason; empty without medians."""
     medians = [
@@ -144,8 +137,8 @@ def _describe_nearest_candidate(comparison: Comparison) -> str:
     return f" Nearest is {name}. {ThresholdAnswer(assessment, comparison.threshold).low_probability_reason}"
 
 
-def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> list[TableSpec]:
-    """Build the tables of the probabilities, the joints, the gains from protecting joints, and the arms."""
+def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[TableSpec]:
+    """Yield the tables of the probabilities, the joints, the gains from protecting joints, and the arms."""
     table, runs = comparison.table, comparison.assessments
     optimised = any(run.optimised is not None for run in runs)
     survival = any(run.survivors is not None for run in runs)
@@ -167,8 +160,8 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> list[TableS
     )
     title += ". Optimised: at the best configurations" if optimised else ""
     title += ". Left after a lock: fraction of the poses still reached, every joint equally likely to fail" if survival else ""
-    numbers = TableSpec(title, columns, [[_read_cell(row, column.key) for column in columns] for row in table])
-    joints = TableSpec(
+    yield TableSpec(title, columns, [[_read_cell(row, column.key) for column in columns] for row in table])
+    yield TableSpec(
         "Worst failure: the most frequent. Single point of failure: a joint whose lock ends the task in every configuration",
         [
             name,
@@ -181,6 +174,8 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> list[TableS
         ],
     )
     upgrades = _tabulate_upgrades(comparison, first, optimised)
+    if upgrades is not None:
+        yield upgrades
     detail_rows = [
         [
             *(row["name"], run.arm.name, _format_tool_pose(run.arm)),
@@ -191,14 +186,13 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> list[TableS
     ]
     columns = [name, Column("arm", "arm"), Column("tool", "tool"), Column("bound", "bound of the index", digits=3)]
     columns += [Column(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
-    details = TableSpec(
+    yield TableSpec(
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
         "Gap: by how much the median of the reached poses falls short of it",
         [*columns, Column("source", "source"), Column("fingerprint", "fingerprint")],
         detail_rows,
         on_console=False,
     )
-    return [numbers, joints, *([] if upgrades is None else [upgrades]), details]
 
 
 def _read_cell(row: dict[str, Any], key: str) -> Any:

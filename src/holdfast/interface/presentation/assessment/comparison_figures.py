@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from holdfast.core.formatting import format_as_given, format_count, format_half_width, format_interval
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.assessment import thresholds
-from holdfast.interface.presentation.assessment.comparison import best_intervals_are_disjoint, find_leaders
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.tables import best_intervals_are_disjoint, find_leaders
 from holdfast.interface.report import figures as drawing
 from holdfast.interface.report.figures import Curve, Mark
 from holdfast.interface.report.page import Block, Picture, Section

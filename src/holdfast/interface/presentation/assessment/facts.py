@@ -23,7 +23,7 @@ class AssessmentFacts(ThresholdAnswer):
     """Contents of the figures of an assessment, each computed once."""
 
     @classmethod
-    def of(cls, answer: ThresholdAnswer) -> AssessmentFacts:
+    def extend_answer(cls, answer: ThresholdAnswer) -> AssessmentFacts:
         """Return the contents for an answer."""
         return cls(answer.assessment, answer.threshold if answer.is_chosen else None)
 

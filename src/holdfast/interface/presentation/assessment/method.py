@@ -1,4 +1,4 @@
-"""How an assessment was computed, for the last section of its report."""
+"""Method section of the report of an assessment."""
 
 from __future__ import annotations
 

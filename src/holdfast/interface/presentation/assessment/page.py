@@ -34,7 +34,7 @@ SECTION_TITLES = {
 
 def build_sections(answer: ThresholdAnswer) -> list[Section]:
     """Build the sections of the report."""
-    facts = AssessmentFacts.of(answer)
+    facts = AssessmentFacts.extend_answer(answer)
     return [
         Section("", [_describe_single_points(facts)]),
         *[
@@ -82,7 +82,7 @@ def _describe_single_points(facts: AssessmentFacts) -> Callout:
 
 def draw_overview(answer: ThresholdAnswer) -> Figure:
     """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
-    facts = AssessmentFacts.of(answer)
+    facts = AssessmentFacts.extend_answer(answer)
     view = facts.main_view
     with drawing.style():
         figure = Figure(figsize=(12, 5.2))

@@ -13,10 +13,11 @@ from holdfast.core.formatting import format_as_given, format_decimals
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.presentation import Column, TableSpec
 from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.comparison import Comparison
 from holdfast.studies.assessment.upgrade import Upgrade
 
 _MAX_ROWS = 40
-_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+_QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
 def build_tables(answer: ThresholdAnswer, thresholds: Sequence[float]) -> list[TableSpec]:
@@ -42,7 +43,7 @@ def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
     rows = [
         [
             label,
-            *map(float, sampled.quantile(_LEVELS, reachable_only=reachable_only)),
+            *map(float, sampled.quantile(_QUANTILE_LEVELS, reachable_only=reachable_only)),
             float(mean),
             float(sampled.highest if answer.larger_is_better else sampled.lowest),
         ]
@@ -50,7 +51,7 @@ def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
     ]
     finite = " of finite values" if distribution.infinite else ""
     columns = [Column("sample", f"{answer.index.name} over … {answer.noun}s")]
-    columns += [Column(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _LEVELS]
+    columns += [Column(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _QUANTILE_LEVELS]
     return TableSpec("", [*columns, Column("mean", f"mean{finite}"), Column("best", "best")], rows)
 
 
@@ -159,3 +160,15 @@ def describe_lock(answer: ThresholdAnswer, joint: str, position: float | None) -
     if answer.assessment.arm.prismatic[answer.assessment.arm.joint_index(joint)]:
         return f"at {format_as_given(position)} m"
     return f"at {format_decimals(math.degrees(position), 1)} deg ({format_as_given(position)} rad)"
+
+
+def find_leaders(comparison: Comparison, optimised: bool = False) -> list[str]:
+    """List the candidates with the largest probability of meeting the threshold."""
+    probabilities = {name: comparison.interval(name, optimised).value for name in comparison.names}
+    return [name for name, value in probabilities.items() if value == max(probabilities.values())]
+
+
+def best_intervals_are_disjoint(comparison: Comparison) -> bool:
+    """Return whether the intervals of the two best candidates do not overlap."""
+    best_interval, runner_up = (comparison.interval(name) for name in comparison.ranking()[:2])
+    return runner_up.high < best_interval.low

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _MAX_NAME_LETTERS = 24  # letters of a name
 _MIN_VISIBLE_RATE = 1e-6  # of a unit rate
-_CAPTION = (
+_SEPARATION_CAPTION = (
     "Two explanations of the tool's pose, in nats: how much more likely the true one becomes by this motion. Below 9.2, a "
     "factor of 10,000, the two are not told apart; the colour ends at three times that. None: no joint is locked."
 )
@@ -74,7 +74,9 @@ def present(result: Observability | ProbingMotion | Identification) -> Presentat
         lines,
         _tabulate_joints(result),
         about=result.arm.title,
-        figures={"separation": FigureSpec(partial(_draw_separation, result), "Which locks can be told apart", _CAPTION)},
+        figures={
+            "separation": FigureSpec(partial(_draw_separation, result), "Which locks can be told apart", _SEPARATION_CAPTION)
+        },
         arm=result.arm,
     )
 

@@ -26,7 +26,7 @@ _KIND_PHRASES = {
     "sensor": "has a faulty sensor, or a clutch that slips",
     "unknown": "has a fault of an unknown kind",
 }
-_CAPTION = (
+_RESIDUALS_CAPTION = (
     "Every residual in units of its bound, one line a joint. A line above 1 for longer than the test allows is an alarm: 10 ms "
     "of torque, 20 ms of tracking, 50 ms of the tool, each at twice its bound."
 )
@@ -84,7 +84,9 @@ def present(diagnosis: Diagnosis) -> Presentation:
         about=f"{diagnosis.arm.title}, {diagnosis.log.duration:.4g} s at {diagnosis.log.rate:.4g} samples a second",
         lines=[f"{capitalise_first(line)}." for line in lines],
         tables=[_tabulate_joints(diagnosis)],
-        figures={"residuals": FigureSpec(partial(_draw_residuals, diagnosis), "Residuals and their bounds", _CAPTION)},
+        figures={
+            "residuals": FigureSpec(partial(_draw_residuals, diagnosis), "Residuals and their bounds", _RESIDUALS_CAPTION)
+        },
         method=[("Bounds", " ".join((bounds.answer, *bounds.lines)))],
         arm=diagnosis.arm,
     )

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
 
-_CAPTION = "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side."
+_MAPS_CAPTION = "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side."
 
 
 def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
@@ -59,7 +59,7 @@ def present(remainder: RemainingWorkspace) -> Presentation:
             Fact("targets tried", len(remainder.healthy)),
             Fact("targets that the failed arm still reaches", int(remainder.locked.sum())),
         ],
-        figures={"left": FigureSpec(partial(_draw_maps, remainder), "What is left of the workspace", _CAPTION)},
+        figures={"left": FigureSpec(partial(_draw_maps, remainder), "What is left of the workspace", _MAPS_CAPTION)},
         method=[
             ("Reached", f"a configuration was found in {remainder.starts} random starts; the fraction is a lower bound"),
             ("Rows that count", ", ".join(remainder.rows)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.presentation import Presentation
+from holdfast.interface.presentation.presentation import Fact, Presentation
 from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ def present(check: WaypointCheck) -> Presentation:
         lines.append(f"{check.paced} are kept")
     return Presentation(
         "Replay of waypoints",
-        f"The {len(check.q):,} waypoints {verdict}, at {check.looked_at:,} configurations on the way.",
+        f"The waypoints {verdict}, at all configurations on the way.",
         lines=[f"{capitalise_first(line)}." for line in lines],
+        facts=[Fact("waypoints", len(check.q)), Fact("configurations checked", check.looked_at)],
     )

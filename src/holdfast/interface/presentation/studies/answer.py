@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from holdfast.core.formatting import format_count, format_interval, format_number, indefinite_article
+from holdfast.core.sweeps.study import Study
+from holdfast.core.typing import T
 from holdfast.interface.presentation.presentation import Fact
 from holdfast.studies.designs.designs import choose_best_design, describe_farther_design
-from holdfast.studies.study_files.ranking import ArmRanking, format_unit
-from holdfast.studies.study_files.results import DesignSweep
+from holdfast.studies.study_files.ranking import ArmRanking, Key, format_unit
+from holdfast.studies.study_files.results import AssessedCell, DesignSweep, read_labels
 
 
 def compose_answer(rankings: Sequence[ArmRanking], sweeps: Sequence[DesignSweep] = (), has_rankings: bool = True) -> str:
@@ -120,3 +122,14 @@ def format_index_name(swept: DesignSweep) -> str:
 def format_level(swept: DesignSweep) -> str:
     """Format the fraction of the poses for which a sweep guarantees the index."""
     return f"{100 * swept.plan['level']:.4g} %"
+
+
+def read_cells(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
+    """Read the results of the cells of one kind of job, as far as they exist."""
+    matching = [cell for cell in range(len(study.cells)) if read_labels(study, cell)["job"] == job]
+    return [read(study, cell) for cell in matching if study.cell_folder(cell).exists()]
+
+
+def get_index_key(assessed: AssessedCell) -> Key:
+    """Return the index and the task of a cell."""
+    return assessed.labels["index"], assessed.labels["task"]

@@ -11,8 +11,8 @@ from holdfast.core.formatting import format_as_given, format_half_width, format_
 from holdfast.core.sweeps.study import Study
 from holdfast.interface.presentation.presentation import Column, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
+from holdfast.interface.presentation.studies.answer import get_index_key, read_cells
 from holdfast.interface.presentation.studies.designs import build_sweep_blocks
-from holdfast.interface.presentation.studies.study import get_index_key, read_cells
 from holdfast.interface.report import figures
 from holdfast.interface.report.figures import Curve, Mark
 from holdfast.interface.report.outcomes import Gains, Stack, fraction_figure, stack_figure

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,9 +11,8 @@ from holdfast.core.errors import StoreError
 from holdfast.core.formatting import format_count, format_duration, list_alternatives
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
-from holdfast.core.typing import T
 from holdfast.interface.presentation.presentation import Column, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.studies.answer import compose_answer, list_leaders
+from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.single_points import Structure, structure
 from holdfast.studies.study_files import results
@@ -134,12 +133,6 @@ def present_results(study: Study) -> Presentation:
     )
 
 
-def read_cells(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    """Read the results of the cells of one kind of job, as far as they exist."""
-    matching = [cell for cell in range(len(study.cells)) if results.read_labels(study, cell)["job"] == job]
-    return [read(study, cell) for cell in matching if study.cell_folder(cell).exists()]
-
-
 def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[Key, float]:
     """Return the threshold of each index and task: the one of the study file, else one chosen from the results."""
     specified = read_thresholds(study.source)
@@ -147,11 +140,6 @@ def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[K
     for entry in assessed:
         groups.setdefault(get_index_key(entry), []).append(entry)
     return {key: specified.get(key[0], results.choose_threshold(group)) for key, group in groups.items()}
-
-
-def get_index_key(assessed: AssessedCell) -> Key:
-    """Return the index and the task of a cell."""
-    return assessed.labels["index"], assessed.labels["task"]
 
 
 def find_fatal_structures(assessed: Sequence[AssessedCell]) -> dict[Ended, tuple[AssessmentPlan, Structure]]:

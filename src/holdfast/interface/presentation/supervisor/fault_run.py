@@ -28,7 +28,7 @@ _RESPONSE_PHRASES = {
     "chain": "the controller reacts to what the monitor names",
     "known": "every fault is known at once",
 }
-_CAPTION = (
+_TIMELINE_CAPTION = (
     "What the tool still has to go, how far each joint is behind its reference, and where the joints are. Upright lines: a "
     "fault begins; it is noticed; something is done."
 )
@@ -99,7 +99,7 @@ def present(run: FaultRun) -> Presentation:
         lines=[f"{line if line.split(':')[0] in names else capitalise_first(line)}." for line in lines],
         facts=facts,
         tables=[table] if rows else [],
-        figures={"chain": FigureSpec(partial(_draw_run, run), "Over time", _CAPTION)},
+        figures={"chain": FigureSpec(partial(_draw_run, run), "Over time", _TIMELINE_CAPTION)},
         sections=partial(_build_sections, run),
         method=[
             ("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),

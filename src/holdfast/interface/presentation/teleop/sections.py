@@ -12,8 +12,8 @@ from holdfast.core.formatting import format_decimals, format_number, format_perc
 from holdfast.interface.presentation.presentation import TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.teleop import figures as drawing
-from holdfast.interface.presentation.teleop.analysis import build_tables, format_p_value, format_range, make_table
 from holdfast.interface.presentation.teleop.examples import build_example_blocks
+from holdfast.interface.presentation.teleop.report_tables import build_tables, format_p_value, format_range, make_table
 from holdfast.interface.report.figures import svg
 from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.teleop.analysis.observations import MEASURE_NAMES
@@ -27,7 +27,7 @@ _DIFFICULTY_LABELS = {
     "actual": "actual difficulty: median CPM of operators",
     "perceived": "perceived difficulty: median rating",
 }
-_ENDINGS = ("still", "time", "aborted", "broken_off", "no_rating", "not_recorded")
+_CAUSE_COLUMNS = ("still", "time", "aborted", "broken_off", "no_rating", "not_recorded")
 _MAX_LISTED = 30  # subjects or tasks with missing trials
 
 
@@ -255,7 +255,7 @@ def _build_power_blocks(analysis: Analysis) -> list[Block]:
 
 def _build_missing_trial_blocks(analysis: Analysis) -> list[Block]:
     endings, missing_trials = analysis.table("ends"), analysis.table("missing")
-    causes = [cause for cause in endings.columns if cause in _ENDINGS and endings[cause].sum() > 0]
+    causes = [cause for cause in endings.columns if cause in _CAUSE_COLUMNS and endings[cause].sum() > 0]
     rows = [
         [
             f"{record['scenario']}: {'failed' if record['failed'] else 'healthy'}, {record['law']}",

@@ -119,7 +119,7 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
 
 def draw_cdf_figure(answer: ThresholdAnswer) -> Figure:
     """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
-    facts = AssessmentFacts.of(answer)
+    facts = AssessmentFacts.extend_answer(answer)
     optimised = facts.assessment.optimised
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
     with figures.style():
