@@ -96,7 +96,8 @@ def in_notebook(thing: Presentable) -> str:
     facts = TextTable(["", ""], _list_facts(presentation))
     parts.append(format_table(facts if facts.rows or not presentation.tables else presentation.tables[0].texts()))
     parts += [
-        embed_figure(figure.draw(), f"{name}: {presentation.answer}") for name, figure in list(presentation.figures.items())[:1]
+        embed_figure((figure.preview or figure.draw)(), f"{name}: {presentation.answer}")
+        for name, figure in list(presentation.figures.items())[:1]
     ]
     return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
 
@@ -156,10 +157,15 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         sections,
         subtitle=presentation.about,
         warnings=[Callout(notice.text, notice.tone, notice.title) for notice in presentation.notices],
-        facts=[(fact.text, fact.phrase) for fact in presentation.facts if fact.phrase],
+        facts=[(fact.text, fact.phrase) for fact in presentation.facts if fact.phrase and not _is_uninformative(fact.text)],
         method=build_method_blocks(presentation.arm, *presentation.method),
         again=command if presentation.again is None else presentation.again(),
     )
+
+
+def _is_uninformative(text: str) -> bool:
+    """Return whether a number is zero or missing, so that the top of the page leaves it out."""
+    return text.partition(" ")[0] in ("0", "–", "none")
 
 
 def build_table_block(table: TextTable) -> Any:

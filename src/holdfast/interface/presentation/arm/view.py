@@ -16,6 +16,7 @@ from holdfast.interface.presentation.arm.body import LINK_COLOR_RGB, MeshPart, b
 from holdfast.interface.presentation.arm.visuals import build_body
 from holdfast.interface.presentation.cell import bodies
 from holdfast.interface.report import viewer
+from holdfast.interface.report.page import Picture, Section
 from holdfast.interface.report.viewer import ViewerScene, round_to_seven_digits
 from holdfast.kinematics.indices.lost_directions import find_speed_losses
 from holdfast.kinematics.regions.region import Region
@@ -181,6 +182,15 @@ def scene(
         "camera": _place_camera(arm, up, np.vstack(visible_points), frames, 0.45 * size),
     }
     return ViewerScene(data, frames, tuple(notes), object_vertices)
+
+
+def build_view_section(
+    title: str, arm: Arm, q: ArrayLike | None, caption: str, *, name: str = "motion", label: str = "", **options: Any
+) -> Section:
+    """Build the section of a page with a view of the arm; ``label`` is its text alternative, the options are those of
+    :func:`scene`.
+    """
+    return Section(title, [Picture(scene(arm, q, **options).to_html(name, label or caption), caption)])
 
 
 def picture(arm: Arm, about: str, region: Region | None = None) -> str:

@@ -15,10 +15,16 @@ from holdfast.core.files.spreadsheet import escape_formula
 from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.arm.console import format_position, format_positions, print_limit_violations
+from holdfast.interface.presentation.arm.console import print_limit_violations
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant, to_json_types
+from holdfast.interface.presentation.printing import (
+    TextTable,
+    format_position,
+    format_positions,
+    format_significant,
+    to_json_types,
+)
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
