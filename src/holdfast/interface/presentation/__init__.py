@@ -76,8 +76,8 @@ PRESENTER_MODULES: dict[str, str | tuple[str, str]] = {
     "response.recovery.waypoints.WaypointCheck": ("recovery.check", ""),
     "kinematics.regions.region.Region": ("regions.region", "regions.region"),
     "control.simulation.runs.Runs": ("simulation.console", "simulation.run"),
-    "kinematics.solvers.optima.Optima": ("solvers.console", "solvers.console"),
-    "kinematics.solvers.self_motions.SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
+    "kinematics.solvers.optima.Optima": "solvers.optima",
+    "kinematics.solvers.self_motions.SelfMotion": "solvers.self_motion",
     "teleop.analysis.result.Analysis": ("teleop.numbers", "teleop.page"),
     "teleop.bank.selection.TaskChoice": ("teleop.choice", "teleop.bank"),
 }

@@ -9,7 +9,7 @@ import numpy as np
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation.page_content import PageContent
 from holdfast.interface.presentation.printing import TextTable, format_significant
-from holdfast.interface.presentation.solvers.self_motions import format_ranges
+from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
