@@ -142,7 +142,9 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         if figure.on_page:
             image = _render_svg(drawn[name] if drawn else figure.draw(), name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
-    small_facts = [[fact.label, fact.text] for fact in presentation.facts if fact.label and not fact.phrase]
+    is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
+    facts = list(zip(presentation.facts, is_at_top, strict=True))
+    small_facts = [[fact.label, fact.text] for fact, at_top in facts if fact.label and not at_top]
     tables = [TextTable(["", ""], small_facts)] if small_facts else []
     tables += [table.texts() for table in presentation.tables if table.on_page]
     sections: list[Section] = [
@@ -157,7 +159,7 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         sections,
         subtitle=presentation.about,
         warnings=[Callout(notice.text, notice.tone, notice.title) for notice in presentation.notices],
-        facts=[(fact.text, fact.phrase) for fact in presentation.facts if fact.phrase and not _is_uninformative(fact.text)],
+        facts=[(fact.text, fact.phrase) for fact, at_top in facts if at_top],
         method=build_method_blocks(presentation.arm, *presentation.method),
         again=command if presentation.again is None else presentation.again(),
     )

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.interface.report.views import View
 
 
@@ -46,6 +46,7 @@ class TimePanel:
         reference_level: A value to compare it to, drawn across, and what that is; None if there is none.
         moments: Times (s) and values of points picked out, each with a label.
         log_scale: On a logarithmic scale.
+        compared: Times and values of a second run, drawn thick behind the first.
     """
 
     time: FloatArray
@@ -55,6 +56,7 @@ class TimePanel:
     reference_level: tuple[float, str] | None = None
     moments: tuple[tuple[float, float, str], ...] = ()
     log_scale: bool = False
+    compared: tuple[FloatArray, FloatArray] | None = None
 
 
 def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
@@ -69,6 +71,8 @@ def motion_figure(panels: Sequence[TimePanel], caption: str, xlabel: str = "time
 
 def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
     """Draw one panel."""
+    if panel.compared is not None:
+        axes.plot(*panel.compared, color=SKY, linewidth=4.5)
     axes.plot(panel.time, panel.values, color=BLUE, linewidth=1.6)
     if panel.reference_level is not None:
         axes.axhline(
