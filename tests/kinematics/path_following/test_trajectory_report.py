@@ -11,8 +11,8 @@ import pytest
 
 import holdfast as hf
 import oracles
+from holdfast.interface.presentation.arm.view import choose_views
 from holdfast.interface.presentation.renderers import build_page, present
-from holdfast.interface.presentation.stick_figure import choose_views
 from holdfast.kinematics.indices import RelativeManipulability, susceptibility
 from holdfast.kinematics.paths import TimedPath, Trapezoid, line
 

@@ -18,6 +18,7 @@ from holdfast.interface.presentation.cell import bodies
 from holdfast.interface.report import viewer
 from holdfast.interface.report.page import Picture, Section
 from holdfast.interface.report.viewer import ViewerScene, round_to_seven_digits
+from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views, view_onto_plane
 from holdfast.kinematics.indices.lost_directions import find_speed_losses
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.model import Arm
@@ -182,6 +183,12 @@ def scene(
         "camera": _place_camera(arm, up, np.vstack(visible_points), frames, 0.45 * size),
     }
     return ViewerScene(data, frames, tuple(notes), object_vertices)
+
+
+def choose_views(arm: Arm, points: FloatArray) -> list[View]:
+    """Return side and top view of points (..., 3) of an arm; for an arm that moves in a plane the view of that plane."""
+    normal = plane_normal(arm)
+    return choose_side_and_top_views(points) or [SIDE_VIEW] if normal is None else [view_onto_plane(normal, -arm.gravity)]
 
 
 def build_view_section(

@@ -27,7 +27,7 @@ SPEED_FACTORS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs
 
 def draw_figure(trajectory: Trajectory) -> Figure:
     """Draw the arm at start and end, the path of its tool, and the objective over time."""
-    from holdfast.interface.presentation.stick_figure import choose_views
+    from holdfast.interface.presentation.arm.view import choose_views
     from holdfast.interface.report.motions import StickMotion, TimePanel, stick_motion_figure
 
     chain = trajectory.arm.frames(trajectory.q)[..., :3, 3]

@@ -160,7 +160,7 @@ class RunDrawing:
 
     def draw_figure(self) -> Figure:
         """Draw the arm at start and end, the path of its tool, and the error over time."""
-        from holdfast.interface.presentation.stick_figure import choose_views
+        from holdfast.interface.presentation.arm.view import choose_views
         from holdfast.interface.report.motions import StickMotion, stick_motion_figure
 
         drawn_path = self.drawn_path

@@ -225,7 +225,7 @@ def _describe_figure(motion: SelfMotion) -> FigureSpec:
 
 
 def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
-    from holdfast.interface.presentation.stick_figure import choose_views
+    from holdfast.interface.presentation.arm.view import choose_views
     from holdfast.interface.report.manifolds import JointPanel, self_motion_figure
     from holdfast.model.arm.configurations import sampling_limits
 

@@ -121,7 +121,7 @@ def _compose_answer(region: TolerantWorkspace) -> str:
 
 def _draw_figure(region: TolerantWorkspace) -> Figure:
     """Draw the region inside the workspace of the healthy arm, from one or two directions, and the sizes."""
-    from holdfast.interface.presentation.stick_figure import choose_views
+    from holdfast.interface.presentation.arm.view import choose_views
     from holdfast.interface.report.manifolds import RegionMap, region_figure
 
     maps = [
