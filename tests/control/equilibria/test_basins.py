@@ -58,7 +58,7 @@ def test_a_grid_where_no_start_arrives(three):
     assert found.convergence.value == 0
     (name, share), *_ = found.shares
     assert (name, share.value) == ("sink 1", 1.0)
-    assert len(found.describe()) == 2
+    assert len(found.describe()) == 1
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_limit_cycle(three, angle, width, period):
         if path.time[-1] >= path.time[first] + found.period:
             later = path.time[once][distance[once].argmax()] - path.time[first]
             assert found.largest_times[0] == pytest.approx(later, abs=0.5)
-        assert found.describe() == [f"limit cycle (period {found.period:.4g} s)"]
+        assert found.describe() == [f"Limit cycle (period {found.period:.4g} s)."]
 
 
 @pytest.mark.parametrize(("angle", "rate"), [(10, -3.31), (30, -0.816)])

@@ -20,14 +20,14 @@ def test_rest_points(cli, ask):
     assert (code, err) == (0, "")
     assert "sink" in out
     assert "-10.5639" in out
-    assert "140.0000 deg" in out
+    assert "140 deg" in out
 
 
 def test_curves_are_printed_and_drawn(cli, ask, tmp_path):
     figure = tmp_path / "curves.png"
     code, out, err = cli(*CURVES, "--plot", figure)
     assert (code, err) == (0, "")
-    assert "sinks with joint2 at 111.797 to 248.203 deg" in out
+    assert "Sinks with joint2 at 111.797 to 248.203 deg" in out
     assert matplotlib.image.imread(figure).shape[1] > 600
     data = ask(*CURVES)
     np.testing.assert_allclose(np.rad2deg(data["sink_arcs"]), [[111.797, 248.203]], atol=1e-3)

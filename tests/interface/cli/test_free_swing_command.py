@@ -42,7 +42,7 @@ def test_people_read_degrees_and_millimetres(cli):
     code, out, err = cli(*CALL)
     assert (code, err) == (0, "")
     swing = hf.free_swing(hf.arms.load("planar-3r"), Q, 1, damping=8.0)
-    assert f"{np.degrees(swing.rest_angle):.4g} deg ({swing.rest_angle:.4g} rad)" in out
+    assert f"{swing.rest_angle:.4g} rad ({np.degrees(swing.rest_angle):.4g} deg)" in out
     assert all(f"{t} ms" in out for t in (50, 100, 200))
     assert f"{1000 * swing.drops[0].drop:.4g} mm" in out
 

@@ -145,7 +145,7 @@ def test_it_is_the_library(ask, panda):
     clear = hf.collision.Clearance.by_default(panda)
     same = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20, clearance=clear, initial=q)
     assert json.loads(json.dumps(same.to_dict())) == data
-    assert same.describe()[0].endswith(f"{torque(q):.3f} before, {float(same.value):.3f} after.")
+    assert f"from {torque(q):.4g} to {float(same.value):.4g}" in same.describe()[0]
 
 
 def test_a_pose_of_a_urdf_file_as_numbers(ask):

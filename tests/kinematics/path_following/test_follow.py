@@ -186,7 +186,7 @@ def test_a_hand_that_limits_stop_is_not_called_on_its_path(across):
     t = hf.follow(arm, across(1.9, -0.1), minimise=susceptibility.swing_angle(arm, [0, 1, 0]), task="planar")
     assert not t.on_path
     assert t.headline.startswith("THE END EFFECTOR LEAVES ITS PATH")
-    assert t.describe()[0].startswith("THE END EFFECTOR LEAVES")
+    assert any(line.startswith("THE END EFFECTOR LEAVES") for line in t.describe())
     assert any(e.kind == "joint limit" for e in t.events)
     assert (t.q >= arm.lower - 1e-9).all()
     assert (t.q <= arm.upper + 1e-9).all()

@@ -105,7 +105,7 @@ def test_the_motion_says_what_it_kept_clear_of(motion, clearance, tmp_path):
     with motion.to_csv(tmp_path / "motion.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["clearance_m"]) for row in rows] == motion.clearance.tolist()
-    assert any(line.startswith("smallest clearance 10") for line in motion.describe())
+    assert any(line.startswith("Smallest clearance 10") for line in motion.describe())
 
 
 def test_a_cell_out_of_reach_changes_no_motion(panda, path, wish, plain, forearm):

@@ -11,8 +11,8 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.interface.presentation.path_following.trajectory import build
-from holdfast.interface.presentation.stick_figure import choose_views
+from holdfast.interface.presentation.arm.view import choose_views
+from holdfast.interface.presentation.renderers import build_page, present
 from holdfast.kinematics.indices import RelativeManipulability, susceptibility
 from holdfast.kinematics.paths import TimedPath, Trapezoid, line
 
@@ -43,7 +43,7 @@ def test_a_calm_motion(calm, tmp_path):
         "the same path without it",
         "best of each pose",
         "best continuous motion",
-        "Nothing: no algorithmic singularity",
+        "Nothing happened on the way: no algorithmic singularity",
         "at least",
         "holdfast follow x",
         calm.arm.fingerprint,
@@ -54,7 +54,7 @@ def test_a_calm_motion(calm, tmp_path):
 
 
 def test_a_hand_off_its_path_is_the_first_thing_said(stopped):
-    page = build(stopped)
+    page = build_page(present(stopped))
     assert page.warnings[0].tone == "bad"
     assert "LEAVES ITS PATH" in page.warnings[0].text
     assert "The end effector leaves its path, by up to" in page.headline

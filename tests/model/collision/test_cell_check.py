@@ -63,14 +63,14 @@ def test_what_touches_is_told_by_name_and_counted(cell):
     assert [each.kind for each in found.objects] == ["box", "sphere", "hull", "point cloud"]
     assert [each.margin for each in found.objects] == [0.01, 0.01, 0.01, 0.2]
     assert [each.width > 0 for each in found.objects] == [False, False, True, True]
-    assert "the base of 'panda' touches table, hood" in found.describe()[1]
+    assert "The base of 'panda' touches table, hood" in " ".join(found.describe())
 
 
 def test_a_sound_cell_without_and_with_an_arm(cell):
     alone = hf.check_cell(hf.Cell(cell.objects[2:]))
     assert alone.ok
     assert math.isnan(alone.colliding)
-    assert alone.describe()[1] == "give an arm to see what it touches"
+    assert alone.describe()[1] == "Give an arm to see what it touches."
     found = hf.check_cell(hf.Cell(cell.objects[2:]), hf.arms.load("panda"))
     assert found.ok
     assert 0 < found.colliding < 0.5

@@ -70,7 +70,7 @@ def test_without_a_library_nothing_is_said_of_it(panda, monkeypatch):
     assert contacts
     assert all(c.exact_time is None for c in contacts)
     assert contacts[0].confirmation() == ""
-    assert "exactly at" not in tabulate_contacts(contacts).head
+    assert "exactly at" not in tabulate_contacts(contacts).texts().head
 
 
 def test_words():
@@ -85,4 +85,4 @@ def test_words():
     entries = list_contacts(told)
     assert [e.get("exact") for e in entries] == [None, True, True, False]
     assert [e.get("exact_time_s") for e in entries] == [None, 1.0, 1.25, None]
-    assert [row[3] for row in tabulate_contacts(told).rows] == ["", "1", "1.25", "does not touch"]
+    assert [row[3] for row in tabulate_contacts(told).texts().rows] == ["", "1", "1.25", "does not touch"]

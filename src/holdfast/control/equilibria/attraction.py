@@ -92,10 +92,6 @@ class Basins(Result):
         converged = np.asarray(self.runs.code) == RunOutcome.CONVERGED
         return Interval.from_counts(int(converged.sum()), len(self.end), self.confidence)
 
-    def describe(self) -> list[str]:
-        """Return the fraction of starts that reach the target in a few sentences."""
-        return [self.points.describe()[0], f"{self.convergence} of {len(self.end)} starts reach the target"]
-
     def to_xarray(self) -> xr.Dataset:
         """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes.
 

@@ -156,29 +156,6 @@ class Curves(Result):
             points.append(self._system.refine_points(q))
         return wrap_angles(arm, np.concatenate(points))
 
-    def describe(self) -> list[str]:
-        """Return the curves and their sinks in a few sentences."""
-        arm = self.law.arm
-        factor, unit = arm.joints[self.joint].display_unit
-        joint_name = arm.joint_names[self.joint]
-        subject = f"{arm.title} under {self.law.describe()}, {joint_name} locked at any value"
-        lines = [f"{subject}: {len(self)} curves, {self.starts} starts"]
-        arcs = ", ".join(f"{factor * lower:.3f} to {factor * upper:.3f}" for lower, upper in self.sink_arcs)
-        lines.append(f"sinks with {joint_name} at {arcs} {unit}" if arcs else "no sinks were found")
-        values = ", ".join(f"{factor * angle:.4f}" for angle in self.degenerate_angles)
-        lines += [f"whole curves of stationary points with {joint_name} at {values} {unit}"] if values else []
-        if len(self.loose):
-            is_attracting = self.loose.attracting
-            angles = self.loose.q[is_attracting, self.joint].tolist()
-            stuck_arcs = merge_arcs([(angle - SAMPLE_RADIUS, angle + SAMPLE_RADIUS) for angle in angles], unit == "deg")
-            sampled = [(lower + SAMPLE_RADIUS, upper - SAMPLE_RADIUS) for lower, upper in stuck_arcs]
-            arcs = ", ".join(f"{factor * lower:.0f} to {factor * upper:.0f}" for lower, upper in sampled)
-            arc_text = f", about {arcs} {unit}" if stuck_arcs else ""
-            lines.append(
-                f"{len(self.loose)} samples of surfaces of stationary points, {int(is_attracting.sum())} attracting{arc_text}"
-            )
-        return lines
-
 
 def merge_arcs(arcs: Sequence[Arc], is_revolute: bool) -> list[Arc]:
     """Merge arcs ``(lower, upper)``; of a revolute joint modulo full turns, each with lower in [-pi, pi)."""

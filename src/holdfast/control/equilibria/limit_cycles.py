@@ -68,10 +68,6 @@ class Orbit(Result):
         """True if the orbit attracts: it is closed, and every multiplier is inside the unit circle."""
         return self.multipliers.size > 0 and bool((np.abs(self.multipliers) < 1).all())
 
-    def describe(self) -> list[str]:
-        """Return the label and the period in a phrase."""
-        return [self.label if np.isnan(self.period) else f"{self.label} (period {self.period:.4g} s)"]
-
 
 def orbit(runs: Runs, k: int = 0, window: float = 400.0) -> Orbit:
     """Find the motion that run k, which ended moving, repeats forever.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.equilibria.stability import Kind, Kinds, classify_kinds, is_attracting
-from holdfast.control.equilibria.system import RestSystem, idle_joints, select_distinct, wrap_angles
+from holdfast.control.equilibria.system import RestSystem, select_distinct, wrap_angles
 from holdfast.control.laws.law import Law
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.caching import cached_property
@@ -102,31 +102,6 @@ class StationaryPoints(Result):
         is_isolated = ~self.continuum & np.isfinite(self.eigenvalues).all(axis=1)
         sign_sum = int(np.sign(np.prod(self.eigenvalues[is_isolated], axis=1).real).sum())
         return -sign_sum if self.eigenvalues.shape[1] % 2 else sign_sum
-
-    def describe(self) -> list[str]:
-        """Return the stationary points by kind in a few sentences."""
-        arm = self.law.arm
-        lock_text = ", ".join(
-            f"{arm.joint_names[joint]} at {_format_value(arm, joint, value)}"
-            for joint, value in zip(self.locked, self.at, strict=True)
-        )
-        lines = [f"{arm.title} under {self.law.describe()}, locked: {lock_text}; {self.starts} starts"]
-        idle_names = [arm.joint_names[joint] for joint in idle_joints(self.law) if joint not in self.locked]
-        if idle_names:
-            lines.append(f"the task does not notice {', '.join(idle_names)}, shown at 0")
-        for kind in Kind:
-            is_of_kind = self.kind == kind
-            if (is_of_kind & ~self.continuum).any():
-                lines.append(f"{int((is_of_kind & ~self.continuum).sum())} x {kind.word}")
-            is_continuum = is_of_kind & self.continuum
-            if is_continuum.any():
-                attracting_text = (
-                    "" if kind == Kind.SOLUTION else f", {int((is_continuum & self.attracting).sum())} of them attracting"
-                )
-                lines.append(
-                    f"{int(is_continuum.sum())} x {kind.word}, sampled from points that are not isolated{attracting_text}"
-                )
-        return lines
 
     def _subset(self, rows: BoolArray | IndexArray) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")

@@ -212,37 +212,6 @@ class Execution(Result):
             )
         return phrases + [contact.sentence() for contact in self.contacts or ()]
 
-    def describe(self) -> list[str]:
-        """Return the outcome of the execution in a few sentences."""
-        lines = [
-            f"{self.arm.title}, {self.servos.describe()}, on MuJoCo: {_OUTCOME_TEXTS[self.outcome]} after {self.time[-1]:.3g} s"
-        ]
-        for index in np.flatnonzero(np.isfinite(self.lock_time) & (self.lock_time <= self.time[-1])):
-            joint, lock_time = self.arm.joints[index], self.lock_time[index]
-            factor, unit = joint.display_unit
-            lock_text = f"locked at {lock_time:.4g} s" if lock_time > 0 else "locked"
-            lines.append(f"{joint.name} {lock_text}, at {factor * self.q_final[index]:.4g} {unit}")
-        if self.noticed <= self.time[-1]:
-            lines.append(f"the controller noticed at {self.noticed:.4g} s and slowed down")
-        if self.goal is not None:
-            lines.append(f"the tool is {self._format_goal_error()} off the goal")
-        distances, angles = (np.stack([error.max(), error[-1]]) for error in self.tool_error)
-        largest_text, final_text = (
-            f"{format_error(1000 * distances[index])} mm and {format_error(np.rad2deg(angles[index]))} deg" for index in (0, 1)
-        )
-        lines.append(f"the tool is at most {largest_text} off the motion, at the end {final_text}")
-        if self.error_limit is not None and self.first_excess is None:
-            lines.append("the following error keeps its limit in every joint")
-        for constraint, (distance, rotation) in zip(self.keep, self.constraint_errors, strict=True):
-            error_texts = [f"{1000 * distance:.3g} mm off"] * bool(len(constraint.normals))
-            error_texts += [f"{np.rad2deg(rotation):.3g} deg turned away"] * bool(np.isfinite(constraint.widest))
-            lines.append(f"{constraint}: at most {' and '.join(error_texts)}")
-        if not self.beyond_limits and not self.too_fast:
-            lines.append("the joints kept within their limits and speeds")
-        return lines + [
-            fault for fault in self.faults() if "off the goal" not in fault and fault != _OUTCOME_TEXTS[self.outcome]
-        ]
-
     def _format_goal_error(self) -> str:
         angle_text = "" if self.goal_turn is None else f" and {format_error(np.rad2deg(self.goal_turn))} deg"
         return f"{format_error(1000 * (self.goal_distance or 0.0))} mm{angle_text}"

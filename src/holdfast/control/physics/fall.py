@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 
 from holdfast.core.files.output import write_table
-from holdfast.core.formatting import capitalise_first
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
@@ -17,14 +16,6 @@ from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.contacts import Contact
 
 Outcome = Literal["rest", "stop", "contact", "balanced", "moving"]
-
-OUTCOME_TEXTS = {
-    "rest": "hangs still",
-    "stop": "lies against its stop",
-    "contact": "lies against an object of the cell",
-    "balanced": "does not move: gravity pulls it neither way here",
-    "moving": "was still moving at the end; give more --duration or --damping",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,28 +89,6 @@ class FreeSwing(Result):
     def is_at_stop(self) -> bool:
         """True if the joint ended against one of its limits."""
         return self.outcome == "stop"
-
-    def describe(self) -> list[str]:
-        """Return the motion of the free swing in a few sentences."""
-        failed = self.arm.joints[self.joint]
-        factor, unit = failed.display_unit
-        lines = [
-            f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held",
-            f"It {OUTCOME_TEXTS[self.outcome]}.",
-        ]
-        if self.is_settled:
-            rest_value, peak_value = factor * self.rest_angle, factor * self.peak
-            lines.append(f"At the end it has moved {rest_value:.4g} {unit}, on the way at most {peak_value:.4g} {unit}.")
-        if self.contacts is not None:
-            lines.append(
-                f"{capitalise_first(self.contacts[0].sentence()) if self.contacts else 'It touches nothing on the way'}."
-            )
-        lines += [
-            f"{braked.after_ms:g} ms after the failure it has moved {factor * braked.angle:.4g} {unit} and moves at "
-            f"{factor * braked.speed:.4g} {unit}/s; the tool has dropped {1000 * braked.drop:.4g} mm."
-            for braked in self.drops
-        ]
-        return lines
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion as rows over time: how far the joint has moved, its speed, and the tool point, m.

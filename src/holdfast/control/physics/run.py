@@ -116,21 +116,6 @@ class PhysicalRun(Result):
         """(T, n) array that is True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
 
-    def describe(self) -> list[str]:
-        """Return the outcome of the run in a few sentences."""
-        lines = [
-            f"{self.servos.describe()}, on MuJoCo: {self.ending}; kinematic: {self.kinematic.outcome}",
-            f"tool paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
-        ]
-        if self.contacts is not None:
-            contact_text = self.contacts[0].sentence() if self.contacts else "the arm touches nothing"
-            lines.append(f"{contact_text} (with masses and servos)")
-        fractions = zip(self.law.arm.joint_names, self.saturated_fraction, strict=True)
-        saturated_joints = [name for name, fraction in fractions if fraction > 0]
-        if saturated_joints:
-            lines.append(f"motors at their effort for a while: {', '.join(saturated_joints)}")
-        return lines
-
 
 def _resample_evenly(points: FloatArray) -> FloatArray:
     """Resample a path (T, 3) to points (P, 3) at equal lengths along it."""

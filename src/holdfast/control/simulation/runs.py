@@ -304,23 +304,5 @@ class Runs(Result):
         remark += "" if self.stopped is None else ": the run is stopped there"
         return f"{capitalise_first(run_contacts[0].sentence(self.unit))}{remark}."
 
-    def describe(self) -> list[str]:
-        """Return the outcomes of the runs in a few sentences."""
-        counts = self.counts()
-        lines = [
-            f"{len(self)} runs of {self.law.describe()} on '{self.law.arm.name}': "
-            + ", ".join(f"{count} {name}" for name, count in counts.items())
-        ]
-        passes_limit = np.atleast_2d(self.limits_passed).any(axis=1)
-        if passes_limit.any():
-            converging = (passes_limit & (np.atleast_1d(self.code) == RunOutcome.CONVERGED)).sum()
-            lines.append(f"{passes_limit.sum()} of them pass a joint limit on the way, {converging} of these converge")
-        reasons = np.atleast_1d(self.reason)
-        for reason in UNDECIDED_REASONS:
-            if (reasons == reason).any():
-                limit_text = f", {self._settings.time_limit:.6g} {self.unit}" if reason == Reason.TIME_LIMIT else ""
-                lines.append(f"{int((reasons == reason).sum())} undecided{limit_text}: {reason.sentence}")
-        return [*lines, *[sentence for sentence in (self.contact_sentence(),) if sentence]]
-
 
 _OUTCOME_NAMES = np.array([o.name.lower() for o in RunOutcome])

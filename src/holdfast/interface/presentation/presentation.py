@@ -18,7 +18,13 @@ import numpy as np
 
 from holdfast.core.files.output import open_replacement
 from holdfast.core.formatting import Probability, format_interval, format_percent
-from holdfast.interface.presentation.printing import TextTable, format_column, format_significant
+from holdfast.interface.presentation.printing import (
+    TextTable,
+    format_column,
+    format_position,
+    format_positions,
+    format_significant,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,7 +32,7 @@ if TYPE_CHECKING:
     from holdfast.interface.report.page import Block, Section
     from holdfast.model.arm.model import Arm
 
-Style = Literal["number", "percent", "text"]
+Style = Literal["number", "percent", "text", "angle"]  # angle: rad is also given in degrees
 
 
 def format_value(value: Any, style: Style = "number", unit: str = "", digits: int = 4) -> str:
@@ -43,6 +49,8 @@ def format_value(value: Any, style: Style = "number", unit: str = "", digits: in
         text = _format_probability(value, style)
     elif style == "percent":
         return format_percent(float(value)) if math.isfinite(value) else "–"
+    elif style == "angle":
+        return format_position(value, unit, digits)
     else:
         text = format_significant(value, digits)
     return f"{text} {unit}" if unit not in ("", "1") else text
@@ -102,6 +110,8 @@ class Column:
     def texts(self, values: Sequence[Any]) -> list[str]:
         """Format the values of the column."""
         units = [self.unit] * len(values) if isinstance(self.unit, str) else list(self.unit)
+        if self.aligned and self.style == "angle":
+            return format_positions(values, units, self.digits)
         if self.aligned and self.style == "number":
             if values and all(isinstance(value, (float, np.floating)) for value in values):
                 return format_column(values, units, self.digits)
@@ -157,12 +167,14 @@ class FigureSpec:
     """Figure: the function that draws it, the title of its section on the page, and its caption.
 
     ``on_page=False``: it is a file and a plot, and the page does not show it, or shows it in a section of its own.
+    ``preview`` draws it faster, for notebooks.
     """
 
     draw: Callable[[], Figure]
     title: str = "What was found"
     caption: str = ""
     on_page: bool = True
+    preview: Callable[[], Figure] | None = None
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,21 @@ def format_column(values: Iterable[float], units: str | Sequence[str] = "", digi
     ]
 
 
+def format_position(value: float, unit: str, digits: int = 4) -> str:
+    """Format a joint position, an angle, or another measure with its unit; an angle in rad is also given in degrees."""
+    text = f"{format_significant(value, digits)} {unit}" if unit not in ("", "1") else format_significant(value, digits)
+    return f"{text} ({format_significant(np.degrees(value), digits)} deg)" if unit == "rad" else text
+
+
+def format_positions(values: Sequence[float], units: Sequence[str], digits: int = 5) -> list[str]:
+    """Format a column of positions, or of measures of joints; angles are also given in degrees."""
+    degrees = iter(
+        format_column(np.degrees([value for value, unit in zip(values, units, strict=True) if unit == "rad"]), "deg")
+    )
+    pairs = zip(format_column(values, units, digits), units, strict=True)
+    return [f"{text} ({next(degrees)})" if unit == "rad" else text for text, unit in pairs]
+
+
 def print_table(out: Console, table: TextTable) -> None:
     """Print the title and the rows of a table."""
     from rich.markup import escape

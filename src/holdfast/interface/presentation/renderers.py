@@ -99,7 +99,8 @@ def in_notebook(thing: Presentable) -> str:
         format_table(facts if facts.rows or not presentation.tables else next(iter(presentation.list_tables())).texts())
     )
     parts += [
-        embed_figure(figure.draw(), f"{name}: {presentation.answer}") for name, figure in list(presentation.figures.items())[:1]
+        embed_figure((figure.preview or figure.draw)(), f"{name}: {presentation.answer}")
+        for name, figure in list(presentation.figures.items())[:1]
     ]
     return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
 
@@ -144,7 +145,9 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         if figure.on_page:
             image = _render_svg(drawn[name] if drawn else figure.draw(), name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
-    small_facts = [[fact.label, fact.text] for fact in presentation.facts if fact.label and not fact.phrase]
+    is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
+    facts = list(zip(presentation.facts, is_at_top, strict=True))
+    small_facts = [[fact.label, fact.text] for fact, at_top in facts if fact.label and not at_top]
     tables = [TextTable(["", ""], small_facts)] if small_facts else []
     tables += [table.texts() for table in presentation.list_tables() if table.on_page]
     sections: list[Section] = [
@@ -159,10 +162,15 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         sections,
         subtitle=presentation.about,
         warnings=[Callout(notice.text, notice.tone, notice.title) for notice in presentation.notices],
-        facts=[(fact.text, fact.phrase) for fact in presentation.facts if fact.phrase],
+        facts=[(fact.text, fact.phrase) for fact, at_top in facts if at_top],
         method=build_method_blocks(presentation.arm, *presentation.method),
         again=command if presentation.again is None else presentation.again(),
     )
+
+
+def _is_uninformative(text: str) -> bool:
+    """Return whether a number is zero or missing, so that the top of the page leaves it out."""
+    return text.partition(" ")[0] in ("0", "–", "none")
 
 
 def build_table_block(table: TextTable) -> Any:

@@ -25,6 +25,7 @@ from holdfast.interface.report.figures import (
     settle_layout,
     style,
 )
+from holdfast.interface.report.motions import draw_chain, show_view
 from holdfast.interface.report.views import View
 
 _CURVE_GAP_FRACTION = 0.04  # of the whole length, between two curves
@@ -77,7 +78,16 @@ def self_motion_figure(
         )
         panels = np.atleast_1d(arm_figure.subplots(len(views), 1)) if views else ()
         for axes, view in zip(panels, views, strict=True):
-            _draw_arm(axes, chains @ np.stack([view.right, view.up]).T, view)
+            for index, shade in enumerate(np.linspace(0.25, 1.0, len(chains))):
+                draw_chain(
+                    axes,
+                    view.project(chains[index]),
+                    linewidth=1.2 + 0.9 * shade,
+                    node_size=4.0,
+                    tool_color=ORANGE if index == len(chains) - 1 else "",
+                    alpha=0.25 + 0.55 * shade,
+                )
+            show_view(axes, view, 0.1)
         has_bands = any(panel.arcs for panel in joints)
         handles = [
             *([Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target")] if has_bands else []),
@@ -117,17 +127,6 @@ def _draw_joint(
     axes.grid(axis="x", visible=False)
     if curves:
         axes.set_xlim(-0.01 * total_length, curve_start - _CURVE_GAP_FRACTION * total_length + 0.01 * total_length)
-
-
-def _draw_arm(axes: Axes, chains: FloatArray, view: View) -> None:
-    for shade, chain in zip(np.linspace(0.25, 1.0, len(chains)), chains, strict=True):
-        axes.plot(*chain.T, color=INK, alpha=0.25 + 0.55 * shade, linewidth=1.2 + 0.9 * shade, solid_joinstyle="round")
-        axes.plot(*chain[1:-1].T, "o", color="white", markeredgecolor=INK, markeredgewidth=1.0, markersize=4, zorder=3)
-    axes.plot(*chains[0, 0], marker="s", color=INK, markersize=8)
-    axes.plot(*chains[-1, -1], marker="D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=4)
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.1)
-    axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
 
 
 @dataclass(frozen=True)

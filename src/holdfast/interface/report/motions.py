@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.interface.report.timelines import LINE_COLORS
 from holdfast.interface.report.views import View
 
@@ -48,6 +48,7 @@ class TimePanel:
         reference_level: A value to compare it to, drawn across, and what that is; None if there is none.
         moments: Times (s) and values of points picked out, each with a label.
         log_scale: On a logarithmic scale.
+        compared: Times and values of a second run, drawn thick behind the first.
     """
 
     time: FloatArray
@@ -57,6 +58,7 @@ class TimePanel:
     reference_level: tuple[float, str] | None = None
     moments: tuple[tuple[float, float, str], ...] = ()
     log_scale: bool = False
+    compared: tuple[FloatArray, FloatArray] | None = None
 
 
 def motion_figure(
@@ -77,6 +79,8 @@ def motion_figure(
 
 def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
     """Draw one panel."""
+    if panel.compared is not None:
+        axes.plot(*panel.compared, color=SKY, linewidth=4.5)
     lines = panel.values if isinstance(panel.values, Mapping) else {"": panel.values}
     colors = cycle(LINE_COLORS) if len(lines) > 1 else [BLUE]
     for color, (name, values) in zip(colors, lines.items(), strict=False):
@@ -120,34 +124,72 @@ def stick_motion_figure(
         return settle_layout(figure)
 
 
-def _draw_stick_figure(axes: Axes, motion: StickMotion, view: View, path_label: str) -> None:
-    def project_points(points: FloatArray) -> FloatArray:
-        return view.project(points).T
+def draw_chain(
+    axes: Axes,
+    chain: FloatArray,
+    *,
+    color: str = INK,
+    linewidth: float = 2.6,
+    squares: NDArray[np.bool_] | None = None,
+    filled: NDArray[np.bool_] | None = None,
+    node_size: float = 6.0,
+    tool_color: str = ORANGE,
+    zorder: float = 3.0,
+    **line_options: Any,
+) -> None:
+    """Draw an arm as a chain of links: its base as a square, its joints as nodes, and its tool as a diamond.
 
-    last_frame = len(motion.chain) - 1
-    marked = np.zeros(len(motion.square_corners), dtype=bool) if motion.filled_corners is None else motion.filled_corners
-    for frame, color, width, label in ((0, "#b9c0c7", 2.4, "at the start"), (last_frame, INK, 2.6, "at the end")):
-        chain = project_points(motion.chain[frame])
-        axes.plot(*chain, color=color, linewidth=width, solid_joinstyle="round", label=label, zorder=2 if frame else 1.5)
-        for marker, corners in (("s", motion.square_corners), ("o", ~motion.square_corners)):
-            inner_corners = corners.copy()
-            inner_corners[[0, -1]] = False
-            for filled, chosen in ((ORANGE, inner_corners & marked), ("white", inner_corners & ~marked)):
+    Args:
+        axes: The axes.
+        chain: (K, 2) projected corners, base first and tool last, m.
+        color: Colour of the links.
+        linewidth: Width of the links.
+        squares: (K,) corners drawn as squares (prismatic joints).
+        filled: (K,) corners drawn filled (locked joints).
+        node_size: Size of the nodes; 0: they are not drawn.
+        tool_color: Colour of the diamond; empty: it is not drawn.
+        zorder: Drawing order of the links.
+        line_options: What matplotlib takes for the links.
+    """
+    axes.plot(*chain.T, color=color, linewidth=linewidth, solid_joinstyle="round", zorder=zorder, **line_options)
+    is_square, is_filled = (np.zeros(len(chain), dtype=bool) if flags is None else flags for flags in (squares, filled))
+    is_inner = np.r_[False, np.ones(len(chain) - 2, dtype=bool), False]
+    for marker, corners in (("s", is_square), ("o", ~is_square)):
+        for face, chosen in ((ORANGE, is_inner & corners & is_filled), ("white", is_inner & corners & ~is_filled)):
+            if node_size and chosen.any():
                 axes.plot(
-                    *chain[:, chosen], marker, color=filled, markeredgecolor=color, markersize=6, zorder=3 if frame else 1.6
+                    *chain[chosen].T, marker, color=face, markeredgecolor=color, markersize=node_size, zorder=zorder + 0.2
                 )
-        axes.plot(*chain[:, :1], "s", color=color, markersize=8, zorder=3)
-    axes.plot(*project_points(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
-    axes.plot(*project_points(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=path_label, zorder=2.4)
-    axes.plot(
-        *project_points(motion.chain[last_frame, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2
-    )
-    if motion.goal is not None:
-        axes.plot(
-            *project_points(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3
-        )
-    if marked.any():
-        axes.plot([], [], "o", color=ORANGE, markeredgecolor=INK, markersize=6, label="locked")
+    axes.plot(*chain[0], "s", color=color, markersize=8, zorder=zorder + 0.1)
+    if tool_color:
+        axes.plot(*chain[-1], "D", color=tool_color, markeredgecolor="white", markersize=7, zorder=zorder + 0.5)
+
+
+def show_view(axes: Axes, view: View, margin: float = 0.08) -> None:
+    """Set the title and labels of a projection, with equal axes."""
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
-    axes.margins(0.08)
+    axes.margins(margin)
+
+
+def _draw_stick_figure(axes: Axes, motion: StickMotion, view: View, path_label: str) -> None:
+    locked = motion.filled_corners
+    for frame, color, label in ((0, "#b9c0c7", "at the start"), (-1, INK, "at the end")):
+        draw_chain(
+            axes,
+            view.project(motion.chain[frame]),
+            color=color,
+            squares=motion.square_corners,
+            filled=locked,
+            tool_color=ORANGE if frame else "",
+            zorder=3.0 if frame else 1.5,
+            label=label,
+        )
+    axes.plot(*view.project(motion.chain[:, -1]).T, color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
+    axes.plot(*view.project(motion.path).T, color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=path_label, zorder=2.4)
+    if motion.goal is not None:
+        goal = view.project(motion.goal)
+        axes.plot(*goal, "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.7)
+    if locked is not None and locked.any():
+        axes.plot([], [], "o", color=ORANGE, markeredgecolor=INK, markersize=6, label="locked")
+    show_view(axes, view)

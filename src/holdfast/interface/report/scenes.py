@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.figures import INK, ORANGE, SOFT, WIDTH_IN, settle_layout, style
+from holdfast.interface.report.motions import draw_chain
 from holdfast.interface.report.views import View
 
 
@@ -151,30 +152,10 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
         return
     projected_chain = view.project(scene.chain)
     halo = [withStroke(linewidth=5.4, foreground="white")]
-    axes.plot(
-        projected_chain[:, 0],
-        projected_chain[:, 1],
-        color=INK,
-        linewidth=2.8,
-        solid_capstyle="round",
-        solid_joinstyle="round",
-        zorder=3,
-        path_effects=halo,
-    )
-    axes.plot(*projected_chain[0], marker="s", color=INK, markersize=8.5, zorder=3.1)
-    axes.plot(*projected_chain[-1], marker="D", color=ORANGE, markeredgecolor="white", markersize=6, zorder=3.5)
+    draw_chain(axes, projected_chain, linewidth=2.8, node_size=0.0, solid_capstyle="round", path_effects=halo)
     nodes = view.project(scene.nodes)
     for marker, chosen in (("o", ~scene.square), ("s", scene.square)):
-        axes.plot(
-            nodes[chosen, 0],
-            nodes[chosen, 1],
-            marker,
-            color="white",
-            markeredgecolor=INK,
-            markeredgewidth=1.4,
-            markersize=6,
-            zorder=3.2,
-        )
+        axes.plot(*nodes[chosen].T, marker, color="white", markeredgecolor=INK, markeredgewidth=1.4, markersize=6, zorder=3.2)
     occupied = np.zeros((0, 2))
     for numbers, position in _group_near_nodes(nodes * scale, 6.0):
         text = _format_ranges(numbers)

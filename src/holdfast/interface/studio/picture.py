@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.stick_figure import choose_views
+from holdfast.interface.presentation.arm.view import choose_views
 from holdfast.interface.report.figures import (
     GREEN,
     INK,
@@ -23,6 +23,7 @@ from holdfast.interface.report.figures import (
     style,
     svg,
 )
+from holdfast.interface.report.motions import draw_chain, show_view
 from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 
@@ -57,17 +58,14 @@ def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArra
             for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
                 axes.plot(*view.project(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
             _draw_arm(axes, view.project(chains[-1]), state)
-            axes.set_aspect("equal", adjustable="datalim")
-            axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
+            show_view(axes, view)
         figure.suptitle(format_label(_format_caption(state)), x=0.01, ha="left", fontsize=9.5)
         settle_layout(figure)
     return svg(figure, "studio", _format_caption(state))
 
 
 def _draw_arm(axes: Axes, chain: FloatArray, state: State) -> None:
-    axes.plot(*chain.T, color=INK, linewidth=2.6, solid_capstyle="round", zorder=3)
-    axes.plot(*chain[0], marker="s", color=INK, markersize=8, zorder=3.1)
-    axes.plot(*chain[-1], marker="D", color=SOFT, markersize=6, zorder=3.5)
+    draw_chain(axes, chain, node_size=0.0, tool_color=SOFT, solid_capstyle="round")
     for joint, (point, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
         color, marker = {"healthy": ("white", "o"), "locked": (ORANGE, "X"), "free": (PURPLE, "P")}[condition]
         size = 6 if condition == "healthy" else 11

@@ -73,15 +73,6 @@ class Configurations(Result):
         """True if it is proved that there is no configuration."""
         return self.finding == SearchOutcome.NONE
 
-    def describe(self) -> list[str]:
-        """Describe the result in sentences."""
-        open_phrase = f", {self.open:,} of them left, up to {2 * self.widest:.2g} wide" if self.open else ""
-        blocked_phrase = f", {self.blocked:,} of them blocked and left out" if self.blocked else ""
-        return [
-            f"{len(self.q)} configurations of '{self.arm.name}', task {self.task.name}: {self.finding.sentence}",
-            f"{self.boxes:,} boxes of joints{blocked_phrase}{open_phrase}, {self.seconds:.2g} s",
-        ]
-
 
 @check_arguments
 @reports_progress("looking for every configuration")

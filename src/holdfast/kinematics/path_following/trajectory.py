@@ -243,19 +243,6 @@ class Trajectory(Result):
         joint_bounds = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
         return [slow_enough(self.arm, self.q, self.qd, qdd=self.qdd, bound=joint_bound) for joint_bound in joint_bounds]
 
-    def describe(self) -> list[str]:
-        """Describe the motion in sentences: its length, its quality, and its events."""
-        lines = [
-            f"{self.headline}; {self.method} on {self.arm.title}, {self.time[-1]:.4g} s, {len(self.time)} samples",
-            f"{self.objective.name}: {self.value[0]:.4g} at the start, {self.value[-1]:.4g} at the end, "
-            f"mean {self.value.mean():.4g}, range {self.value.min():.4g} to {self.value.max():.4g}",
-            f"largest norm of the joint rates {self.peak_rate:.4g} rad/s at {self.peak_time:.4g} s",
-        ]
-        if self.nearest is not None and self.clearance is not None:
-            sample, pair = self.nearest
-            lines.append(f"smallest clearance {1000 * self.clearance[sample]:.4g} mm ({pair}) at {self.time[sample]:.4g} s")
-        return lines + [event.text for event in self.events]
-
 
 def find_susceptibilities(objective: Objective) -> list[Susceptibility]:
     """Find the susceptibilities that an objective contains; of two of one kind the first."""

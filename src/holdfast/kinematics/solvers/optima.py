@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError, InputError
-from holdfast.core.formatting import format_count, format_number
+from holdfast.core.formatting import format_number
 from holdfast.core.progress import ProgressCount, reports_progress
 from holdfast.core.result import Result
 from holdfast.core.status import Status
@@ -177,17 +177,6 @@ class Optima(Optimum, Result):
             other_after=float(new_medians[loser]),
             remaining=tuple(failure for failure in range(len(index.failures)) if failure != capping),
         )
-
-    def describe(self) -> list[str]:
-        """Describe the objective before and after optimisation; of several poses the median of those reached."""
-        is_reached = np.atleast_1d(self.success)
-        unit = "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
-        values = [np.atleast_1d(numbers)[is_reached] for numbers in (self.value_before, self.value)]
-        before, after = (f"{format_number(float(np.median(numbers)))}{unit}" if numbers.size else "none" for numbers in values)
-        subject = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
-        reached = f"{format_count(int(is_reached.sum()), 'pose')} of {is_reached.size} reached, " if is_reached.size > 1 else ""
-        sentences = [f"{subject}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
-        return sentences if self.cap is None else [*sentences, f"{self.cap}; optimise over the other failures alone."]
 
     def require_any(self) -> Optima:
         """Return the result, unless no pose has a configuration.

@@ -72,20 +72,9 @@ class SelfMotion(Result):
         """The objects around the arm."""
         return None if self.clearance is None else self.clearance.cell
 
-    def describe(self) -> list[str]:
-        """Describe the configurations in sentences."""
-        lines = [f"{self.arm.title}, task {self.task.name}: {self._summarise()}"]
-        lines += [f"curve {k + 1}: {curve.length:.3g} rad, {self.ends(k)}" for k, curve in enumerate(self.components)]
-        if self.components and not self.arm.prismatic.all():
-            revolute_count = np.count_nonzero(~self.arm.prismatic)
-            lines.append(f"on one curve its joints take {self.size / (2 * np.pi):.2f} of {revolute_count} whole turns")
-        for joint, arcs in zip(self.arm.joints, self.bounds or [], strict=False):
-            factor, unit = joint.display_unit
-            ranges = " or ".join(f"{factor * lower:.2f} to {factor * upper:.2f} {unit}" for lower, upper in arcs)
-            lines.append(f"{joint.name} may lock {f'at {ranges}' if arcs else 'nowhere'} without losing the target")
-        return lines
-
-    def _summarise(self) -> str:
+    @property
+    def summary(self) -> str:
+        """The number of curves with their lengths, or the reason why there is none, as a phrase."""
         if self.status == Status.INFEASIBLE and self.clearance is not None:
             return f"at every configuration found the arm {self.clearance.too_close(self.margin)}"
         if self.status != Status.OK:

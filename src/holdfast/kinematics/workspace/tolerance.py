@@ -93,25 +93,6 @@ class TolerantWorkspace(Result):
         count = int(self.within.sum())
         return 1 - self.survives.sum(axis=0) / count if count else np.full(self.arm.n, np.nan)
 
-    def describe(self) -> list[str]:
-        """Describe the size of the region and the points that the locks of each joint lose, in sentences."""
-        lower, upper = self.size_interval
-        method = (
-            "in closed form for each radius"
-            if self.exact
-            else f"{len(self.points)} points, {self.angles} locked values per joint, {self.confidence:.0%} interval "
-            f"{lower:.3g} to {upper:.3g}"
-        )
-        size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({method})"
-        lines = [f"{self.arm.title}, task {self.task.name}: {size}"]
-        for joint, (lower_limit, upper_limit), lost_fraction in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
-            factor, unit = joint.display_unit
-            ranged = f"{factor * lower_limit:.2f} to {factor * upper_limit:.2f} {unit}"
-            lines.append(
-                f"{joint.name} within {ranged}: its locks lose {lost_fraction:.1%} of the points within the artificial limits"
-            )
-        return lines
-
     def to_xarray(self) -> xr.Dataset:
         """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``.
 

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.core.formatting import format_count, format_percent
 from holdfast.core.probability.sobol_sequence import sobol_points
 from holdfast.core.result import Result
 from holdfast.core.validation import check_arguments
@@ -82,26 +81,6 @@ class CellCheck(Result):
     def ok(self) -> bool:
         """True if nothing touches the base, and no pair always touches."""
         return not self.base and not self.always
-
-    def describe(self) -> list[str]:
-        """Describe the contacts and the cover that the bound uses."""
-        sentences = [f"cell '{self.cell}' has {format_count(len(self.objects), 'object')}"]
-        if not self.arm:
-            return [*sentences, "give an arm to see what it touches"]
-        if self.base:
-            sentences.append(
-                f"the base of '{self.arm}' touches {', '.join(self.base)}; if it is mounted there, put it into may_touch"
-            )
-        if self.always:
-            sentences.append(f"in all of {self.samples} configurations these touch: {', '.join(self.always)}; see may_touch")
-        sentences.append(
-            f"{format_percent(self.colliding)} of {self.samples} configurations within the limits touch an object, by the bound"
-        )
-        sentences.append(
-            f"{format_count(self.spheres, 'sphere')} cover the moving links of '{self.arm}' ({self.shape}) and reach up to "
-            f"{1000 * self.reach:.3g} mm beyond its capsules"
-        )
-        return sentences
 
 
 @check_arguments

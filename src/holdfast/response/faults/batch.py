@@ -52,15 +52,6 @@ class FaultBatch(Result):
         """
         return np.array([events.times_of(joints) for events in self.episodes])
 
-    def describe(self) -> list[str]:
-        """Return the number of episodes and faults in a sentence."""
-        fault_counts = [len(events) for events in self.episodes]
-        episode_text = "1 episode" if len(fault_counts) == 1 else f"{len(fault_counts)} episodes"
-        lines = [f"{sum(fault_counts)} faults in {episode_text}, seed {self.seed}; {fault_counts.count(0)} without any"]
-        if self.left_out:
-            lines.append(f"{self.left_out} come after another of the same joint, and are not in the arrays")
-        return lines
-
 
 def make_batch(joints: tuple[str, ...], episodes: Sequence[FaultEvents], *, seed: int, first: int) -> FaultBatch:
     """Return the faults of episodes as arrays."""

@@ -114,7 +114,7 @@ class MotionConditions:
     def explain_infeasible(self, self_motion: SelfMotion) -> str:
         """Explain in a sentence why a pose has no configuration."""
         if self.manifold is None or self_motion.status != Status.INFEASIBLE:
-            return self_motion.describe()[0]
+            return self_motion.summary
         clearance_text = "" if self.required_clearance is None else ", clear of what is around it,"
         return f"no configuration that was found{clearance_text} keeps this: {'; '.join(map(str, self.left_to_arm))}"
 

@@ -149,7 +149,7 @@ def plan_motion_to(
 
 def _require_configuration(self_motion: SelfMotion, end_name: str) -> SelfMotion:
     if not len(self_motion.q):
-        raise HoldfastError(f"no configuration of the {end_name} was found: {self_motion.describe()[0]}")
+        raise HoldfastError(f"no configuration of the {end_name} was found: {self_motion.summary}")
     return self_motion
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.labels import TASK_SIZES
-from holdfast.interface.presentation.printing import TextTable, format_column, format_significant
+from holdfast.interface.presentation.presentation import Notice
+from holdfast.interface.presentation.printing import TextTable, format_significant
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import check_arm
@@ -153,22 +153,10 @@ def show_library(out: Console) -> None:
     out.print(table)
 
 
-def format_position(value: float, unit: str) -> str:
-    """Format the position of a joint, or an angle, for a table."""
-    return (
-        f"{format_significant(value)} m"
-        if unit == "m"
-        else f"{format_significant(value)} rad ({format_significant(np.degrees(value))} deg)"
-    )
-
-
-def format_positions(values: NDArray[np.float64], units: Sequence[str], digits: int = 5) -> list[str]:
-    """Format a column of positions, or of measures of joints; angles are also given in degrees."""
-    degrees = iter(
-        format_column(np.degrees([value for value, unit in zip(values, units, strict=True) if unit == "rad"]), "deg")
-    )
-    pairs = zip(format_column(values, units, digits), units, strict=True)
-    return [f"{text} ({next(degrees)})" if unit == "rad" else text for text, unit in pairs]
+def list_limit_violations(arm: Arm, q: NDArray[np.float64], when: str = "") -> list[Notice]:
+    """Return a notice with the joints that a configuration (n,) has beyond a limit, if any."""
+    names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
+    return [Notice(f"outside its limits{when}: {', '.join(names)}")] if names else []
 
 
 def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from holdfast.core.labels import TASK_ROW_NAMES
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.interface.presentation.presentation import Column, Presentation, TableSpec
 from holdfast.model.arm.task import Task
 
 
-def key_table(task: Task) -> TextTable:
-    """Tabulate the twist of each task row."""
-    return TextTable(
-        ["row", *TASK_ROW_NAMES],
-        [[str(row_number), *map(format_significant, row)] for row_number, row in enumerate(task.rows, 1)],
-        f"in the {task.frame} frame",
-    )
+def present(task: Task) -> Presentation:
+    """Present the twist of each task row."""
+    columns = [Column("row", "row"), *[Column(name, name, aligned=False) for name in TASK_ROW_NAMES]]
+    rows = [(number, *row) for number, row in enumerate(task.rows.tolist(), 1)]
+    return Presentation(task.name, task.describe(), tables=[TableSpec(f"in the {task.frame} frame", columns, rows)])

@@ -16,7 +16,9 @@ from holdfast.interface.presentation.arm.body import LINK_COLOR_RGB, MeshPart, b
 from holdfast.interface.presentation.arm.visuals import build_body
 from holdfast.interface.presentation.cell import bodies
 from holdfast.interface.report import viewer
+from holdfast.interface.report.page import Picture, Section
 from holdfast.interface.report.viewer import ViewerScene, round_to_seven_digits
+from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views, view_onto_plane
 from holdfast.kinematics.indices.lost_directions import find_speed_losses
 from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.model import Arm
@@ -181,6 +183,21 @@ def scene(
         "camera": _place_camera(arm, up, np.vstack(visible_points), frames, 0.45 * size),
     }
     return ViewerScene(data, frames, tuple(notes), object_vertices)
+
+
+def choose_views(arm: Arm, points: FloatArray) -> list[View]:
+    """Return side and top view of points (..., 3) of an arm; for an arm that moves in a plane the view of that plane."""
+    normal = plane_normal(arm)
+    return choose_side_and_top_views(points) or [SIDE_VIEW] if normal is None else [view_onto_plane(normal, -arm.gravity)]
+
+
+def build_view_section(
+    title: str, arm: Arm, q: ArrayLike | None, caption: str, *, name: str = "motion", label: str = "", **options: Any
+) -> Section:
+    """Build the section of a page with a view of the arm; ``label`` is its text alternative, the options are those of
+    :func:`scene`.
+    """
+    return Section(title, [Picture(scene(arm, q, **options).to_html(name, label or caption), caption)])
 
 
 def picture(arm: Arm, about: str, region: Region | None = None) -> str:

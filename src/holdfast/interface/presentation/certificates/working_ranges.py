@@ -7,7 +7,7 @@ from typing import Any
 from holdfast.certificates.suggestions.working_ranges import WorkingRanges
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation.printing import TextTable
-from holdfast.interface.presentation.solvers.self_motions import format_ranges
+from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
 
 def to_dict(working_ranges: WorkingRanges) -> dict[str, Any]:

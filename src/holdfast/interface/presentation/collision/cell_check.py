@@ -1,4 +1,4 @@
-"""Text, tables, and JSON of the check of a cell."""
+"""Presentation of the check of a cell."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first, format_count, format_percent
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.core.formatting import format_count, format_percent
+from holdfast.interface.presentation.presentation import Column, Fact, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from holdfast.model.collision.cell_check import CellCheck, CheckedObject
@@ -36,49 +36,46 @@ def to_dict(check: CellCheck) -> dict[str, Any]:
     }
 
 
-def tables(check: CellCheck) -> list[TextTable]:
-    """Tabulate the objects, one row for each."""
-    header = ["object", "margin, m", "grid, mm", "seems nearer by at most, mm", *(["touched in"] if check.arm else [])]
-    return [TextTable(header, [_format_object(object_check, bool(check.arm)) for object_check in check.objects], "Objects")]
-
-
-def _format_object(object_check: CheckedObject, touched: bool) -> list[str]:
-    kind = (
-        f"{object_check.kind} of "
-        f"{format_count(object_check.parts, 'point' if object_check.kind == 'point cloud' else 'triangle')}"
-        if object_check.parts
-        else object_check.kind
-    )
-    distances = [
-        format_significant(1000 * x, 3) if object_check.width else "exact" for x in (object_check.width, object_check.excess)
+def present(check: CellCheck) -> Presentation:
+    """Present the contacts of the arm with the cell, and each object."""
+    object_count = format_count(len(check.objects), "object")
+    notices = []
+    if check.base:
+        text = f"The base of '{check.arm}' touches {', '.join(check.base)}; if it is mounted there, put it into may_touch."
+        notices.append(Notice(text, "bad"))
+    if check.always:
+        text = f"In all of {check.samples} configurations these touch: {', '.join(check.always)}; see may_touch."
+        notices.append(Notice(text, "bad"))
+    lines = [] if check.arm else ["Give an arm to see what it touches."]
+    if not check.arm:
+        answer = f"Cell '{check.cell}' has {object_count}."
+    elif check.colliding:
+        share = format_percent(check.colliding)
+        answer = f"{share} of {check.samples} configurations within the limits touch an object, by the bound."
+    else:
+        answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound."
+    if check.arm:
+        lines.append(
+            f"{format_count(check.spheres, 'sphere')} cover the moving links of '{check.arm}' ({check.shape}) and reach up to "
+            f"{1000 * check.reach:.3g} mm beyond its capsules."
+        )
+    columns = [
+        Column("object", "object"),
+        Column("margin", "margin, m", aligned=False),
+        Column("width", "grid, mm"),
+        Column("excess", "seems nearer by at most, mm"),
+        *([Column("touching", "touched in", style="percent")] if check.arm else []),
     ]
-    contact_rate = "none" if np.isnan(object_check.touching) else format_percent(object_check.touching)
-    return [
-        f"{object_check.name}: {kind}",
-        format_significant(object_check.margin),
-        *distances,
-        *([contact_rate] if touched else []),
-    ]
-
-
-def story(check: CellCheck) -> PageContent:
-    """Compose the report: the contacts, and each object."""
-    headline, *remarks = map(capitalise_first, check.describe())
-    about = f"Cell '{check.cell}'" + (f", arm '{check.arm}'" if check.arm else "")
-    contact_facts = (
-        [(format_percent(check.colliding), "of the configurations touch an object")] if check.arm and check.colliding else []
-    )
-    answer = headline if not remarks else remarks[-2] if check.ok and check.arm else remarks[0]
-    if check.ok and check.arm and not check.colliding:
-        answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound"
     from markupsafe import Markup
 
-    return PageContent(
+    return Presentation(
         "Check of a cell",
-        answer.rstrip(".") + ".",
-        about=about,
-        facts=[*contact_facts, (str(len(check.objects)), "objects")],
-        lines=[headline, *remarks],
+        answer,
+        about=f"Cell '{check.cell}' with {object_count}{f', arm {check.arm!r}' if check.arm else ''}",
+        lines=lines,
+        notices=notices,
+        facts=[Fact("", check.colliding, phrase="of the configurations touch an object", style="percent")] if check.arm else [],
+        tables=[TableSpec("Objects", columns, [_list_cells(checked, bool(check.arm)) for checked in check.objects])],
         method=[
             (
                 "Distances",
@@ -87,3 +84,13 @@ def story(check: CellCheck) -> PageContent:
             ("SHA-256 of the cell", Markup("<code>{}</code>").format(check.digest)),
         ],
     )
+
+
+def _list_cells(checked: CheckedObject, with_contacts: bool) -> list[Any]:
+    noun = "point" if checked.kind == "point cloud" else "triangle"
+    kind = f"{checked.kind} of {format_count(checked.parts, noun)}" if checked.parts else checked.kind
+    distances = [
+        format_significant(1000 * distance, 3) if checked.width else "exact" for distance in (checked.width, checked.excess)
+    ]
+    contact_rate = "none" if np.isnan(checked.touching) else checked.touching
+    return [f"{checked.name}: {kind}", checked.margin, *distances, *([contact_rate] if with_contacts else [])]

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.interface.presentation.presentation import Column, TableSpec
+from holdfast.interface.presentation.printing import format_significant
 from holdfast.model.collision.contacts import Contact
 
 
@@ -31,20 +32,21 @@ def _contact_entry(contact: Contact, unit: str) -> dict[str, Any]:
     }
 
 
-def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TextTable:
+def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec:
     """Tabulate the first contact time of each pair, by the bound and, where requested, exactly, and its depth."""
-    has_exact_times = any(contact.exact_time is not None for contact in contacts)
-    rows = [
-        [
-            contact.link,
-            contact.object,
-            format_significant(contact.time),
-            *([_format_exact_time(contact)] * has_exact_times),
-            format_significant(1000 * contact.depth),
-        ]
-        for contact in contacts
+    columns = [
+        Column("link", "link"),
+        Column("object", "touches"),
+        Column("time", f"first at, {unit}", aligned=False),
+        Column("exact_time", "exactly at"),
+        Column("depth_mm", "at most, mm deep", aligned=False),
     ]
-    return TextTable(["link", "touches", f"first at, {unit}", *(["exactly at"] * has_exact_times), "at most, mm deep"], rows)
+    rows = [
+        (contact.link, contact.object, contact.time, _format_exact_time(contact), 1000 * contact.depth) for contact in contacts
+    ]
+    if all(contact.exact_time is None for contact in contacts):
+        columns, rows = columns[:3] + columns[4:], [row[:3] + row[4:] for row in rows]
+    return TableSpec("Contacts", columns, rows)
 
 
 def _format_exact_time(contact: Contact) -> str:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.stick_figure import choose_views
+from holdfast.interface.presentation.arm.view import choose_views
 from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
 from holdfast.interface.report.scenes import Scale, Scene, draw_view, fit_view_spans
 from holdfast.kinematics.regions.region import Region

@@ -1,15 +1,15 @@
-"""Text, tables, and JSON of basins of attraction."""
+"""Presentation of basins of attraction."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from holdfast.control.equilibria.attraction import Basins
 from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation.equilibria import points as points_of
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,19 +29,10 @@ def to_dict(basins: Basins) -> dict[str, Any]:
     }
 
 
-def tables(basins: Basins) -> list[TextTable]:
-    """Tabulate the outcomes of the initial configurations, one row for each."""
-    error_by_name = dict(
-        zip(map(basins.name, range(len(basins.points))), points_of.format_target_errors(basins.points), strict=True)
-    )
-    rows = [[name, str(fraction), error_by_name.get(name, "")] for name, fraction in basins.shares]
-    return [TextTable(["ends at", "fraction of starts", "error"], rows)]
-
-
-def story(basins: Basins) -> PageContent:
-    """Compose the report: the fraction of the initial configurations that reach the target, and the outcomes of the others."""
+def present(basins: Basins) -> Presentation:
+    """Present the fraction of the initial configurations that reach the target, and the outcomes of the others."""
     converged, points = basins.convergence, basins.points
-    points_report, start_count = points_of.story(points), format_count(len(basins.end), "start")
+    start_count = format_count(len(basins.end), "start")
     largest_miss = max(
         (outcome for outcome in basins.shares if not _is_target(basins, outcome[0])),
         key=lambda outcome: outcome[1].value,
@@ -67,32 +58,31 @@ def story(basins: Basins) -> PageContent:
             f"{_outcome_phrase(largest_miss[0])}{error_by_name.get(largest_miss[0], '')}."
         )
     facts = [
-        *(
-            [
-                (
-                    format_percent(converged.value),
-                    f"of the starts reach the target; {format_percent(converged.low)} to {format_percent(converged.high)}",
-                )
-            ]
-            if converged.value
-            else []
-        ),
-        *[
-            (format_percent(fraction.value), f"end {_outcome_phrase(name)}{error_by_name.get(name, '')}")
-            for name, fraction in basins.shares
-            if fraction.value
-        ][:4],
-    ]
+        Fact("", fraction.value, phrase=f"end {_outcome_phrase(name)}{error_by_name.get(name, '')}", style="percent")
+        for name, fraction in basins.shares
+        if fraction.value
+    ][:4]
+    if converged.value:
+        phrase = f"of the starts reach the target; {format_percent(converged.low)} to {format_percent(converged.high)}"
+        facts.insert(0, Fact("", converged.value, phrase=phrase, style="percent"))
     sampling_text = (
         f"{basins.shape[0]} by {basins.shape[1]} cells" if basins.shape else "starts drawn uniformly within the limits"
     )
-    return PageContent(
+    errors = dict(zip(map(basins.name, range(len(points))), points_of.format_target_errors(points).tolist(), strict=True))
+    columns = [Column("end", "ends at"), Column("fraction", "fraction of starts"), Column("error", "error")]
+    rows = [(name, fraction, errors.get(name, "")) for name, fraction in basins.shares]
+    return Presentation(
         f"Starts from which {points.law.arm.name} still reaches its target",
         answer,
-        about=points_report.about,
-        facts=facts if converged.value else facts[:4],
-        views=points_report.views,
-        figures={"basins": ("Where the starts end", f"{start_count}, by where each ends; {sampling_text}.")},
+        about=f"{points.law.arm.title}, {points.law.describe()}; {points.starts:,} starts looked for stationary points",
+        facts=facts,
+        tables=[TableSpec("Where the starts end", columns, rows)],
+        figures={
+            "basins": FigureSpec(
+                partial(_draw_basins, basins), "Where the starts end", f"{start_count}, by where each ends; {sampling_text}."
+            )
+        },
+        sections=partial(points_of.draw_stationary_arms, points),
         method=[
             ("Starts", f"{start_count}: {sampling_text}; each is simulated until it stops or the time limit comes"),
             (
@@ -100,7 +90,7 @@ def story(basins: Basins) -> PageContent:
                 f"{100 * converged.confidence:.4g} %, exact (Clopper-Pearson); of a grid those that as many random "
                 f"starts would have",
             ),
-            *points_report.method[:-1],
+            *points_of.list_methods(points),
         ],
         arm=points.law.arm,
     )
@@ -125,8 +115,7 @@ def _target_errors(basins: Basins) -> dict[str, str]:
     }
 
 
-def figures(basins: Basins) -> dict[str, Figure]:
-    """Draw ``basins``: a map where the initial configurations are a grid over two joints, else bars."""
+def _draw_basins(basins: Basins) -> Figure:
     from holdfast.interface.presentation.equilibria.figures import draw_basins
 
-    return {"basins": draw_basins(basins)}
+    return draw_basins(basins)

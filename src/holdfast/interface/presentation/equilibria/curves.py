@@ -1,18 +1,18 @@
-"""Text, tables, and JSON of curves of stationary points."""
+"""Presentation of curves of stationary points."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.control.equilibria.curves import Curves
+from holdfast.control.equilibria.curves import SAMPLE_RADIUS, Curves, merge_arcs
 from holdfast.control.equilibria.stability import Kind
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.control.simulation.system import position_and_angle_errors
-from holdfast.core.formatting import capitalise_first, format_percent, list_alternatives
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.core.formatting import list_alternatives
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
 
 if TYPE_CHECKING:
@@ -55,35 +55,8 @@ def to_dict(curves: Curves) -> dict[str, Any]:
     }
 
 
-def tables(curves: Curves) -> list[TextTable]:
-    """Tabulate the segments of the curves on which the kind is constant, one row for each."""
-    arm = curves.law.arm
-    factor, unit = arm.joints[curves.joint].display_unit
-    rows = []
-    for index, curve in enumerate(curves.curves):
-        for segment in curve.segments:
-            range_text = (
-                f"{factor * curve.locked_values[segment.first]:.3f} to {factor * curve.locked_values[segment.last]:.3f}"
-            )
-            spans = [
-                errors[segment.first : segment.last + 1]
-                for errors in display_errors(curves.law, curve.q, curve.error, curves.target)
-            ]
-            rows.append(
-                [
-                    str(index + 1),
-                    range_text,
-                    segment.kind.word,
-                    *(f"{format_significant(span.min())} to {format_significant(span.max())}" for span in spans),
-                ]
-            )
-    titles = [f"{kind.text}, {kind.unit}, least to most" for kind in error_kinds(curves.law)]
-    header = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", *titles]
-    return [TextTable(header, rows)] if curves.curves else []
-
-
-def story(curves: Curves) -> PageContent:
-    """Compose the report: the locked values at which the arm can stop off its target."""
+def present(curves: Curves) -> Presentation:
+    """Present the locked values at which the arm can stop off its target."""
     arm = curves.law.arm
     joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].display_unit
     arcs = [f"{factor * begin:.4g} to {factor * end:.4g}" for begin, end in curves.sink_arcs]
@@ -111,31 +84,26 @@ def story(curves: Curves) -> PageContent:
         )
     else:
         answer = f"No value of {joint.name} was found at which the arm stops off its target."
-    facts = []
+    facts = [
+        Fact("curves of stationary points", len(curves), phrase="curves of stationary points"),
+        Fact("random starts", curves.starts, phrase="random starts that looked for them"),
+    ]
     if arcs:
         sink_length = sum(end - begin for begin, end in curves.sink_arcs)
         whole_range = float(np.nan_to_num(joint.upper - joint.lower, posinf=np.inf)) if joint.prismatic else 2 * np.pi
+        facts.insert(0, Fact("", largest_error, phrase="off the target, at the farthest sinks"))
         if np.isfinite(whole_range):
-            facts.append(
-                (
-                    format_percent(min(sink_length / whole_range, 1.0)),
-                    f"of {'the range' if joint.prismatic else 'a turn'} of {joint.name} has a sink",
-                )
-            )
-        facts.append((largest_error, "off the target, at the farthest sinks"))
-    facts += [(f"{len(curves):,}", "curves of stationary points"), (f"{curves.starts:,}", "random starts that looked for them")]
-    return PageContent(
+            phrase = f"of {'the range' if joint.prismatic else 'a turn'} of {joint.name} has a sink"
+            facts.insert(0, Fact("", min(sink_length / whole_range, 1.0), phrase=phrase, style="percent"))
+    caption = "Off the target: sinks hold the arm, saddles and sources do not. Shaded: the target is within reach."
+    return Presentation(
         f"Where {arm.name} can stop, over the value at which {joint.name} locks",
         answer,
-        about=f"{arm.name}, {curves.law.describe()}",
+        about=f"{arm.title}, {curves.law.describe()}",
         facts=facts,
-        lines=[f"{capitalise_first(sentence)}." for sentence in curves.describe()[2:]],
-        figures={
-            "curves": (
-                "Stationary points over the locked value",
-                "Off the target: sinks hold the arm, saddles and sources do not. Shaded: the target is within reach.",
-            )
-        },
+        lines=_compose_remarks(curves),
+        tables=[_tabulate_segments(curves)] if curves.curves else [],
+        figures={"curves": FigureSpec(partial(_draw_curves, curves), "Stationary points over the locked value", caption)},
         method=[
             (
                 "Search",
@@ -148,8 +116,44 @@ def story(curves: Curves) -> PageContent:
     )
 
 
-def figures(curves: Curves) -> dict[str, Figure]:
-    """Draw ``curves``: the error, and the other joints if they are few, over the locked value."""
+def _compose_remarks(curves: Curves) -> list[str]:
+    """Compose sentences about the sinks, whole curves, and surfaces of stationary points."""
+    name, (factor, unit) = curves.law.arm.joint_names[curves.joint], curves.law.arm.joints[curves.joint].display_unit
+    arcs = ", ".join(f"{factor * lower:.3f} to {factor * upper:.3f}" for lower, upper in curves.sink_arcs)
+    remarks = [f"Sinks with {name} at {arcs} {unit}."] if arcs else []
+    values = ", ".join(f"{factor * angle:.4f}" for angle in curves.degenerate_angles)
+    remarks += [f"Whole curves of stationary points with {name} at {values} {unit}."] if values else []
+    if len(curves.loose):
+        attracting = curves.loose.attracting
+        angles = [float(angle) for angle in curves.loose.q[attracting, curves.joint]]
+        arcs = ", ".join(
+            f"{factor * (lower + SAMPLE_RADIUS):.0f} to {factor * (upper - SAMPLE_RADIUS):.0f}"
+            for lower, upper in merge_arcs([(angle - SAMPLE_RADIUS, angle + SAMPLE_RADIUS) for angle in angles], unit == "deg")
+        )
+        remarks.append(
+            f"{len(curves.loose)} samples of surfaces of stationary points, {int(attracting.sum())} attracting"
+            f"{arcs and f', about {arcs} {unit}'}."
+        )
+    return remarks
+
+
+def _tabulate_segments(curves: Curves) -> TableSpec:
+    """Tabulate the segments of the curves on which the kind is constant, one row for each."""
+    arm = curves.law.arm
+    factor, unit = arm.joints[curves.joint].display_unit
+    rows: list[tuple[Any, ...]] = []
+    for index, curve in enumerate(curves.curves, 1):
+        for segment in curve.segments:
+            first, last = (factor * curve.locked_values[end] for end in (segment.first, segment.last))
+            errors = display_errors(curves.law, curve.q, curve.error, curves.target)
+            spans = [values[segment.first : segment.last + 1] for values in errors]
+            rows.append((index, f"{first:.3f} to {last:.3f}", segment.kind.word, *((s.min(), s.max()) for s in spans)))
+    columns = [Column("curve", "curve"), Column("range", f"{arm.joint_names[curves.joint]}, {unit}"), Column("kind", "kind")]
+    columns += [Column(kind.key, f"{kind.text}, {kind.unit}, least to most", aligned=False) for kind in error_kinds(curves.law)]
+    return TableSpec("Parts of one kind", columns, rows)
+
+
+def _draw_curves(curves: Curves) -> Figure:
     from holdfast.interface.presentation.equilibria.figures import draw_curves
 
-    return {"curves": draw_curves(curves)}
+    return draw_curves(curves)

@@ -1,4 +1,4 @@
-"""Text and JSON of a periodic motion."""
+"""Presentation of a periodic motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 
 from holdfast.control.equilibria.limit_cycles import Orbit
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.core.formatting import capitalise_first
+from holdfast.interface.presentation.presentation import Column, Fact, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
 
 
 def to_dict(orbit: Orbit) -> dict[str, Any]:
@@ -15,22 +17,24 @@ def to_dict(orbit: Orbit) -> dict[str, Any]:
     return {**vars(orbit), "stable": orbit.stable}
 
 
-def tables(orbit: Orbit) -> list[TextTable]:
-    """Tabulate the motion of each joint over a period, and the range of the errors."""
-    values = zip(orbit.amplitude, orbit.windings, orbit.rates, strict=True)
-    rows = [
-        [str(joint + 1), format_significant(amplitude), str(windings), format_significant(rate)]
-        for joint, (amplitude, windings, rate) in enumerate(values)
+def present(orbit: Orbit) -> Presentation:
+    """Present the period, the motion of each joint over a period, and the range of the errors."""
+    period = "" if np.isnan(orbit.period) else f" (period {orbit.period:.4g} s)"
+    columns = [
+        Column("joint", "joint"),
+        Column("amplitude", "range, rad (or m)", aligned=False),
+        Column("windings", "whole turns"),
+        Column("rate", "mean rate, rad/s (or m/s)", aligned=False),
     ]
-    header = ["joint", "range, rad (or m)", "whole turns", "mean rate, rad/s (or m/s)"]
-    error_ranges = (
-        ("distance from the target", orbit.position_error, 1000.0, " mm"),
-        ("angle", orbit.angle_error, 180 / np.pi, "°"),
+    rows = zip(range(1, len(orbit.rates) + 1), orbit.amplitude, orbit.windings, orbit.rates, strict=True)
+    ranges = (
+        ("distance from the target", orbit.position_error, 1000.0, "mm"),
+        ("angle", orbit.angle_error, 180 / np.pi, "deg"),
     )
-    errors = [
-        f"{name} {format_significant(factor * lower)} to {format_significant(factor * upper)}{unit}, largest "
-        f"{format_significant(time)} s after q"
-        for (name, (lower, upper), factor, unit), time in zip(error_ranges, orbit.largest_times, strict=True)
+    facts = [
+        Fact(f"{name}, largest {format_significant(time)} s after q", (factor * lower, factor * upper), unit)
+        for (name, (lower, upper), factor, unit), time in zip(ranges, orbit.largest_times, strict=True)
         if upper > 0
     ]
-    return [TextTable(header, rows, "; ".join(["over a period", *errors]))]
+    answer = f"{capitalise_first(orbit.label)}{period}."
+    return Presentation("Periodic motion", answer, facts=facts, tables=[TableSpec("Over a period", columns, list(rows))])

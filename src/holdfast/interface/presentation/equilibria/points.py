@@ -1,25 +1,26 @@
-"""Text, tables, and JSON of stationary points."""
+"""Presentation of stationary points."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.stability import REACHED_ERROR, Kind
+from holdfast.control.equilibria.system import idle_joints
 from holdfast.control.simulation.errors import display_errors, error_kinds
-from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant, print_table
+from holdfast.interface.presentation.presentation import Column, Fact, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.simulation.errors import format_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from rich.console import Console
 
-CONSOLE_ROWS_PER_KIND = 12  # points of a kind on the console
-PAGE_ROWS = 60  # on a page
+    from holdfast.interface.report.page import Section
+
+ROWS_PER_KIND = 12  # points of a kind that are listed
 MAX_LISTED_EIGENVALUES = 3  # eigenvalues: of more only the ends of their range
 _MAX_DRAWN_ARMS = 3  # that are drawn off the target
 _KIND_CAPTIONS = {
@@ -55,44 +56,47 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
     }
 
 
-def tables(points: StationaryPoints) -> list[TextTable]:
-    """Tabulate the points, one row for each; joints in degrees or m."""
-    joints = points.law.arm.joints
-    titles = [f"{kind.text}, {kind.unit}" for kind in error_kinds(points.law)]
-    errors = display_errors(points.law, points.q, points.error, points.target)
-    header = ["kind", *(f"{joint.name}, {joint.display_unit[1]}" for joint in joints), *titles, "eigenvalues, Ke", ""]
-    rows = []
-    attracting = points.attracting
-    for index, kind in enumerate(points.kinds):
-        in_continuum = points.continuum[index]
-        notes = ["one of many"] if in_continuum else []
-        notes += ["attracting"] if in_continuum and points.error[index] > REACHED_ERROR and attracting[index] else []
-        notes += [] if points.within_limits[index] else ["beyond limits"]
-        values = [f"{joint.display_unit[0] * position:.4f}" for joint, position in zip(joints, points.q[index], strict=True)]
-        values += [format_significant(error[index]) for error in errors]
-        rows.append([kind, *values, _format_eigenvalues(points.eigenvalues[index]), ", ".join(notes)])
-    return [TextTable(header, rows)]
-
-
-def describe_locks(points: StationaryPoints) -> str:
-    """Describe the locked joints and their values, for example ``joint2 locked at 140 deg``."""
-    joints = points.law.arm.joints
-    locks = [
-        (joints[joint_index], joints[joint_index].display_unit, value)
-        for joint_index, value in zip(points.locked, points.at, strict=True)
-    ]
-    return ", ".join(f"{joint.name} locked at {factor * value:.4g} {unit}" for joint, (factor, unit), value in locks)
-
-
-def story(points: StationaryPoints) -> PageContent:
-    """Compose the report: whether the arm can stop at its target, off it, or nowhere."""
-    law = points.law
+def present(points: StationaryPoints) -> Presentation:
+    """Present whether the arm can stop at its target, off it, or nowhere."""
+    law, table = points.law, _tabulate_points(points)
     is_solution = points.kind == Kind.SOLUTION
     is_trap = ~is_solution & points.attracting
     errors = format_target_errors(points)[is_trap][np.argsort(points.error[is_trap])]
+    facts = [
+        Fact(kind.word, int((points.kind == kind).sum()), phrase=_KIND_CAPTIONS[kind])
+        for kind in Kind
+        if (points.kind == kind).any()
+    ]
+    if errors.size:
+        phrase = "off the target, at the nearest point that holds the arm away from it"
+        facts.insert(0, Fact("", str(errors[0]), phrase=phrase))
+    omitted_points = len(points) - len(table.rows)
+    return Presentation(
+        f"Where {law.arm.name} can stop with a lock that its controller does not know of",
+        _compose_answer(points, is_solution, errors),
+        about=f"{law.arm.title}, {law.describe()}; {points.starts:,} starts",
+        lines=[*_compose_remarks(points), *([f"{omitted_points} more points: --json has all."] if omitted_points else [])],
+        facts=facts,
+        tables=[table],
+        sections=partial(draw_stationary_arms, points),
+        method=list_methods(points),
+        arm=law.arm,
+    )
+
+
+def list_methods(points: StationaryPoints) -> list[tuple[str, str]]:
+    """List how the points were found and classified."""
+    return [
+        ("Search", f"{points.starts:,} random starts; points that none of them converges to are missed"),
+        ("Kinds", "by the eigenvalues of the linearised motion of the healthy joints, in units of the gain Ke"),
+        ("Law", points.law.describe()),
+    ]
+
+
+def _compose_answer(points: StationaryPoints, is_solution: NDArray[np.bool_], errors: NDArray[np.str_]) -> str:
     opening = f"With {describe_locks(points)} the target"
     if not len(points):
-        answer = f"{opening} is not reached in any configuration found, and no point at which the arm stops was found either."
+        return f"{opening} is not reached in any configuration found, and no point at which the arm stops was found either."
     elif not errors.size:
         reached = "is within reach, and nothing else was found at which the arm can stop" if is_solution.any() else ""
         answer = (
@@ -106,68 +110,85 @@ def story(points: StationaryPoints) -> PageContent:
         )
         reach_text = "within reach, but the arm can also stop at" if is_solution.any() else "out of reach, and the arm stops at"
         answer = f"{opening} is {reach_text} {trap_text}."
-    facts = [(f"{int((points.kind == kind).sum()):,}", _KIND_CAPTIONS[kind]) for kind in Kind if (points.kind == kind).any()]
-    if errors.size:
-        facts.insert(0, (errors[0], "off the target, at the nearest point that holds the arm away from it"))
-    lines = (
-        [*map(capitalise_first, points.describe()[1:])] if points.continuum.any() or _mentions_undetected_locks(points) else []
-    )
-    return PageContent(
-        f"Where {law.arm.name} can stop with a lock that its controller does not know of",
-        answer,
-        about=f"{law.arm.name}, {law.describe()}",
-        facts=facts[:5],
-        lines=[f"{sentence}." for sentence in lines],
-        views=[*_draw_stationary_arms(points, is_solution, is_trap)],
-        tables=[table._replace(rows=table.rows[:PAGE_ROWS]) for table in tables(points)],
-        method=[
-            ("Search", f"{points.starts:,} random starts; points that none of them converges to are missed"),
-            ("Kinds", "by the eigenvalues of the linearised motion of the healthy joints, in units of the gain Ke"),
-            ("Law", law.describe()),
-            ("Listed", f"the first {min(PAGE_ROWS, len(points))} of {len(points)}; --json has all"),
-        ],
-        arm=law.arm,
-    )
+    return answer
 
 
-def _mentions_undetected_locks(points: StationaryPoints) -> bool:
-    return any("does not notice" in line for line in points.describe())
+def _compose_remarks(points: StationaryPoints) -> list[str]:
+    """Compose sentences about joints that the task does not notice, and about points that are not isolated."""
+    names = [points.law.arm.joint_names[joint] for joint in idle_joints(points.law) if joint not in points.locked]
+    remarks = [f"The task does not notice {', '.join(names)}, shown at 0."] if names else []
+    for kind in Kind:
+        is_continuum = (points.kind == kind) & points.continuum
+        if is_continuum.any():
+            attracting_count = int((is_continuum & points.attracting).sum())
+            attracting_text = "" if kind == Kind.SOLUTION else f", {attracting_count} of them attracting"
+            remarks.append(
+                f"{int(is_continuum.sum())} x {kind.word}, sampled from points that are not isolated{attracting_text}."
+            )
+    return remarks
 
 
-def _draw_stationary_arms(points: StationaryPoints, solved: Any, holds: Any) -> list[tuple[str, list[Any]]]:
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.page import Picture
+def _tabulate_points(points: StationaryPoints) -> TableSpec:
+    """Tabulate the first points of each kind, one row for each; joints in degrees or m."""
+    joints, kinds, attracting = points.law.arm.joints, points.kinds, points.attracting
+    errors = display_errors(points.law, points.q, points.error, points.target)
+    columns = [
+        Column("kind", "kind"),
+        *[Column(joint.name, f"{joint.name}, {joint.display_unit[1]}", digits=7) for joint in joints],
+        *[Column(kind.key, f"{kind.text}, {kind.unit}", aligned=False) for kind in error_kinds(points.law)],
+        Column("eigenvalues", "eigenvalues, Ke"),
+        Column("notes", ""),
+    ]
+    rows = []
+    for index, kind in enumerate(kinds):
+        if (points.kind[:index] == points.kind[index]).sum() >= ROWS_PER_KIND:
+            continue
+        in_continuum = points.continuum[index]
+        notes = ["one of many"] * bool(in_continuum)
+        notes += ["attracting"] * bool(in_continuum and points.error[index] > REACHED_ERROR and attracting[index])
+        notes += ["beyond limits"] * bool(not points.within_limits[index])
+        values = [joint.display_unit[0] * position for joint, position in zip(joints, points.q[index], strict=True)]
+        values += [error[index] for error in errors]
+        rows.append([kind, *values, _format_eigenvalues(points.eigenvalues[index]), ", ".join(notes)])
+    return TableSpec("Stationary points", columns, rows)
 
-    chosen = [(np.flatnonzero(solved)[:1], "at its target"), (np.flatnonzero(holds)[:_MAX_DRAWN_ARMS], "")]
-    labeled_points = [(index, label or f"{points.kinds[index]} {index + 1}") for indices, label in chosen for index in indices]
-    if not labeled_points:
+
+def describe_locks(points: StationaryPoints) -> str:
+    """Describe the locked joints and their values, for example ``joint2 locked at 140 deg``."""
+    joints = points.law.arm.joints
+    locks = [
+        (joints[joint_index], joints[joint_index].display_unit, value)
+        for joint_index, value in zip(points.locked, points.at, strict=True)
+    ]
+    return ", ".join(f"{joint.name} locked at {factor * value:.4g} {unit}" for joint, (factor, unit), value in locks)
+
+
+def draw_stationary_arms(points: StationaryPoints) -> list[Section]:
+    """Draw the arm at its target, and at the first points that hold it away from there."""
+    from holdfast.interface.presentation.arm.view import build_view_section
+
+    is_solution = points.kind == Kind.SOLUTION
+    chosen = [
+        (np.flatnonzero(is_solution)[:1], "at its target"),
+        (np.flatnonzero(~is_solution & points.attracting)[:_MAX_DRAWN_ARMS], ""),
+    ]
+    labels = {index: label or f"{points.kinds[index]} {index + 1}" for indices, label in chosen for index in indices}
+    if not labels:
         return []
-    arm_scene = scene(
+    section = build_view_section(
+        "The arm where it stops",
         points.law.arm,
-        points.q[[index for index, _ in labeled_points]],
-        labels=[label for _, label in labeled_points] if len(labeled_points) > 1 else (),
+        points.q[list(labels)],
+        f"Where it can stop: {', '.join(labels.values())}.",
+        name="stops",
+        label="The arm where it can stop",
+        labels=list(labels.values()) if len(labels) > 1 else (),
         locked=points.locked,
         task=points.law.task,
         lost=False,
         targets=[points.target],
     )
-    picture = Picture(
-        arm_scene.to_html("stops", "The arm where it can stop"),
-        f"Where it can stop: {', '.join(name for _, name in labeled_points)}.",
-    )
-    return [("The arm where it stops", [picture])]
-
-
-def show(points: StationaryPoints, out: Console) -> None:
-    """Print the sentences, and the first points of each kind."""
-    for line in points.describe():
-        out.print(line, markup=False, soft_wrap=True)
-    (table,) = tables(points)
-    kind = points.kind
-    shown_rows = [row for index, row in enumerate(table.rows) if (kind[:index] == kind[index]).sum() < CONSOLE_ROWS_PER_KIND]
-    print_table(out, table._replace(rows=shown_rows))
-    if len(shown_rows) < len(points):
-        out.print(f"and {len(points) - len(shown_rows)} more; --json has all", soft_wrap=True)
+    return [section]
 
 
 def format_target_errors(points: StationaryPoints) -> NDArray[np.str_]:

@@ -9,8 +9,8 @@ import numpy as np
 
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.arm.console import format_positions, print_limit_violations
-from holdfast.interface.presentation.printing import format_column, format_significant
+from holdfast.interface.presentation.arm.console import print_limit_violations
+from holdfast.interface.presentation.printing import format_column, format_positions, format_significant
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility

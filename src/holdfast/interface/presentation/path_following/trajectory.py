@@ -1,465 +1,109 @@
-"""HTML report of a motion along a path, which begins with the answer."""
+"""Presentation of a motion along a path."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from markupsafe import Markup
 
-from holdfast.core.errors import ArmError
-from holdfast.core.files.output import make_folder
-from holdfast.core.formatting import capitalise_first, format_as_given, format_percent
-from holdfast.core.progress import reports_progress
-from holdfast.interface.presentation.arm.view import scene
-from holdfast.interface.presentation.collision.shape import describe_shape
-from holdfast.interface.presentation.page_content import build_method_blocks
-from holdfast.interface.presentation.printing import format_significant
-from holdfast.interface.report import page
-from holdfast.interface.report.page import Block, Callout, Page, Picture, Section, Table, Text
-from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
-from holdfast.kinematics.path_following.slow_motion import SlowMotion
-from holdfast.kinematics.path_following.trajectory import TRACKING_TOLERANCE, Trajectory, find_susceptibilities
+from holdfast.core.formatting import capitalise_first, format_as_given
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Notice, Presentation, TableSpec, format_value
+from holdfast.kinematics.path_following.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MAX_VIEW_FRAMES = 201
-# _NEGLIGIBLE_CHANGE and _MAX_RELATIVE_CHANGE: changes that are none, and those that a fraction would not tell
-_NEGLIGIBLE_CHANGE = 5e-3
-_MAX_RELATIVE_CHANGE = 10.0
-SPEED_FACTORS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS_EVENTS = {
-    "end effector slowed",
-    "not at an extremum",
-    "algorithmic singularity",
-    "value not kept",
-    "value jump",
-    "too near",
-}
+    from holdfast.interface.report.page import Section
+    from holdfast.kinematics.path_following.slow_motion import SlowMotion
 
 
-def figures(trajectory: Trajectory) -> dict[str, Figure]:
-    """Draw the arm at start and end, the path of its tool, and the objective over time."""
-    from holdfast.interface.presentation.stick_figure import choose_views
-    from holdfast.interface.report.motions import StickMotion, TimePanel, stick_motion_figure
-
-    chain = trajectory.arm.frames(trajectory.q)[..., :3, 3]
-    moving = StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
-    unit = "" if trajectory.objective.unit in ("1", "mixed") else f", {trajectory.objective.unit}"
-    panel = TimePanel(
-        trajectory.time,
-        trajectory.value,
-        f"{trajectory.objective.name}{unit}",
-        f"{capitalise_first(trajectory.objective.better)} is better",
-    )
-    caption = f"{trajectory.arm.name}, {trajectory.method}, {len(trajectory.time):,} samples"
-    return {
-        "motion": stick_motion_figure(
-            moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="path asked for"
-        )
+def to_dict(trajectory: Trajectory) -> dict[str, Any]:
+    """Return the motion with its start, end, and events."""
+    names = trajectory.arm.joint_names
+    data: dict[str, Any] = {
+        **trajectory.arm.entry(),
+        "objective": trajectory.objective.name,
+        "better": trajectory.objective.better,
+        "unit": trajectory.objective.unit,
+        "task": trajectory.task.name,
+        "method": trajectory.method,
+        "gain": trajectory.gain,
+        "seed": trajectory.seed,
+        "duration_s": trajectory.time[-1],
+        "samples": len(trajectory.time),
+        "tool_on_path": trajectory.on_path,
+        "position_error_m": np.nanmax(trajectory.position_error),
+        "rotation_error_rad": np.nanmax(trajectory.rotation_error),
+        "value": _summarize_values(trajectory.value),
+        "best_value": None if trajectory.best_value is None else _summarize_values(trajectory.best_value),
+        "largest_rate_norm_per_s": trajectory.peak_rate,
+        "largest_rate_norm_at_s": trajectory.peak_time,
+        "q_start": dict(zip(names, trajectory.q[0], strict=True)),
+        "q_end": dict(zip(names, trajectory.q[-1], strict=True)),
+        "events": [
+            {"kind": event.kind, "start_s": event.start, "end_s": event.end, "text": event.text} for event in trajectory.events
+        ],
     }
+    if trajectory.clear_of is not None and trajectory.clearance is not None and trajectory.nearest is not None:
+        instant, pair = trajectory.nearest
+        data["least_clearance"] = {"m": trajectory.clearance[instant], "pair": pair, "at_s": trajectory.time[instant]}
+        data["clearance"] = summarize_shape(trajectory.clear_of, trajectory.margin)
+    if trajectory.torque_bound is not None:
+        scales = [slowness.time_scale for slowness in trajectory.slowness(trajectory.torque_bound)]
+        data["torque_bound"] = trajectory.torque_bound
+        data["time_scale"] = max(scales)
+        data["time_scale_by_joint"] = dict(zip(names, scales, strict=True))
+    return data
 
 
-@reports_progress("drawing the report")
-def write(trajectory: Trajectory, path: Path, command: str = "") -> Path:
-    """Write the report of the motion as a page."""
-    return page.write(build(trajectory, command), path)
-
-
-def save(trajectory: Trajectory, folder: Path, command: str = "") -> list[Path]:
-    """Write trajectory.csv and report.html."""
-    folder = make_folder(folder)
-    return [trajectory.to_csv(folder / "trajectory.csv"), trajectory.report(folder / "report.html", command=command)]
-
-
-def build(trajectory: Trajectory, command: str = "") -> Page:
-    """Build the page as blocks."""
-    slowness = (
-        None if trajectory.torque_bound is None else trajectory.slowness(trajectory.torque_bound)
-    )  # first: it may be refused
-    report = _TrajectoryReport(trajectory)
-    alerts = [] if trajectory.on_path else [Callout(f"{trajectory.headline}.", "bad")]
-    parts = [
-        Section("Key numbers", report.tabulate_numbers()),
-        Section("The motion", report.animate_motion()),
-        Section(f"{capitalise_first(trajectory.objective.name)} along the path", report.draw_objective()),
-        Section("What happened", report.tabulate_events()),
-        Section("Clearance", report.draw_clearance()),
-        Section("Joint rates", report.draw_rates()),
-        Section("Joint positions", report.draw_joints()),
-        Section("Torques, and how slow is slow enough", report.draw_torques(slowness)),
-        Section("Curvature along the self-motion", report.draw_curvature()),
-        Section("Error of the end effector", report.draw_tool_error()),
-    ]
-    return Page(
-        f"Motion of {trajectory.arm.name} along a path",
-        report.headline,
-        parts,
-        subtitle=f"{trajectory.method}, {trajectory.objective.name}, {trajectory.objective.better} is better",
-        warnings=alerts,
-        facts=report.list_facts(),
-        method=report.describe_method(),
-        again=command,
-    )
-
-
-class _TrajectoryReport:
-    def __init__(self, trajectory: Trajectory) -> None:
-        self.trajectory = trajectory
-        self.unit_suffix = "" if trajectory.objective.unit in ("1", "mixed") else f" {trajectory.objective.unit}"
-        self.singular_times = [event.start for event in trajectory.events if event.kind == "algorithmic singularity"]
-
-    @property
-    def headline(self) -> str:
-        """Worst value of the objective along the path, and its change by the objective."""
-        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without_objective
-        text = f"The worst {name} on the way is {format_significant(trajectory.worst)}{self.unit_suffix}"
-        if baseline is not None:
-            change = (trajectory.worst - baseline.worst) / abs(baseline.worst) if baseline.worst else np.inf
-            if abs(change) < _NEGLIGIBLE_CHANGE:
-                text += ", as on the same path without it"
-            else:
-                comparison = (
-                    f"{format_percent(abs(change))} {'less' if change < 0 else 'more'} than on"
-                    if abs(change) < _MAX_RELATIVE_CHANGE
-                    else "against that on"
-                )
-                text += f", {comparison} the same path without it ({format_significant(baseline.worst)}{self.unit_suffix})"
-        path_note = (
-            "; the end effector stays on its path."
-            if trajectory.on_path
-            else f". The end effector leaves its path, by up to {trajectory.tool_error}."
-        )
-        return f"{text}{path_note}"
-
-    def list_facts(self) -> list[tuple[str, str]]:
-        """List the key facts of the motion."""
-        trajectory, name, baseline = self.trajectory, self.trajectory.objective.name, self.trajectory.without_objective
-        entries = [(f"{format_significant(trajectory.worst)}{self.unit_suffix}", f"worst {name} on the way")]
-        if baseline is not None:
-            entries.append(
-                (
-                    f"{format_significant(baseline.worst)}{self.unit_suffix}",
-                    "on the same path without it, with least-norm rates",
-                )
-            )
-        entries.append((f"{format_significant(float(trajectory.value.mean()))}{self.unit_suffix}", "mean on the way"))
-        entries.append(
-            (
-                f"{format_significant(trajectory.peak_rate)} rad/s",
-                f"largest norm of the joint rates, at {trajectory.peak_time:.3g} s",
-            )
-        )
-        return entries
-
-    def tabulate_numbers(self) -> list[Block]:
-        """Tabulate the motion in a few numbers."""
-        trajectory, unit = self.trajectory, self.unit_suffix
-        rows: list[tuple[str, str]] = [
-            ("At the start, at the end", f"{trajectory.value[0]:.4g}, {trajectory.value[-1]:.4g}{unit}"),
-            (
-                "Mean, smallest, largest",
-                f"{trajectory.value.mean():.4g}, {trajectory.value.min():.4g}, {trajectory.value.max():.4g}{unit}",
-            ),
+def present(trajectory: Trajectory) -> Presentation:
+    """Present whether the end effector stays on its path, the objective along it, and the events."""
+    objective, arm = trajectory.objective, trajectory.arm
+    unit = "" if objective.unit in ("1", "mixed") else objective.unit
+    answer = f"The worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}"
+    if trajectory.on_path:
+        answer += f"; the end effector stays on its path, off it by {trajectory.tool_error}."
+    else:
+        answer += f". The end effector leaves its path, by up to {trajectory.tool_error}."
+    lines, tables = [], [_tabulate_values(trajectory, unit)]
+    if trajectory.clearance is not None and trajectory.nearest is not None:
+        sample, pair = trajectory.nearest
+        distance = format_value(1000 * trajectory.clearance[sample], unit="mm")
+        lines.append(f"Smallest clearance {distance} ({pair}) at {trajectory.time[sample]:.4g} s.")
+    if trajectory.torque_bound is not None:
+        slowness = trajectory.slowness(trajectory.torque_bound)
+        lines.append(_compose_verdict(trajectory, trajectory.torque_bound, slowness))
+        tables.append(_tabulate_slowness(trajectory, slowness))
+    if trajectory.events:
+        columns = [
+            Column("kind", "what"),
+            Column("start_s", "from, s", aligned=False),
+            Column("end_s", "to, s", aligned=False),
+            Column("text", ""),
         ]
-        if trajectory.best_value is not None:
-            rows.append(("Best over the whole self-motion, mean", f"{np.nanmean(trajectory.best_value):.4g}{unit}"))
-        rows += [
-            ("Largest norm of the joint rates", f"{trajectory.peak_rate:.4g} rad/s at {trajectory.peak_time:.4g} s"),
-            ("Median of that norm", f"{np.median(trajectory.rate_norm):.4g} rad/s"),
-            ("End effector off its path by at most", trajectory.tool_error),
+        events = [
+            (event.kind, event.start, event.end, capitalise_first(event.text.split(": ", 1)[1])) for event in trajectory.events
         ]
-        if trajectory.clearance is not None and trajectory.nearest is not None:
-            rows.append(
-                ("Smallest clearance", f"{1000 * trajectory.clearance[trajectory.nearest[0]]:.4g} mm, {trajectory.nearest[1]}")
-            )
-        if trajectory.rate_cap is not None:
-            rows.append(
-                (
-                    "Self-motion slowed by the cap",
-                    f"{format_percent(float(np.mean(trajectory.self_motion < 1 - 1e-9)))} of the samples",
-                )
-            )
-        if (trajectory.task_share < 1 - 1e-9).any():
-            rows.append(
-                (
-                    "End effector slowed by joint limits",
-                    f"{format_percent(float(np.mean(trajectory.task_share < 1 - 1e-9)))} of the samples",
-                )
-            )
-        return [Table(rows)]
-
-    # ---- the arm -----------------------------------------------------------------------------------------------
-
-    def animate_motion(self) -> list[Block]:
-        """Animate the arm, with the motion without the objective for comparison."""
-        trajectory, baseline = self.trajectory, self.trajectory.without_objective
-        samples = np.unique(np.linspace(0, len(trajectory.time) - 1, min(_MAX_VIEW_FRAMES, len(trajectory.time))).astype(int))
-        readings = []
-        for sample in samples:
-            comparison = "" if baseline is None else f", without it {baseline.value[sample]:.4g}"
-            readings.append(
-                f"{trajectory.time[sample]:.2f} s, {trajectory.objective.name} {trajectory.value[sample]:.4g}{comparison}"
-            )
-        q = trajectory.q[samples] if baseline is None else np.stack([trajectory.q[samples], baseline.q[samples]])
-        motion_scene = scene(
-            trajectory.arm,
-            q,
-            labels=() if baseline is None else (trajectory.method, "without the objective"),
-            time=np.linspace(trajectory.time[0], trajectory.time[-1], len(samples)),
-            path=trajectory.poses[samples, :3, 3],
-            readings=readings,
-            cell=None if trajectory.clear_of is None else trajectory.clear_of.cell,
-        )
-        caption = "The arm on its path (orange)."
-        if baseline is not None:
-            caption += " See-through: the same path from the same configuration without the objective, by least-norm rates."
-        return [Picture(motion_scene.to_html("motion", f"{trajectory.arm.name} moving along its path"), caption)]
-
-    # ---- curves ------------------------------------------------------------------------------------------------
-
-    def _stack_panels(self, panels: list[Timeline], description: str, caption: str) -> Picture:
-        return Picture(draw_stacked_panels(self.trajectory.time, panels, description), caption)
-
-    def draw_objective(self) -> list[Block]:
-        """Draw the objective, and each joint's measure."""
-        trajectory = self.trajectory
-        lines = [TimelineLine(trajectory.value, trajectory.method, "first")]
-        if trajectory.without_objective is not None:
-            lines.append(TimelineLine(trajectory.without_objective.value, "without the objective", "third"))
-        caption = (
-            f"{capitalise_first(trajectory.objective.name)} at {len(trajectory.time):,} samples; "
-            f"{trajectory.objective.better} is better."
-        )
-        if trajectory.best_value is not None:
-            lines.append(TimelineLine(trajectory.best_value, "best of each pose", "compared"))
-            caption += (
-                " Best of each pose: over the whole self-motion manifold, traced at up to 101 poses, whether a motion leads "
-                "there or not."
-            )
-        if trajectory.best_path is not None:
-            has_motion = np.isfinite(trajectory.best_path).all(axis=1)
-            if has_motion.any():
-                value = np.full(len(trajectory.time), np.nan)
-                value[has_motion] = trajectory.objective(trajectory.best_path[has_motion])
-                lines.append(TimelineLine(value, "best continuous motion", "second"))
-                caption += (
-                    " Best continuous motion: dynamic programming over these manifolds, on points between 0.05 rad apart."
-                )
-            if not has_motion.all():
-                caption += f" No continuous motion was found for {format_percent(float(np.mean(~has_motion)))} of the samples."
-        unit = "" if trajectory.objective.unit == "1" else f", {trajectory.objective.unit}"
-        panels = [
-            Timeline(
-                lines, f"objective{unit}" if len(unit) < 24 else "objective", trajectory.objective.name, self.singular_times
-            )
-        ]
-        for measure in find_susceptibilities(trajectory.objective):
-            values = measure.by_joint(trajectory.q)
-            units = ", ".join(dict.fromkeys(measure.joint_unit))
-            joint_lines = [
-                TimelineLine(joint_values, joint.name)
-                for joint_values, joint in zip(values.T, trajectory.arm.joints, strict=True)
-            ]
-            name = measure.formula.name
-            panels.append(Timeline(joint_lines, f"{name}, {units}", f"{capitalise_first(name)} of each joint if it fails"))
-        if len(panels) > 1:
-            caption += " Below: the signed measure of each joint, without weights."
-        return [self._stack_panels(panels, f"{trajectory.objective.name} along the path", caption)]
-
-    def draw_rates(self) -> list[Block]:
-        """Draw the norm of the joint rates, and each of them."""
-        trajectory = self.trajectory
-        cap_lines = (
-            []
-            if trajectory.rate_cap is None
-            else [TimelineLine(np.full(len(trajectory.time), trajectory.rate_cap), "cap", "compared")]
-        )
-        has_slides = bool(trajectory.arm.prismatic.any())
-        unit = "rad/s and m/s" if has_slides else "rad/s"
-        panels = [
-            Timeline(
-                [TimelineLine(trajectory.rate_norm, "norm", "first"), *cap_lines],
-                unit,
-                "Norm of the joint rates",
-                self.singular_times,
-            ),
-            Timeline(
-                [TimelineLine(rates, joint.name) for rates, joint in zip(trajectory.qd.T, trajectory.arm.joints, strict=True)],
-                unit,
-                "Joint rates",
-            ),
-        ]
-        caption = (
-            f"Rates at the samples; between them the norm reaches {trajectory.peak_rate:.4g} rad/s at "
-            f"{trajectory.peak_time:.4g} s."
-        )
-        if trajectory.rate_cap is not None:
-            caption += " The cap slows only the self-motion, so the norm passes it where the task alone needs more."
-        return [self._stack_panels(panels, "Joint rates over time", caption)]
-
-    def draw_joints(self) -> list[Block]:
-        """Draw the position of each joint with its limits."""
-        trajectory = self.trajectory
-        panels = []
-        for index, joint in enumerate(trajectory.arm.joints):
-            scale, unit = joint.display_unit
-            lines = [TimelineLine(scale * trajectory.q[:, index], "position", "first")]
-            reach = np.ptp(scale * trajectory.q[:, index]) + (0.1 if joint.prismatic else 10.0)
-            for limit in (joint.lower, joint.upper):
-                # A limit far away would only flatten the curve.
-                if np.isfinite(limit) and np.abs(scale * (trajectory.q[:, index] - limit)).min() < reach:
-                    lines.append(TimelineLine(np.full(len(trajectory.time), scale * limit), "limit", "compared"))
-            panels.append(Timeline(lines, unit, joint.name))
-        image = draw_small_multiples(trajectory.time, panels, "Joint positions over time")
-        return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
-
-    def draw_clearance(self) -> list[Block]:
-        """Draw the smallest distance of the arm from everything that it must avoid."""
-        trajectory = self.trajectory
-        if trajectory.clear_of is None or trajectory.clearance is None or trajectory.nearest is None:
-            return []
-        lines = [TimelineLine(1000 * trajectory.clearance, "smallest distance", "first")]
-        required_mm = 1000 * (trajectory.margin + float(trajectory.clear_of.margins.max(initial=0.0)))
-        lines.append(TimelineLine(np.full(len(trajectory.time), required_mm), "to be kept", "level"))
-        caption = (
-            f"Smallest distance of any pair, nearest: {trajectory.nearest[1]}. "
-            f"{capitalise_first(describe_shape(trajectory.clear_of, trajectory.margin))}."
-        )
-        return [self._stack_panels([Timeline(lines, "mm", "Smallest distance")], "Clearance over time", caption)]
-
-    def draw_torques(self, slowness: list[SlowMotion] | None) -> list[Block]:
-        """Draw the torques that hold the arm, and those of the motion at three speeds."""
-        trajectory = self.trajectory
-        try:
-            gravity = trajectory.arm.gravity_torque(trajectory.q)
-            torques_by_speed = {speed_factor: trajectory.torques(speed_factor) for speed_factor in SPEED_FACTORS}
-        except ArmError as error:
-            return [Text(f"No torques: {error}.", quiet=True)]
-        line_styles = ("first", "second", "third")
-        panels = []
-        for index, joint in enumerate(trajectory.arm.joints):
-            lines = [TimelineLine(gravity[:, index], "gravity alone", "compared")]
-            lines += [
-                TimelineLine(
-                    torques_by_speed[speed_factor][:, index],
-                    f"in {speed_factor * trajectory.time[-1]:.4g} s",
-                    line_style,  # type: ignore[arg-type]
-                )
-                for speed_factor, line_style in zip(SPEED_FACTORS, line_styles, strict=True)
-            ]
-            panels.append(Timeline(lines, "N" if joint.prismatic else "N m", joint.name))
-        image = draw_small_multiples(trajectory.time, panels, "Joint torques over time")
-        blocks: list[Block] = [
-            Picture(
-                image,
-                f"Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
-                f"motion takes "
-                f"{', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} s, drawn "
-                f"over the time of the first; "
-                "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. "
-                "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
-            )
-        ]
-        if slowness is None:
-            return blocks
-        worst = max(slowness, key=lambda joint_slowness: joint_slowness.time_scale)
-        rows = [
-            [
-                arm_joint.name,
-                f"{joint_slowness.time_scale:.3g}",
-                f"{joint_slowness.time_scale * trajectory.time[-1]:.4g}",
-                f"{trajectory.time[joint_slowness.worst_time_index]:.4g}",
-            ]
-            for arm_joint, joint_slowness in zip(trajectory.arm.joints, slowness, strict=True)
-        ]
-        verdict = "The motion is slow enough" if worst.time_scale <= 1 else "The motion is too fast for gravity alone to matter"
-        blocks.append(
-            Table(
-                rows,
-                ("joint", "time scale", "duration, s", "decided at, s"),
-                frozenset({1, 2, 3}),
-                caption=f"{verdict}: to stay within {trajectory.torque_bound:g} N m (N) of the gravity torque it must "
-                f"take at least "
-                f"{worst.time_scale:.3g} times as long. Eq. (6).",
-            )
-        )
-        return blocks
-
-    def draw_curvature(self) -> list[Block]:
-        """Draw the smallest curvature of the objective along the self-motion."""
-        trajectory = self.trajectory
-        is_finite = np.isfinite(trajectory.curvature)
-        if not is_finite.any():
-            return []
-        typical = float(np.median(np.abs(trajectory.curvature[is_finite])))
-        level = TimelineLine(np.zeros(len(trajectory.time)), "zero", "compared")
-        panel = Timeline(
-            [TimelineLine(trajectory.curvature, "smallest curvature", "first"), level],
-            "per rad^2",
-            "Curvature of the objective along the self-motion",
-            self.singular_times,
-            "symlog" if typical > 0 and np.abs(trajectory.curvature[is_finite]).max() > 30 * typical else "linear",
-            typical or 1.0,
-        )
-        return [
-            self._stack_panels(
-                [panel],
-                "Curvature along the self-motion over time",
-                "Above 0 at a local best. Where it reaches 0 while the arm is not singular the local best ends or splits: an "
-                "algorithmic singularity (English and Maciejewski 1998, section VI-B), marked where joint rates show it.",
-            )
-        ]
-
-    def draw_tool_error(self) -> list[Block]:
-        """Draw the error of the end effector relative to its path."""
-        trajectory = self.trajectory
-        panels = [
-            Timeline(
-                [TimelineLine(1000 * trajectory.position_error, "off", "first")],
-                "mm",
-                "Position of the end effector off its path",
-                (),
-                "log",
-            )
-        ]
-        if trajectory.task.angular:
-            lines = [TimelineLine(1000 * trajectory.rotation_error, "off", "first")]
-            panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
-        caption = (
-            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * TRACKING_TOLERANCE:g} mm or "
-            f"mrad the end "
-            f"effector is off."
-        )
-        return [self._stack_panels(panels, "Error of the end effector over time", caption)]
-
-    # ---- words -------------------------------------------------------------------------------------------------
-
-    def tabulate_events(self) -> list[Block]:
-        """Tabulate the events."""
-        trajectory = self.trajectory
-        if not trajectory.events:
-            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no outlying rate.")]
-        rows = [
-            [
-                Markup('<span class="fatal">{}</span>').format(event.kind) if event.kind in _SERIOUS_EVENTS else event.kind,
-                f"{event.start:.4g}",
-                f"{event.end:.4g}",
-                capitalise_first(event.text.split(": ", 1)[1]),  # the times have columns of their own
-            ]
-            for event in trajectory.events
-        ]
-        return [Table(rows, ("what", "from, s", "to, s", ""), frozenset({1, 2}), wide=True)]
-
-    def describe_method(self) -> list[Block]:
-        """Describe the computation."""
-        trajectory = self.trajectory
-        return build_method_blocks(
-            trajectory.arm,
+        tables.append(TableSpec("What happened", columns, events))
+    else:
+        lines.append("Nothing happened on the way: no algorithmic singularity, no joint at a limit, no outlying rate.")
+    return Presentation(
+        f"Motion of {arm.name} along a path",
+        answer,
+        about=f"{capitalise_first(trajectory.method)} on {arm.title}, {objective.name}, {objective.better} is better, "
+        f"{trajectory.time[-1]:.4g} s, {len(trajectory.time):,} samples",
+        lines=lines,
+        notices=[] if trajectory.on_path else [Notice(f"{trajectory.headline}.", "bad")],
+        facts=_list_facts(trajectory, unit),
+        tables=tables,
+        figures={"motion": FigureSpec(lambda: _draw_figure(trajectory), on_page=False)},
+        sections=lambda: _build_sections(trajectory),
+        method=[
             ("Law", trajectory.method),
-            ("Objective", f"{trajectory.objective.name}, {trajectory.objective.better} is better"),
+            ("Objective", f"{objective.name}, {objective.better} is better"),
             ("Task", trajectory.task.describe()),
             ("Gain", format_as_given(trajectory.gain)),
             (
@@ -474,4 +118,85 @@ class _TrajectoryReport:
             ),
             ("Without the objective", "least-norm rates, from the same configuration; everything else alike"),
             ("Seed", str(trajectory.seed)),
-        )
+        ],
+        arm=arm,
+        exports={"trajectory.csv": trajectory.to_csv},
+    )
+
+
+def _draw_figure(trajectory: Trajectory) -> Figure:
+    from holdfast.interface.presentation.path_following.trajectory_figures import draw_figure
+
+    return draw_figure(trajectory)
+
+
+def _build_sections(trajectory: Trajectory) -> list[Section]:
+    from holdfast.interface.presentation.path_following.trajectory_figures import TrajectorySections
+
+    return TrajectorySections(trajectory).build()
+
+
+def _list_facts(trajectory: Trajectory, unit: str) -> list[Fact]:
+    """List the objective, the joint rates, the error of the tool, and the clearance in a few numbers."""
+    rate_phrase = f"largest norm of the joint rates, at {trajectory.peak_time:.3g} s"
+    facts = [
+        Fact("", trajectory.worst, unit, phrase=f"worst {trajectory.objective.name} on the way"),
+        Fact("", float(trajectory.value.mean()), unit, phrase="mean on the way"),
+        Fact(rate_phrase, trajectory.peak_rate, "rad/s", phrase=rate_phrase),
+        Fact("median of that norm", float(np.median(trajectory.rate_norm)), "rad/s"),
+    ]
+    for label, fraction, is_shown in (
+        ("samples in which the cap slows the self-motion", trajectory.self_motion, trajectory.rate_cap is not None),
+        ("samples in which joint limits slow the end effector", trajectory.task_share, None),
+    ):
+        slowed = float(np.mean(fraction < 1 - 1e-9))
+        if is_shown or (is_shown is None and slowed):
+            facts.append(Fact(label, slowed, style="percent"))
+    return facts
+
+
+def _tabulate_values(trajectory: Trajectory, unit: str) -> TableSpec:
+    """Tabulate the objective along the path, with the best of each pose if it is known."""
+    values = {f"{trajectory.method}{unit and f', {unit}'}": trajectory.value}
+    if trajectory.best_value is not None:
+        values["best of each pose"] = trajectory.best_value
+    rows = [(name, *_summarize_values(numbers).values()) for name, numbers in values.items()]
+    columns = [Column(name, name) for name in _summarize_values(trajectory.value)]
+    title = f"{capitalise_first(trajectory.objective.name)} along the path"
+    return TableSpec(title, [Column("method", ""), *columns], rows)
+
+
+def _summarize_values(values: FloatArray) -> dict[str, float]:
+    return {
+        "start": values[0],
+        "end": values[-1],
+        "mean": np.nanmean(values),
+        "smallest": np.nanmin(values),
+        "largest": np.nanmax(values),
+    }
+
+
+def _compose_verdict(trajectory: Trajectory, bound: float, slowness: Sequence[SlowMotion]) -> str:
+    worst = max(slowness, key=lambda joint_slowness: joint_slowness.time_scale)
+    scale, joint = format_value(worst.time_scale), trajectory.arm.joint_names[list(slowness).index(worst)]
+    duration = format_value(worst.time_scale * trajectory.time[-1], unit="s")
+    if worst.satisfied:
+        verdict = f"slow enough: it needs at least {scale} of the time"
+    else:
+        verdict = f"too fast: it must take at least {scale} times as long ({duration})"
+    return f"For torques within {bound:g} N m of gravity's the motion is {verdict}; joint '{joint}' sets the limit."
+
+
+def _tabulate_slowness(trajectory: Trajectory, slowness: Sequence[SlowMotion]) -> TableSpec:
+    """Tabulate how slow the motion must be for each joint."""
+    columns = [
+        Column("joint", "joint"),
+        Column("time_scale", "time scale"),
+        Column("duration_s", "duration, s"),
+        Column("decided_at", "decided at"),
+    ]
+    rows = []
+    for name, joint_slowness in zip(trajectory.arm.joint_names, slowness, strict=True):
+        scale, instant = joint_slowness.time_scale, trajectory.time[joint_slowness.worst_time_index]
+        rows.append((name, scale, scale * trajectory.time[-1], f"{instant:.4g} s" if scale > 0 else ""))
+    return TableSpec("How slow is slow enough (English and Maciejewski 1998, eq. 6)", columns, rows)

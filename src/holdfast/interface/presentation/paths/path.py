@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.interface.presentation.presentation import Column, Presentation, TableSpec
 from holdfast.kinematics.paths.path import Path
 from holdfast.kinematics.paths.timed_path import TimedPath
 
 
-def sentences(path: Path | TimedPath) -> list[str]:
-    """Return the name and the description of the path."""
-    return [(path.path if isinstance(path, TimedPath) else path).name, path.describe()]
-
-
-def key_table(path: Path | TimedPath) -> TextTable:
-    """Tabulate the positions at which the legs begin and end."""
+def present(path: Path | TimedPath) -> Presentation:
+    """Present the path with the positions at which its legs begin and end."""
     geometry = path.path if isinstance(path, TimedPath) else path
-    positions = geometry.pose(geometry.bounds)[:, :3, 3]
-    rows = [
-        [f"{fraction:.3g}", *map(format_significant, np.round(position, 9))]
-        for fraction, position in zip(geometry.bounds, positions, strict=True)
-    ]
-    return TextTable(["fraction of the way", "x, m", "y, m", "z, m"], rows)
+    positions = np.round(geometry.pose(geometry.bounds)[:, :3, 3], 9)
+    columns = [Column("fraction", "fraction of the way", digits=3, aligned=False)]
+    columns += [Column(axis, f"{axis}, m", aligned=False) for axis in "xyz"]
+    rows = [(fraction, *position) for fraction, position in zip(geometry.bounds, positions, strict=True)]
+    return Presentation(geometry.name, geometry.name, lines=[path.describe()], tables=[TableSpec("", columns, rows)])

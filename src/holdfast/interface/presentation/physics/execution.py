@@ -1,25 +1,31 @@
-"""Text, tables, JSON, and figure of a motion that is executed with masses and servos."""
+"""Presentation of a motion that is executed with masses and servos."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.control.physics.execution import format_error
-from holdfast.core.formatting import capitalise_first
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
+from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.control.physics.execution import Execution
-
+    from holdfast.interface.report.page import Section
 
 _MAX_VIEW_FRAMES = 201
+_OUTCOME_PHRASES = {
+    "finished": "finished its motion",
+    "stopped": "stopped on the way",
+    "moving": "was still moving at the end",
+    "unstable": "became unstable",
+}
 
 
 def to_dict(run: Execution) -> dict[str, Any]:
@@ -55,99 +61,111 @@ def to_dict(run: Execution) -> dict[str, Any]:
     } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
 
 
-def tables(run: Execution) -> list[TextTable]:
-    """Tabulate the requested and the measured values, and the contacts."""
-    rows = [["simulated time, s", format_significant(run.time[-1])]]
-    if run.goal_distance is not None:
-        rows.append(["tool off the goal, mm", format_error(1000 * run.goal_distance)])
-    if run.goal_turn is not None:
-        rows.append(["turned away from it, deg", format_error(np.rad2deg(run.goal_turn))])
-    for constraint, (deviation, tilt) in zip(run.keep, run.constraint_errors, strict=True):
-        rows += [[f"{constraint.name}: off at most, mm", format_significant(1000 * deviation, 3)]] * bool(
-            len(constraint.normals)
-        )
-        if np.isfinite(constraint.widest):
-            max_tilt = format_significant(np.rad2deg(constraint.widest), 3)
-            rows.append(
-                [f"{constraint.name}: turned away at most, deg", f"{format_significant(np.rad2deg(tilt), 3)} of {max_tilt}"]
-            )
-    rows.append(["joint behind its reference at most", _format_largest_lag(run)])
-    result_tables = [TextTable(["", ""], rows)]
-    return [*result_tables, tabulate_contacts(run.contacts)] if run.contacts else result_tables
-
-
-def _format_largest_lag(run: Execution) -> str:
-    joint_index = int(run.tracking_error.argmax())
-    joint = run.arm.joints[joint_index]
-    factor, unit = joint.display_unit
-    return f"{format_significant(factor * run.tracking_error[joint_index], 3)} {unit} ({joint.name})"
-
-
-def story(run: Execution) -> PageContent:
-    """Compose the report: whether everything requested was done, the numbers, and the moving arm."""
-    headline, *remarks = run.describe()
-    outcome_phrases = {
-        "finished": "finished its motion",
-        "stopped": "stopped on the way",
-        "moving": "was still moving at the end",
-    }
-    answer = f"{run.arm.name} {outcome_phrases.get(run.outcome, 'became unstable')}"
+def present(run: Execution) -> Presentation:
+    """Present whether everything requested was done, with the numbers and the moving arm."""
+    answer = f"{run.arm.name} {_OUTCOME_PHRASES[run.outcome]}"
     faults = run.faults()[run.outcome != "finished" :]
     if faults:
         answer += f", and {'; '.join(faults)}"
     elif run.outcome == "finished":
-        achievements = [
-            *["the tool is at its goal"] * (run.goal is not None),
-            *["what was to be kept was kept"] * bool(run.keep),
-        ]
+        achievements = ["the tool is at its goal"] * (run.goal is not None) + ["what was to be kept was kept"] * bool(run.keep)
         answer += f": {' and '.join([*achievements, 'the joints kept their limits'])}"
-    facts = []
-    if run.goal_distance is not None:
-        facts.append((f"{format_error(1000 * run.goal_distance)} mm", "from the tool to its goal"))
-    facts += [
-        (
-            f"{format_significant(np.rad2deg(tilt), 3)} deg",
-            f"is the most that the tool was turned away; {np.rad2deg(constraint.widest):.3g} allowed",
-        )
-        for constraint, (_, tilt) in zip(run.keep, run.constraint_errors, strict=True)
-        if np.isfinite(constraint.widest)
-    ]
-    return PageContent(
+    return Presentation(
         f"{run.arm.name} with masses and servos",
         f"{answer}.",
-        about=headline,
-        facts=[fact for fact in facts if fact[0][:2] != "0 "],
-        lines=[f"{remark if remark.split()[0] in run.arm.joint_names else capitalise_first(remark)}." for remark in remarks],
-        views=_animate_motion(run),
-        figures={"execution": ("Over time", "What was asked of the tool, and how far the joints lag behind their references.")},
+        about=f"Arm {run.arm.title}, {run.servos.describe()}, on MuJoCo",
+        lines=_compose_remarks(run),
+        facts=_list_facts(run),
+        tables=[tabulate_contacts(run.contacts)] if run.contacts else [],
+        figures={
+            "execution": FigureSpec(
+                partial(_draw_figure, run),
+                "Over time",
+                "What was asked of the tool, and how far the joints lag behind their references.",
+            )
+        },
+        sections=partial(_animate_motion, run),
         method=[("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}")],
         arm=run.arm,
     )
 
 
-def _animate_motion(run: Execution) -> list[tuple[str, list[Any]]]:
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.page import Picture
+def _compose_remarks(run: Execution) -> list[str]:
+    """Compose the sentences about the locks, the controller, the errors of the tool, and the limits of the joints."""
+    remarks = []
+    for index in np.flatnonzero(np.isfinite(run.lock_time) & (run.lock_time <= run.time[-1])):
+        joint, lock_time = run.arm.joints[index], run.lock_time[index]
+        factor, unit = joint.display_unit
+        lock_text = f"locked at {lock_time:.4g} s" if lock_time > 0 else "locked"
+        remarks.append(f"{joint.name} {lock_text}, at {factor * run.q_final[index]:.4g} {unit}.")
+    if run.noticed <= run.time[-1]:
+        remarks.append(f"The controller noticed at {run.noticed:.4g} s and slowed down.")
+    distances, angles = run.tool_error
+    largest_text, final_text = (
+        f"{format_error(1000 * distance)} mm and {format_error(np.rad2deg(angle))} deg"
+        for distance, angle in ((distances.max(), angles.max()), (distances[-1], angles[-1]))
+    )
+    remarks.append(f"The tool is at most {largest_text} off the motion, at the end {final_text}.")
+    if run.error_limit is not None and run.first_excess is None:
+        remarks.append("The following error keeps its limit in every joint.")
+    if not run.beyond_limits and not run.too_fast:
+        remarks.append("The joints kept within their limits and speeds.")
+    if run.outcome == "unstable":
+        remarks.append("The physics left all bounds; make the servos softer or their rate higher.")
+    return remarks
+
+
+def _list_facts(run: Execution) -> list[Fact]:
+    """List the simulated time, the errors of the tool, the deviations from the constraints, and the largest servo error."""
+    facts = [Fact("simulated time", float(run.time[-1]), "s")]
+    if run.goal_distance is not None:
+        facts.append(
+            Fact("tool off the goal", format_error(1000 * run.goal_distance) + " mm", phrase="from the tool to its goal")
+        )
+    if run.goal_turn is not None:
+        facts.append(Fact("turned away from it", format_error(np.rad2deg(run.goal_turn)) + " deg"))
+    for constraint, (deviation, tilt) in zip(run.keep, run.constraint_errors, strict=True):
+        if len(constraint.normals):
+            facts.append(Fact(f"{constraint.name}: off at most", 1000 * deviation, "mm", digits=3))
+        if np.isfinite(constraint.widest):
+            allowed = f"{np.rad2deg(constraint.widest):.3g} allowed"
+            facts.append(
+                Fact(
+                    f"{constraint.name}: turned away at most, {allowed}",
+                    np.rad2deg(tilt),
+                    "deg",
+                    phrase=f"is the most that the tool was turned away; {allowed}",
+                    digits=3,
+                )
+            )
+    joint_index = int(run.tracking_error.argmax())
+    factor, unit = run.arm.joints[joint_index].display_unit
+    label = f"joint behind its reference at most ({run.arm.joint_names[joint_index]})"
+    return [*facts, Fact(label, factor * run.tracking_error[joint_index], unit, digits=3)]
+
+
+def _animate_motion(run: Execution) -> list[Section]:
+    from holdfast.interface.presentation.arm.view import build_view_section
 
     frame_indices = np.linspace(0, len(run.time) - 1, min(_MAX_VIEW_FRAMES, len(run.time))).astype(int)
     locks = {
         name: float(instant) for name, instant in zip(run.arm.joint_names, run.lock_time, strict=True) if np.isfinite(instant)
     }
-    caption = "The arm as it was measured."
-    goals = [] if run.goal is None else [run.goal]
-    motion_scene = scene(
+    section = build_view_section(
+        "The motion",
         run.arm,
         run.q[frame_indices],
+        "The arm as it was measured.",
         time=np.linspace(0, run.time[-1], len(frame_indices)),
         readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
         locked=locks,
-        targets=goals,
+        targets=[] if run.goal is None else [run.goal],
         cell=run.cell,
     )
-    return [("The motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
+    return [section]
 
 
-def figures(run: Execution) -> dict[str, Figure]:
+def _draw_figure(run: Execution) -> Figure:
     """Draw over time the distance of the tool from its goal, the deviation from the constraints, and the lag of the joints."""
     from holdfast.interface.report.motions import TimePanel, motion_figure
 
@@ -180,4 +198,4 @@ def figures(run: Execution) -> dict[str, Figure]:
     unit = "m or rad" if run.arm.prismatic.any() else "rad"
     panels.append(make_panel(tracking_errors, f"largest servo error, {unit}", "Servos"))
     caption = f"{run.arm.name}: {run.outcome}; {run.servos.describe()}, MuJoCo"
-    return {"execution": motion_figure(panels, caption)}
+    return motion_figure(panels, caption)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.presentation import Column, Fact, Presentation, TableSpec
 from holdfast.kinematics.regions.region import Region
 
 _BOX_COLUMNS = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
@@ -16,22 +16,21 @@ _CONE_COLUMNS = (
 )
 
 
-def sentences(region: Region) -> list[str]:
-    """Return the name and the description of the region."""
-    return [region.name, region.describe()]
-
-
-def key_table(region: Region) -> TextTable:
-    """Tabulate the bounds of the region; for a list the number of poses."""
+def present(region: Region) -> Presentation:
+    """Present the description and the bounds of the region; for a list the number of poses."""
+    title = region.name
     if region.listed is not None:
-        return TextTable(["", ""], [["poses", f"{len(region.listed):,}"]])
+        return Presentation(title, title, lines=[region.describe()], facts=[Fact("poses", len(region.listed))])
     if region.draw is not None:
-        return TextTable(["", ""], [["drawn by", getattr(region.draw[0], "__name__", "a function")]])
+        function = getattr(region.draw[0], "__name__", "a function")
+        return Presentation(title, title, lines=[region.describe()], facts=[Fact("drawn by", function)])
     joints = [(f"joint {joint + 1}", "") for joint in range(len(region.center))]
-    columns = {"box": _BOX_COLUMNS, "cone": _CONE_COLUMNS}.get(region.kind, joints)
+    parameters = {"box": _BOX_COLUMNS, "cone": _CONE_COLUMNS}.get(region.kind, joints)
     rows = []
-    for (name, unit), center, size in zip(columns, region.center, region.size, strict=True):
+    for (name, unit), center, size in zip(parameters, region.center, region.size, strict=True):
         bounds = np.array([center - size / 2, center + size / 2])
-        lower, upper = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
-        rows.append([f"{name}{unit and ', '}{unit}", f"{lower:.4g}", f"{upper:.4g}"])
-    return TextTable(["" if region.kind in ("box", "cone") else "rad or m", "from", "to"], rows)
+        bounds = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
+        rows.append((f"{name}{unit and ', '}{unit}", *bounds))
+    head = Column("parameter", "" if region.kind in ("box", "cone") else "rad or m")
+    columns = [head, Column("from", "from", aligned=False), Column("to", "to", aligned=False)]
+    return Presentation(title, title, lines=[region.describe()], tables=[TableSpec("", columns, rows)])

@@ -7,9 +7,12 @@ from typing import Any
 import numpy as np
 
 from holdfast.control.laws.law import Law
-from holdfast.control.simulation.errors import ErrorAt, ErrorHistory, least_errors
+from holdfast.control.simulation.errors import ErrorAt, ErrorHistory
 from holdfast.control.simulation.runs import Runs
 from holdfast.core.formatting import format_number
+from holdfast.interface.presentation.presentation import Fact
+
+REACHED_ERROR = 1e-5  # an error below it counts as none
 
 
 def format_errors(law: Law, position: float, angle: float) -> str:
@@ -19,44 +22,39 @@ def format_errors(law: Law, position: float, angle: float) -> str:
     return " and ".join(parts)
 
 
-def tabulate_errors(runs: Runs, history: ErrorHistory, run_index: int = 0) -> list[tuple[str, str]]:
-    """Return the errors of one run as rows of a table."""
+def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, float], run_index: int = 0) -> list[Fact]:
+    """Return the errors of one run; ``smallest`` are the least errors that the failed arm can have, m and rad."""
     law, unit = runs.law, runs.unit
+    event = "after the lock" if np.isfinite(np.atleast_2d(runs.lock_time)[run_index]).any() else "after the start"
 
-    def format_error_at(error: ErrorAt) -> str:
-        return format_errors(law, error.position, error.angle)
+    def make_fact(label: str, position: float, angle: float, phrase: str, note: str = "") -> Fact:
+        is_error = max(position, angle) > REACHED_ERROR
+        return Fact(label, format_errors(law, position, angle) + note, phrase=phrase if is_error else "")
 
-    reference_event = "after the lock" if np.isfinite(np.atleast_2d(runs.lock_time)[run_index]).any() else "after the start"
-    rows = [("error at the end", format_error_at(history.end))]
+    facts = [make_fact("error at the end", history.end.position, history.end.angle, "off the target at the end")]
+    distance, angle = history.largest_position, history.largest_angle
+    time_notes = [f", at {format_number(largest.time)} {unit}" for largest in (distance, angle)]
     if law.task.rows[:, :3].any():
-        largest = history.largest_position
-        rows.append(
-            (
-                f"largest distance from the target {reference_event}",
-                f"{format_number(1000 * largest.position)} mm, at {format_number(largest.time)} {unit}",
-            )
+        text, label = (
+            f"{format_number(1000 * distance.position)} mm{time_notes[0]}",
+            f"largest distance from the target {event}",
         )
+        facts.append(Fact(label, text, phrase=label if distance.position > REACHED_ERROR else ""))
     if law.task.angular:
-        largest = history.largest_angle
-        rows.append(
-            (
-                f"largest angle from the target {reference_event}",
-                f"{format_number(np.rad2deg(largest.angle))}°, at {format_number(largest.time)} {unit}",
-            )
+        text = f"{format_number(np.rad2deg(angle.angle))}°{time_notes[1]}"
+        label = f"largest angle from the target {event}"
+        facts.append(Fact(label, text, phrase=label if angle.angle > REACHED_ERROR else ""))
+    facts += [
+        Fact(
+            f"error {format_delay(later_error, history)} {unit} {event}",
+            format_errors(law, later_error.position, later_error.angle),
         )
-    rows += [
-        (f"error {format_delay(later_error, history)} {unit} {reference_event}", format_error_at(later_error))
         for later_error in history.later
     ]
-    rows.append(
-        (
-            "least error that the failed arm can have",
-            f"{format_errors(law, *least_errors(runs, run_index))}, as far as was found",
-        )
-    )
+    label = "least error that the failed arm can have"
+    facts.append(make_fact(label, *smallest, label, ", as far as was found"))
     closest = format_errors(law, history.least_position.position, history.least_angle.angle)
-    rows.append(("least error on the way" + ", each for itself" * (" and " in closest), closest))
-    return rows
+    return [*facts, Fact("least error on the way" + ", each for itself" * (" and " in closest), closest)]
 
 
 def format_delay(error: ErrorAt, history: ErrorHistory) -> str:

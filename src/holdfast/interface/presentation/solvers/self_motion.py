@@ -1,4 +1,4 @@
-"""Text, tables, JSON, and figure of a self-motion."""
+"""Presentation of a self-motion."""
 
 from __future__ import annotations
 
@@ -11,15 +11,13 @@ import numpy as np
 from holdfast.core.formatting import format_count, format_percent, list_alternatives
 from holdfast.core.status import Status
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable, format_significant, print_table
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
 from holdfast.kinematics.solvers.joint_space import is_unlimited
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from rich.console import Console
 
-    from holdfast.interface.presentation.results import Drawings
+    from holdfast.interface.report.page import Section
     from holdfast.kinematics.solvers.self_motions import SelfMotion
     from holdfast.model.arm.machine import Joint
 
@@ -55,82 +53,50 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
     }
 
 
-def key_table(motion: SelfMotion) -> TextTable:
-    """Tabulate the curves; for a manifold of more dimensions the number of points."""
-    if not motion.components:
-        return TextTable(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
-    numbered = enumerate(motion.components)
-    return TextTable(
-        ["curve", "length, rad", "points", ""],
-        [
-            [str(index + 1), format_significant(component.length), str(len(component.q)), motion.ends(index)]
-            for index, component in numbered
-        ],
-    )
-
-
-def story(motion: SelfMotion) -> PageContent:
-    """Compose the report: the number of curves that reach the target, and the locks that it survives."""
+def present(motion: SelfMotion) -> Presentation:
+    """Present the number of curves that reach the target, and the locks that it survives."""
     arm, count = motion.arm, len(motion.components)
+    facts: list[Fact] = []
     if not len(motion.q):
-        proof = (
-            ", which does not prove that there is none" if motion.status == Status.NOT_FOUND else f": {motion.status.sentence}"
-        )
-        answer = f"No configuration of the target was found{proof}."
+        is_proved = motion.status != Status.NOT_FOUND
+        reason = f": {motion.summary}" if is_proved else ", which does not prove that there is none"
+        answer = f"No configuration of the target was found{reason}"
     elif count:
         closed_count = sum(component.closed for component in motion.components)
         collision_text = "" if motion.clearance is None else f", by {motion.clearance.others}"
-        ends_text = (
-            "closed"
-            if closed_count == count
-            else f"ended by limits{collision_text} or singular configurations"
-            if not closed_count
-            else f"{closed_count} closed"
-        )
+        ends_text = f"{closed_count} closed"
+        if closed_count in (0, count):
+            ends_text = "closed" if closed_count else f"ended by limits{collision_text} or singular configurations"
         answer = f"The target is reached on {format_count(count, 'curve')} of configurations, {ends_text}"
     else:
         answer = (
-            f"The target is reached on a manifold of {motion.redundancy} dimensions, of which "
-            f"{len(motion.q):,} configurations were found"
+            f"The target is reached on a manifold of dimension {motion.redundancy}, of which "
+            f"{len(motion.q):,} configurations were found, {motion.spacing:.3g} rad apart"
         )
-    facts = []
     if len(motion.q) and motion.bounds is not None:
         free, restricted = _classify_joints(motion)
-        answer += f"; {_describe_surviving_locks(free, restricted)}."
+        answer += f"; {_describe_surviving_locks(free, restricted)}"
         if restricted:
-            facts.append(
-                (
-                    format_percent(min(restricted.values())),
-                    f"of the range of {min(restricted, key=lambda joint_name: restricted[joint_name])} keeps the target, "
-                    f"the joint that is most bound",
-                )
-            )
+            worst = min(restricted, key=lambda joint_name: restricted[joint_name])
+            phrase = f"of the range of {worst} keeps the target, the joint that is most bound"
+            facts.append(Fact("", restricted[worst], phrase=phrase, style="percent"))
         if free:
-            facts.append((f"{len(free)} of {arm.n}", "joints may lock anywhere in their range"))
-    elif len(motion.q):
-        answer += "."
+            facts.append(Fact("", f"{len(free)} of {arm.n}", phrase="joints may lock anywhere in their range"))
     if count:
-        facts += [(f"{count}", f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left")]
-        facts += [
-            (
-                f"{format_significant(max(component.length for component in motion.components))} rad",
-                "length of the longest in joint space",
-            )
-        ]
-    return PageContent(
+        longest = max(component.length for component in motion.components)
+        phrase = f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left"
+        facts += [Fact("", count, phrase=phrase), Fact("", longest, "rad", phrase="length of the longest in joint space")]
+        if not arm.prismatic.all():
+            turns = f"{motion.size / (2 * np.pi):.2f} of {np.count_nonzero(~arm.prismatic)}"
+            facts.append(Fact("whole turns of its joints on one curve", turns))
+    return Presentation(
         f"All configurations of {arm.name} for one target",
-        answer,
-        about=f"Task {motion.task.describe()}, target {_format_target(motion)}",
+        f"{answer}.",
+        about=f"Arm {arm.title}, task {motion.task.describe()}, target {_format_target(motion)}",
         facts=facts,
-        views=_animate_self_motion(motion),
-        figures={
-            "self-motion": (
-                "Where each joint may lock",
-                "Shaded: values at which a joint may lock and the target stays within reach; the curves are the "
-                "self-motions, and the arm is drawn in a few of their configurations.",
-            )
-        },
         tables=_build_tables(motion),
+        figures={"self-motion": _describe_figure(motion)},
+        sections=partial(_animate_self_motion, motion),
         method=[
             ("Task", motion.task.describe()),
             (
@@ -184,59 +150,45 @@ def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> 
     )
 
 
-def _build_tables(motion: SelfMotion) -> list[TextTable]:
-    result_tables = [key_table(motion)._replace(title="Self-motions")]
+def _build_tables(motion: SelfMotion) -> list[TableSpec]:
+    """Tabulate the curves, and where each joint may lock."""
+    columns = [
+        Column("curve", "curve"),
+        Column("length_rad", "length, rad", aligned=False),
+        Column("points", "points"),
+        Column("ends", ""),
+    ]
+    rows = [(i + 1, curve.length, len(curve.q), motion.ends(i)) for i, curve in enumerate(motion.components)]
+    specs = [TableSpec("Self-motions", columns, rows)] if rows else []
     if motion.bounds is not None:
-        joint_ranges = enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
-        rows = [
-            [
+        lock_rows = [
+            (
                 joint.name,
-                "anywhere"
-                if _may_lock_anywhere(motion, index)
-                else format_ranges(lock_ranges, joint)
-                if lock_ranges
-                else "nowhere",
-            ]
-            for index, (joint, lock_ranges) in joint_ranges
+                "anywhere" if _may_lock_anywhere(motion, index) else format_ranges(ranges, joint) if ranges else "nowhere",
+            )
+            for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]
-        result_tables.append(
-            TextTable(["joint", "may lock at"], rows, "A lock keeps the target within reach if and only if it lies there")
-        )
-    return result_tables
+        title = "A lock keeps the target within reach if and only if it lies there"
+        specs.append(TableSpec(title, [Column("joint", "joint"), Column("may_lock_at", "may lock at")], lock_rows))
+    return specs
 
 
-def _animate_self_motion(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
+def _animate_self_motion(motion: SelfMotion) -> list[Section]:
     """Animate the arm on its longest self-motion; for a sample draw a few configurations."""
+    from holdfast.interface.presentation.arm.view import build_view_section
+
     if not len(motion.q):
         return []
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.page import Picture
-
     if not motion.components:
         configurations = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
         caption = "The arm in a few of the configurations; the tool is at the target in each."
-        return [
-            (
-                "The arm at the target",
-                [Picture(scene(motion.arm, configurations, cell=motion.cell).to_html("motion", caption), caption)],
-            )
-        ]
-    longest = max(motion.components, key=lambda component: component.length)
-    time = np.linspace(0.0, 8.0, len(longest.q))
-    caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
-    if len(time) < 2:
+        return [build_view_section("The arm at the target", motion.arm, configurations, caption, cell=motion.cell)]
+    q = max(motion.components, key=lambda component: component.length).q
+    if len(q) < 2:
         return []
-    motion_scene = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
-    return [("The self-motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
-
-
-def show(motion: SelfMotion, out: Console) -> None:
-    """Print the tables of the page; the first line contains the number of configurations."""
-    from rich.markup import escape
-
-    out.print(escape(motion.describe()[0]), soft_wrap=True)
-    for table in _build_tables(motion)[0 if motion.components else 1 :]:
-        print_table(out, table)
+    caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
+    options = {"time": np.linspace(0.0, 8.0, len(q)), "targets": [motion.pose], "cell": motion.cell}
+    return [build_view_section("The self-motion", motion.arm, q, caption, **options)]
 
 
 def format_ranges(intervals: Sequence[Sequence[float]], joint: Joint) -> str:
@@ -251,24 +203,29 @@ def _format_bound(value: float) -> str:
     return f"{value:.2f}" if abs(value) >= 0.005 else "0.00"
 
 
-def drawings(motion: SelfMotion) -> Drawings:
-    """Draw joint values along the curves with the allowed lock ranges, and the arm in a few of the configurations."""
-    from holdfast.kinematics.workspace.bounds import joint_bounds
+def _describe_figure(motion: SelfMotion) -> FigureSpec:
+    """Return the figure of the curves; its preview has lock ranges only if they are known: their computation takes longest."""
+    known_ranges: Any = [[]] * motion.arm.n if motion.bounds is None else motion.bounds
 
-    if motion.bounds is not None or (motion.clearance is not None and motion.redundancy > 1):
-        return main_figure(motion)
-    has_clearance = motion.clearance is not None
-    lock_ranges = motion.arcs() if has_clearance else joint_bounds(motion.arm, motion.pose, motion.task)
-    return {"self-motion": partial(_draw_self_motion, motion, lock_ranges)}
+    def draw() -> Figure:
+        from holdfast.kinematics.workspace.bounds import joint_bounds
 
+        lock_ranges = known_ranges
+        if motion.bounds is None and motion.clearance is None:
+            lock_ranges = joint_bounds(motion.arm, motion.pose, motion.task)
+        elif motion.bounds is None and motion.redundancy == 1:
+            lock_ranges = motion.arcs()
+        return _draw_self_motion(motion, lock_ranges)
 
-def main_figure(motion: SelfMotion) -> Drawings:
-    """Draw the same figure, with the lock ranges only if they are known, because their computation takes longest."""
-    return {"self-motion": partial(_draw_self_motion, motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+    caption = (
+        "Shaded: values at which a joint may lock and the target stays within reach; the curves are the self-motions, and the "
+        "arm is drawn in a few of their configurations."
+    )
+    return FigureSpec(draw, "Where each joint may lock", caption, preview=partial(_draw_self_motion, motion, known_ranges))
 
 
 def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
-    from holdfast.interface.presentation.stick_figure import choose_views
+    from holdfast.interface.presentation.arm.view import choose_views
     from holdfast.interface.report.manifolds import JointPanel, self_motion_figure
     from holdfast.model.arm.configurations import sampling_limits
 
@@ -295,5 +252,5 @@ def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[f
     chains = arm.frames(q[chosen] if len(q) else q)[..., :3, 3]
     views = choose_views(arm, chains) if len(q) else []
     omission_note = f"; the {_MAX_DRAWN_CURVES} longest curves are drawn" if len(motion.components) > _MAX_DRAWN_CURVES else ""
-    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + omission_note
+    caption = f"{arm.name}, task {motion.task.name}: {motion.summary}{omission_note}"
     return self_motion_figure(panels, curves, chains, views, caption)

@@ -1,0 +1,157 @@
+"""Presentation of a failure-tolerant workspace."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.core.formatting import format_percent
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
+from holdfast.interface.presentation.solvers.self_motion import format_ranges
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.kinematics.workspace.tolerance import TolerantWorkspace
+
+
+def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
+    """Return the size of the workspace, its limits, and the losses by the locks of each joint."""
+    names, unit = region.arm.joint_names, region.unit.replace("^", "")
+    return {
+        **region.arm.entry(),
+        "task": region.task.name,
+        "exact": region.exact,
+        "optimised": region.optimised,
+        "limits": dict(zip(names, region.limits, strict=True)),
+        f"size_{unit}": region.size,
+        f"size_interval_{unit}": region.size_interval,
+        "confidence": None if region.exact else region.confidence,
+        f"healthy_size_{unit}": region.healthy_size,
+        "fraction": region.share,
+        "points": None if region.exact else len(region.points),
+        "locked_values_per_joint": None if region.exact else region.angles,
+        "lost_to": dict(zip(names, region.lost_to, strict=True)),
+    }
+
+
+def present(region: TolerantWorkspace) -> Presentation:
+    """Present the workspace that remains after any lock, and the lock that costs most."""
+    unit, losses = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
+    worst_joint, is_kept = int(losses.argmax()), bool(region.inside.any())
+    facts = [
+        Fact("size of the region", region.size, unit, phrase="is kept wherever a joint locks" * is_kept),
+        Fact("healthy workspace", region.healthy_size, unit, phrase="is the workspace of the healthy arm" * is_kept),
+    ]
+    if is_kept:
+        facts.insert(0, Fact("", region.share, phrase="of the workspace is kept wherever a joint locks", style="percent"))
+    if not region.exact:
+        label = f"interval of the size, {100 * region.confidence:.4g} %"
+        facts.append(Fact(label, tuple(map(float, region.size_interval)), unit))
+    if losses[worst_joint] and region.within.any():
+        phrase = f"of the points within the artificial limits are lost to locks of {region.arm.joint_names[worst_joint]}"
+        facts.append(Fact("", losses[worst_joint], phrase=phrase, style="percent"))
+    caption = (
+        "Points that the healthy arm reaches, those within the artificial limits, and those that are kept wherever any joint "
+        "locks; right: the sizes, with what is left after the locks of each joint alone."
+    )
+    columns = [
+        Column("joint", "joint"),
+        Column("limits", "artificial limits"),
+        Column("lost", "points lost by its lock", style="percent"),
+    ]
+    joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
+    sampling_text = (
+        f"{len(region.points):,} points, {region.angles} locked values of each joint; values between them are not tried"
+    )
+    return Presentation(
+        f"What {region.arm.name} reaches before and after any lock",
+        _compose_answer(region),
+        about=f"Arm {region.arm.title}, task {region.task.describe()}, limits {'optimised' if region.optimised else 'given'}",
+        lines=[]
+        if region.exact
+        else ["Values between the tried ones, and configurations that were not found, are not in the interval."],
+        facts=facts,
+        tables=[
+            TableSpec(
+                "Limits of the joints, and what their locks lose",
+                columns,
+                [(joint.name, format_ranges([limits], joint), loss) for joint, limits, loss in joint_rows],
+            )
+        ],
+        figures={"region": FigureSpec(partial(_draw_figure, region), "Where it is, and what each lock leaves", caption)},
+        method=[
+            (
+                "Kept",
+                "a point that the arm reaches within the artificial limits, and still reaches wherever in them any one joint "
+                "locks",
+            ),
+            ("Region", "in closed form for each radius" if region.exact else sampling_text),
+            ("Limits", "optimised for the largest region" if region.optimised else "given, or the arm's own"),
+        ],
+        arm=region.arm,
+    )
+
+
+def _compose_answer(region: TolerantWorkspace) -> str:
+    unit, losses = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
+    worst_joint, names = int(losses.argmax()), region.arm.joint_names
+    limits = "Under the limits that were found" if region.optimised else "Under the artificial limits"
+    if not region.healthy_size:
+        return "The healthy arm reaches none of the points that were tried, so there is nothing to compare."
+    if not region.within.any():
+        return (
+            f"{limits} the arm reaches no point even before a joint locks, of "
+            f"{format_significant(region.healthy_size)} {unit} within its own."
+        )
+    if not region.inside.any():
+        loss_text = f"the locks of {names[worst_joint]} alone lose {format_percent(losses[worst_joint])} of the points"
+        return f"{limits} no point is kept through every lock: {loss_text}."
+    answer = (
+        f"{limits} the arm keeps {format_significant(region.size)} {unit} of {format_significant(region.healthy_size)} {unit}, "
+        f"{format_percent(region.share)} of its workspace, wherever any single joint locks"
+    )
+    if losses[worst_joint]:
+        answer += f"; the locks of {names[worst_joint]} take most, {format_percent(losses[worst_joint])} of the points"
+    return f"{answer}."
+
+
+def _draw_figure(region: TolerantWorkspace) -> Figure:
+    """Draw the region inside the workspace of the healthy arm, from one or two directions, and the sizes."""
+    from holdfast.interface.presentation.arm.view import choose_views
+    from holdfast.interface.report.manifolds import RegionMap, region_figure
+
+    maps = [
+        RegionMap(
+            view.project(region.points),
+            view,
+            region.healthy,
+            region.within,
+            region.inside,
+            round(np.sqrt(len(region.points))) if region.exact else None,
+        )
+        for view in choose_views(region.arm, region.points[None])
+    ]
+    size_per_point = region.healthy_size / max(int(region.healthy.sum()), 1)
+    bars = [("healthy arm", region.healthy_size), ("artificial limits", size_per_point * float(region.within.sum()))]
+    bars += [
+        (f"after a lock of {name}", size_per_point * float(count))
+        for name, count in zip(region.arm.joint_names, region.survives.sum(axis=0), strict=True)
+    ]
+    bars.append(("after any lock", region.size))
+    error = np.abs(np.array(region.size_interval) - region.size)
+    limits_text = "limits optimised" if region.optimised else "limits given"
+    lower, upper = region.size_interval
+    method = (
+        "in closed form for each radius"
+        if region.exact
+        else f"{len(region.points)} points, {region.angles} locked values per joint, {region.confidence:.0%} interval "
+        f"{lower:.3g} to {upper:.3g}"
+    )
+    sizes = f"{region.size:.4g} {region.unit} of {region.healthy_size:.4g} {region.unit}"
+    caption = f"{region.arm.name}, task {region.task.name}: {sizes} ({method}); {limits_text}"
+    unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
+    return region_figure(maps, bars, unit, error, caption)
