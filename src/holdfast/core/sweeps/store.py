@@ -422,9 +422,7 @@ class Store:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", category=UserWarning)
-                data: xr.Dataset = xr.open_zarr(
-                    self.path / _SAMPLES_FOLDER, consolidated=False, mask_and_scale=False, chunks=None
-                )
+                data = xr.open_zarr(self.path / _SAMPLES_FOLDER, consolidated=False, mask_and_scale=False, chunks=None)
         except Exception as error:  # zarr and xarray raise many kinds for damaged files
             raise self._damage_error(error) from error
         return data
