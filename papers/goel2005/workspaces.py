@@ -127,7 +127,7 @@ def grid_table(w: hf.Workspace) -> list[str]:
 def analysis(method: str, lattice: int = 52) -> tuple[hf.Workspace, float]:
     """Every start of the lattice, and seconds of processor time (of all threads)."""
     begun = time.process_time()
-    w = hf.workspace(law(), TARGET, f"grid:{lattice}", method=method)  # type: ignore[arg-type]
+    w = hf.workspace(law(), TARGET, f"grid:{lattice}", method=method)  # type: ignore[call-overload]
     return w, time.process_time() - begun
 
 

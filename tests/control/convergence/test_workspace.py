@@ -173,7 +173,7 @@ def test_limits_of_a_whole_turn_are_none(arm):
 
 
 def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
-    module = sys.modules[hf.workspace.__module__]  # the name of the module is that of the function in the package
+    module = sys.modules[hf.Workspace.__module__]
     monkeypatch.setattr(module, "_CHUNK_STARTS", 3)
     options = {"starts": "grid:5", "configurations": 2, "points": 1, "cells": 8}
     seen = []

@@ -58,8 +58,8 @@ def compare_laws(
     best: Literal[True],
     **options: Any,
 ) -> LawChoice: ...
-@check_arguments
-def compare_laws(  # type: ignore[misc]  # of the second signature it takes the options that belong to best
+@check_arguments  # type: ignore[misc]  # the second signature leaves its options to this check
+def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike | str | int | Places,
     target: ArrayLike | str | int | Places,

@@ -152,9 +152,9 @@ def workspace(
     over: Literal["targets"],
     **options: Any,
 ) -> TargetMeasures: ...
-@check_arguments
+@check_arguments  # type: ignore[misc]  # the second signature leaves its options to this check
 @reports_progress("simulating failures")
-def workspace(  # type: ignore[misc]  # of the second signature it takes the options that belong to targets
+def workspace(
     law: Law,
     target: ArrayLike | str | int | Places,
     starts: ArrayLike | str | int | Places | None = None,
