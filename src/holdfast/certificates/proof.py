@@ -69,8 +69,8 @@ class BisectionResult(CertificateResult):
     ) -> Self:
         """Return the result of a search for a claim, with the certificate that the fields prove."""
         document = documents.build_document(claim, fields, undecided=undecided, seconds=seconds, nodes=nodes)
-        fractions = {"proved": 1 - undecided, "undecided": undecided}
-        return cls(claim=claim, **fractions, nodes=nodes, seconds=seconds, document=document, **values)
+        counts: dict[str, Any] = {"proved": 1 - undecided, "undecided": undecided, "nodes": nodes, "seconds": seconds}
+        return cls(claim=claim, document=document, **counts, **values)
 
     @property
     def ok(self) -> bool:

@@ -54,7 +54,7 @@ class CertificateChain:
         frames[0] = arm.base @ frames[0]
         frames.append(from_axis @ arm.tool)
         rotations, origins = np.array([frame[:3, :3] for frame in frames]), np.array([frame[:3, 3] for frame in frames])
-        return cls(rotations, origins, link_lengths(rotations, origins[1:], arm.prismatic), arm.prismatic)
+        return cls(rotations, origins, link_lengths(rotations, list(origins[1:]), arm.prismatic), arm.prismatic)
 
     def closest_points_on_axes(self, joint: int) -> tuple[float, float] | None:
         """Return the heights, m, on the axes of joint k and the next joint at which these axes are closest; None if they are

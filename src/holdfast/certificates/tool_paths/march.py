@@ -170,9 +170,14 @@ class LockSlabSearch:
     def state(self) -> SearchState:
         """Progress, as fractions of the lock instants of one joint."""
         proved, refuted = (sum(span.stop - span.begin for span in spans) for spans in (self.proved, self.refuted))
-        instants = {"proved": proved, "refuted": refuted, "undecided": self.closed_instants - proved - refuted}
-        fractions = {key: count / self._claimed_instants for key, count in instants.items()}
-        return SearchState(**fractions, open=1 - self.closed_instants / self._claimed_instants, nodes=self.nodes)
+        total = self._claimed_instants
+        return SearchState(
+            proved=proved / total,
+            refuted=refuted / total,
+            undecided=(self.closed_instants - proved - refuted) / total,
+            open=1 - self.closed_instants / total,
+            nodes=self.nodes,
+        )
 
     def _activate_slabs(self) -> None:
         """Activate waiting slabs while there is capacity."""

@@ -57,9 +57,12 @@ class ToolPathResult(JobResult):
     def from_arrays(cls, arrays: Parts, **values: Any) -> Self:
         """Rebuild a result from the arrays of :meth:`to_arrays`."""
         entries, refuted = json.loads(arrays["intervals"].tobytes())
-        slabs = [LockSlab(*numbers, [np.array(center) for center in centers]) for *numbers, centers in entries]
+        slabs = [
+            LockSlab(begin, stop, halvings, ends, [np.array(center) for center in centers])
+            for begin, stop, halvings, ends, centers in entries
+        ]
         proved, deferred = (tuple(slab for slab in slabs if bool(slab.ends) == has_cells) for has_cells in (True, False))
-        intervals = tuple(RefutedInterval(*numbers, bytes(tree)) for *numbers, tree in refuted)
+        intervals = tuple(RefutedInterval(begin, stop, instant, bytes(tree)) for begin, stop, instant, tree in refuted)
         return super().from_arrays(arrays, slabs=proved, refuted_intervals=intervals, deferred=deferred, **values)
 
 
@@ -106,7 +109,7 @@ class ToolPathJob(SearchJob):
 
     def read_result(self, search: LockSlabSearch, **values: Any) -> ToolPathResult:
         """Return the result so far."""
-        slabs, refuted = (tuple(sorted(spans, key=_begin)) for spans in (search.proved, search.refuted))
+        slabs, refuted = tuple(sorted(search.proved, key=_begin)), tuple(sorted(search.refuted, key=_begin))
         deferred = search.deferred_slabs if values["finished"] else ()
         return ToolPathResult(slabs=slabs, refuted_intervals=refuted, deferred=deferred, **values)
 
