@@ -38,7 +38,7 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     table, figure = tmp_path / "run.csv", tmp_path / "run.png"
     code, out, err = cli(*CALL, "--target", "1.7071068 0.7071068", "--csv", table, "--plot", figure)
     assert (code, err) == (0, "")
-    assert "reaches the target" in out
+    assert "reaches its target" in out
     assert "locked" in out
     assert "-315 deg" in out
     rows = np.loadtxt(table, delimiter=",", skiprows=1)

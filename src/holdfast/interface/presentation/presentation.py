@@ -167,7 +167,7 @@ class FigureSpec:
     """Figure: the function that draws it, the title of its section on the page, and its caption.
 
     ``on_page=False``: it is a file and a plot, and the page does not show it, or shows it in a section of its own.
-    ``preview`` draws it faster, for notebooks.
+    ``preview`` draws it faster, for notebooks. ``saved=False``: it is not written into the folder of the results.
     """
 
     draw: Callable[[], Figure]
@@ -175,6 +175,7 @@ class FigureSpec:
     caption: str = ""
     on_page: bool = True
     preview: Callable[[], Figure] | None = None
+    saved: bool = True
 
 
 @dataclass(frozen=True)

@@ -143,7 +143,8 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
     figure_blocks: dict[str, list[Block]] = {}
     for name, figure in presentation.figures.items():
         if figure.on_page:
-            image = _render_svg(drawn[name] if drawn else figure.draw(), name, f"{presentation.title}: {figure.title.lower()}")
+            drawn_figure = drawn[name] if drawn and name in drawn else figure.draw()
+            image = _render_svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
     is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
     facts = list(zip(presentation.facts, is_at_top, strict=True))
@@ -189,11 +190,14 @@ def _render_svg(figure: Figure, name: str, description: str) -> Any:
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100, **options: Any) -> list[Path]:
     """Write the figures as PNG files, the other files of the result, and the page."""
     from holdfast.interface.report import page
-    from holdfast.interface.report.figures import save_png
 
     folder, presentation = make_folder(folder), present(result, **options)
-    drawn = {name: figure.draw() for name, figure in presentation.figures.items()}
-    files = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
+    drawn = {name: figure.draw() for name, figure in presentation.figures.items() if figure.saved}
+    files = []
+    if drawn:
+        from holdfast.interface.report.figures import save_png
+
+        files = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
     for name, write_file in presentation.exports.items():
         write_file(folder / name)
         files.append(folder / name)

@@ -161,7 +161,7 @@ def draw_chain(
                 axes.plot(
                     *chain[chosen].T, marker, color=face, markeredgecolor=color, markersize=node_size, zorder=zorder + 0.2
                 )
-    axes.plot(*chain[0], "s", color=color, markersize=8, zorder=zorder + 0.1)
+    axes.plot(*chain[0], "s", color=color, markersize=8, zorder=zorder + 0.3)
     if tool_color:
         axes.plot(*chain[-1], "D", color=tool_color, markeredgecolor="white", markersize=7, zorder=zorder + 0.5)
 

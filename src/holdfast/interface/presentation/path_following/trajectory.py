@@ -99,7 +99,7 @@ def present(trajectory: Trajectory) -> Presentation:
         notices=[] if trajectory.on_path else [Notice(f"{trajectory.headline}.", "bad")],
         facts=_list_facts(trajectory, unit),
         tables=tables,
-        figures={"motion": FigureSpec(lambda: _draw_figure(trajectory), on_page=False)},
+        figures={"motion": FigureSpec(lambda: _draw_figure(trajectory), on_page=False, saved=False)},
         sections=lambda: _build_sections(trajectory),
         method=[
             ("Law", trajectory.method),

@@ -101,7 +101,7 @@ def present(optima: Optima, asked: str = "") -> Presentation:
         median = "" if is_single else "s, median"
         facts += [
             Fact("best found", after, unit, phrase=f"{name} at the best configuration{median}", digits=6),
-            Fact("before", before, unit, phrase=f"before: {reference}", digits=6),
+            Fact(f"before ({reference})", before, unit, phrase=f"before: {reference}", digits=6),
         ]
     if is_single:
         agreeing, starts = float(rows.agreeing[0]), int(rows.starts[0])

@@ -48,6 +48,8 @@ def present(region: TolerantWorkspace) -> Presentation:
     ]
     if is_kept:
         facts.insert(0, Fact("", region.share, phrase="of the workspace is kept wherever a joint locks", style="percent"))
+    sampling_text = f"{len(region.points):,} points, {region.angles} locked values per joint"
+    facts.append(Fact("region", "in closed form for each radius" if region.exact else sampling_text))
     if not region.exact:
         label = f"interval of the size, {100 * region.confidence:.4g} %"
         facts.append(Fact(label, tuple(map(float, region.size_interval)), unit))
@@ -64,9 +66,6 @@ def present(region: TolerantWorkspace) -> Presentation:
         Column("lost", "points lost by its lock", style="percent"),
     ]
     joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
-    sampling_text = (
-        f"{len(region.points):,} points, {region.angles} locked values of each joint; values between them are not tried"
-    )
     return Presentation(
         f"What {region.arm.name} reaches before and after any lock",
         _compose_answer(region),
@@ -89,7 +88,6 @@ def present(region: TolerantWorkspace) -> Presentation:
                 "a point that the arm reaches within the artificial limits, and still reaches wherever in them any one joint "
                 "locks",
             ),
-            ("Region", "in closed form for each radius" if region.exact else sampling_text),
             ("Limits", "optimised for the largest region" if region.optimised else "given, or the arm's own"),
         ],
         arm=region.arm,
