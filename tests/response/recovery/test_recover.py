@@ -300,7 +300,7 @@ def test_what_is_polished_of_a_goal_out_of_reach_is_not_the_same_again(monkeypat
     """Most random starts of this goal end at one configuration, at a limit."""
     polished: dict[int, list[np.ndarray]] = {}
 
-    def kept(solver, space, pose, q, lost):
+    def kept(search, pose, q, lost):
         polished.setdefault(lost[0], []).append(q)
         return q
 
