@@ -12,6 +12,7 @@ import pytest
 import holdfast as hf
 from holdfast import Capsules, Clearance, arms
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_percent
 from holdfast.interface.cli.declaration import as_typer
 from holdfast.interface.cli.groups import ClearanceOptions
 from holdfast.interface.cli.program import COMMAND_MODULES
@@ -53,9 +54,9 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
     text = " ".join(out.split())
     assert code == 0
     for part in (
-        f"the arm collides with itself in {found.found / found.reached:.1%} of the {found.reached} configurations found",
-        "it comes closer than 0.01 m to itself",
-        "given radius 0.13 m along each link; margin 0.01 m",
+        f"collides with itself {format_percent(found.found / found.reached)} of the configurations found",
+        "the best configurations keep a clearance of 0.01 m",
+        "given radius 0.13 m along each link",
     ):
         assert part in text, part
     assert "collides with itself" not in cli(*common, "--no-clearance")[1]
@@ -164,7 +165,7 @@ def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
     assert data["best_barred_by"] is None
     assert data["cell"]["sha256"] == cell.digest
     text = " ".join(cli(*common, "--radius", 0.02)[1].split())
-    assert f"collides with the cell in at most {run.collisions.found / run.collisions.reached:.1%} of the" in text
+    assert f"collides with the cell at most {format_percent(run.collisions.found / run.collisions.reached)} of the" in text
     assert "cell 'bench' with 2 objects" in text
     slender = (*BEST, "--radius", 0.02)
     free = ask(*slender)["poses"][0]

@@ -217,7 +217,7 @@ class ThresholdAnswer:
         return (
             f"poses count by weight: {format_percent(1 - self.distribution.unreached_share)} of the weight is reached. "
             f"Effective sample size "
-            f"{self.distribution.effective():,.0f} of {self.distribution.samples:,} (total weight over the largest "
+            f"{format_number(self.distribution.effective())} of {self.distribution.samples:,} (total weight over the largest "
             f"weight): intervals and bands are "
             "those of so many equal poses"
         )
