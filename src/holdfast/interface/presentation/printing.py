@@ -14,6 +14,8 @@ import typer
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from holdfast.core.typing import FloatArray
+
 _ROUNDING_ERROR = 2e-9  # a number below it beside larger ones is 0
 
 
@@ -80,7 +82,7 @@ def format_position(value: float, unit: str, digits: int = 4) -> str:
     return f"{text} ({format_significant(np.degrees(value), digits)} deg)" if unit == "rad" else text
 
 
-def format_positions(values: Sequence[float], units: Sequence[str], digits: int = 5) -> list[str]:
+def format_positions(values: Sequence[float] | FloatArray, units: Sequence[str], digits: int = 5) -> list[str]:
     """Format a column of positions, or of measures of joints; angles are also given in degrees."""
     degrees = iter(
         format_column(np.degrees([value for value, unit in zip(values, units, strict=True) if unit == "rad"]), "deg")

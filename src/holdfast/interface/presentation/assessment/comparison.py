@@ -113,11 +113,11 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
         if runner_up.value < best.value and not best_intervals_are_disjoint(comparison):
             text += f" Their intervals overlap: more {first.noun}s would tell them apart."
     if all(assessment.optimised is not None for assessment in comparison.assessments):
-        leaders = find_leaders(comparison, optimised=True)
-        probability = comparison.interval(leaders[0], optimised=True)
+        optimised_leaders = find_leaders(comparison, optimised=True)
+        probability = comparison.interval(optimised_leaders[0], optimised=True)
         if probability.value > 0:
             text += (
-                f" After optimisation the largest probability is that of {' and '.join(leaders)}, "
+                f" After optimisation the largest probability is that of {' and '.join(optimised_leaders)}, "
                 f"{format_interval(probability)}."
             )
     return text
