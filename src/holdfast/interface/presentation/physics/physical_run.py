@@ -72,7 +72,7 @@ def present(run: PhysicalRun) -> Presentation:
             *([] if saturated_text else [Fact("motors at their effort", "none")]),
         ],
         tables=[
-            *kinematic.tables,
+            *kinematic.list_tables(),
             TableSpec("The same with masses and servos", columns, _compare_endings(run)),
             *([replace(tabulate_contacts(run.contacts), title="Contacts in MuJoCo")] if run.contacts else []),
         ],
