@@ -278,9 +278,12 @@ class Runs(Result):
         violations = []
         for joint, minimum, maximum in zip(arm.joints, lowest, highest, strict=True):
             factor, unit = joint.display_unit
-            passed = [(minimum, joint.lower)] * (minimum < joint.lower) + [(maximum, joint.upper)] * (maximum > joint.upper)
-            for value, limit in passed:
-                violations.append(f"{joint.name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
+            for value, limit, passes in (
+                (minimum, joint.lower, minimum < joint.lower),
+                (maximum, joint.upper, maximum > joint.upper),
+            ):
+                if passes:
+                    violations.append(f"{joint.name} goes to {factor * value:.4g} {unit} (limit {factor * limit:.4g} {unit})")
         if not violations:
             return "All joints stay within their limits."
         return f"On the way {' and '.join(violations)}: a real arm would stop there."
