@@ -41,7 +41,7 @@ def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec
         Column("exact_time", "exactly at"),
         Column("depth_mm", "at most, mm deep", aligned=False),
     ]
-    rows = [
+    rows: list[tuple[Any, ...]] = [
         (contact.link, contact.object, contact.time, _format_exact_time(contact), 1000 * contact.depth) for contact in contacts
     ]
     if all(contact.exact_time is None for contact in contacts):

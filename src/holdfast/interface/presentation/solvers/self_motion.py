@@ -187,7 +187,7 @@ def _animate_self_motion(motion: SelfMotion) -> list[Section]:
     if len(q) < 2:
         return []
     caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
-    options = {"time": np.linspace(0.0, 8.0, len(q)), "targets": [motion.pose], "cell": motion.cell}
+    options: dict[str, Any] = {"time": np.linspace(0.0, 8.0, len(q)), "targets": [motion.pose], "cell": motion.cell}
     return [build_view_section("The self-motion", motion.arm, q, caption, **options)]
 
 
