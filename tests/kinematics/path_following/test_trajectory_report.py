@@ -39,7 +39,7 @@ def test_a_calm_motion(calm, tmp_path):
     html = file.read_text(encoding="utf-8").replace("\u00a0", " ")
     check(html)
     for text in (
-        "the end effector stays on its path",
+        "The end effector stays on its path",
         "the same path without it",
         "best of each pose",
         "best continuous motion",

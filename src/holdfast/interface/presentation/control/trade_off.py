@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _NEGLIGIBLE_GAIN = 0.005  # less than this gain is none
 _PLATEAU_TOLERANCE = 1e-3  # differences that nobody would pay for
-_CAPTION = (
+_FIGURE_CAPTION = (
     "Left: the peak velocity error after an unnoticed lock of any joint, divided by that of the pseudoinverse; below 1 the "
     "failed arm gains. Right: the velocity error of the healthy arm. Bands hold half, and nine tenths, of the samples."
 )
@@ -86,7 +86,7 @@ def present(curve: TradeOff) -> Presentation:
         about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
         facts=facts,
         tables=[TableSpec("Medians over the samples", columns, rows)],
-        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _CAPTION)},
+        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _FIGURE_CAPTION)},
         method=[
             ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
             ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import print_limit_violations
@@ -91,7 +89,7 @@ def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) ->
     results = susceptibility_values(measure, q)
     kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
     states = ["" if state == "ok" else state.replace("_", " ") for state in results["joint_status"].values()]
-    rows = list(zip(results["by_joint"], format_positions(np.array(values), kinds, 6), states, strict=True))
+    rows = list(zip(results["by_joint"], format_positions(values, kinds, 6), states, strict=True))
     verdict = f"[bold]{format_significant(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
     _show_measure(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
     for state in dict.fromkeys(results["joint_status"].values()):

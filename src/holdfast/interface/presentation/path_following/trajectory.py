@@ -63,11 +63,11 @@ def present(trajectory: Trajectory) -> Presentation:
     """Present whether the end effector stays on its path, the objective along it, and the events."""
     objective, arm = trajectory.objective, trajectory.arm
     unit = "" if objective.unit in ("1", "mixed") else objective.unit
-    answer = f"The worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}"
+    worst_text = f"worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}."
     if trajectory.on_path:
-        answer += f"; the end effector stays on its path, off it by {trajectory.tool_error}."
+        answer = f"The end effector stays on its path, off it by {trajectory.tool_error}; the {worst_text}"
     else:
-        answer += f". The end effector leaves its path, by up to {trajectory.tool_error}."
+        answer = f"The end effector leaves its path, by up to {trajectory.tool_error}. The {worst_text}"
     lines, tables = [], [_tabulate_values(trajectory, unit)]
     if trajectory.clearance is not None and trajectory.nearest is not None:
         sample, pair = trajectory.nearest
