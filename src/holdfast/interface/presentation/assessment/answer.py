@@ -89,7 +89,7 @@ class ThresholdAnswer:
         """Return the probability that a pose meets a threshold, this one if none is given."""
         option = "at_least" if self.larger_is_better else "at_most"
         value = self.threshold if threshold is None else threshold
-        return self.assessment.interval(**{option: value}, optimised=optimised, reachable_only=reachable_only)  # type: ignore[arg-type]
+        return self.assessment.interval(**{option: value}, optimised=optimised, reachable_only=reachable_only)
 
     @property
     def condition(self) -> str:

@@ -289,4 +289,4 @@ def _build_sections(survival: LockSurvival) -> Sequence[Section]:
 def _draw(survival: LockSurvival, name: str) -> Figure:
     from holdfast.interface.presentation.lock_survival import figures
 
-    return getattr(figures, f"draw_{name}")(survival)  # type: ignore[no-any-return]
+    return getattr(figures, f"draw_{name}")(survival)
