@@ -188,7 +188,7 @@ def test_a_fast_record_without_torques_is_printed_without_a_warning(crane, healt
     fast = np.stack([2.0 * t, 0.5 + t, 0.8 - t], axis=1)
     found = hf.diagnosis.diagnose(crane, Log(t=t, q_ref=fast, q=fast + 1e-4), bounds)
     assert not found.verdict.alarm
-    assert call_presenter(found, "tables")[0].rows
+    assert call_presenter(found, "present").tables[0].texts().rows
 
 
 @pytest.mark.parametrize("joints", [[0, 1, 2], [1]])

@@ -94,10 +94,10 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
     target = f"{indefinite_article(target)} {target}"
     task_names = list(dict.fromkeys(assessment.index.task.name for assessment in comparison.assessments))
     if len(task_names) > 1:
-        leaders = [(task, comparison.best(task)) for task in task_names]
+        task_leaders = [(task, comparison.best(task)) for task in task_names]
         verdicts = [
             f"{task}, {f'{name} with {format_interval(p)}' if (p := comparison.interval(name)).value > 0 else 'none'}"
-            for task, name in leaders
+            for task, name in task_leaders
         ]
         return f"Probability of keeping {target}, the best candidate of each task: {'; '.join(verdicts)}."
     ranked = comparison.ranking()

@@ -288,11 +288,17 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
             for candidate in laws
             if candidate.labels["arm"] == result.labels["arm"] and candidate.labels["task"] == result.labels["task"]
         )
+<<<<<<< HEAD
         gain_text = "–"
         if result is not reference:
             gain = results.compare_convergence_cells(reference, result)
             if gain is not None:
                 gain_text = f"{gain.value:+.3f} ({gain.low:+.3f} to {gain.high:+.3f})".replace("-", "−")
+=======
+        gain_text, gain = "–", None if result is reference else results.compare_convergence_cells(reference, result)
+        if gain is not None:
+            gain_text = f"{gain.value:+.3f} ({gain.low:+.3f} to {gain.high:+.3f})".replace("-", "−")
+>>>>>>> s21-present2
         joint = int(np.argmin([reach_interval.value for reach_interval in result.reaches[:-1]]))
         worst = f"{result.joints[joint] if joint < len(result.joints) else joint + 1}: {result.reaches[joint].value:.3f}"
         row: list[Any] = [result.labels["arm"], result.labels["law"], result.labels["task"], result.mean_fraction, gain_text]
