@@ -9,14 +9,14 @@ import numpy as np
 
 from holdfast.control.laws.trade_offs import QUANTILE_LEVELS, TradeOff
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _NEGLIGIBLE_GAIN = 0.005  # less than this gain is none
 _PLATEAU_TOLERANCE = 1e-3  # differences that nobody would pay for
-_FIGURE_CAPTION = (
+_FIGURE_FIGURE_CAPTION = (
     "Left: the peak velocity error after an unnoticed lock of any joint, divided by that of the pseudoinverse; below 1 the "
     "failed arm gains. Right: the velocity error of the healthy arm. Bands hold half, and nine tenths, of the samples."
 )
@@ -72,11 +72,11 @@ def present(curve: TradeOff) -> Presentation:
         ]
     low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
     columns = [
-        Column("pre_failure_error", "allowed error", digits=2),
-        Column("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
-        Column("gain_interval", "95 % interval", digits=3),
-        Column("gain_range", "5 to 95 % of the samples", digits=3),
-        Column("healthy_error", "error of the healthy arm", digits=3),
+        TableColumn("pre_failure_error", "allowed error", digits=2),
+        TableColumn("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
+        TableColumn("gain_interval", "95 % interval", digits=3),
+        TableColumn("gain_range", "5 to 95 % of the samples", digits=3),
+        TableColumn("healthy_error", "error of the healthy arm", digits=3),
     ]
     intervals, ranges = zip(lower, upper, strict=True), zip(low_quantile, high_quantile, strict=True)
     rows = list(zip(curve.allowed, median_gain, intervals, ranges, healthy_error, strict=True))
@@ -86,7 +86,7 @@ def present(curve: TradeOff) -> Presentation:
         about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
         facts=facts,
         tables=[TableSpec("Medians over the samples", columns, rows)],
-        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _FIGURE_CAPTION)},
+        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _FIGURE_FIGURE_CAPTION)},
         method=[
             ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
             ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),

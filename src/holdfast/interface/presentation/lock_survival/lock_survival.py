@@ -10,7 +10,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.renderers import write_json
 
@@ -232,10 +232,10 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     joints = TableSpec(
         "Survival by joint",
         [
-            Column("joint", "joint"),
-            Column("part", "part of all locks", style="percent"),
-            Column("survived", "of its locks survived", style="percent"),
-            Column("loss", "largest loss of tool velocity"),
+            TableColumn("joint", "joint"),
+            TableColumn("part", "part of all locks", style="percent"),
+            TableColumn("survived", "of its locks survived", style="percent"),
+            TableColumn("loss", "largest loss of tool velocity"),
         ],
         [
             [name, float(fraction), survived, _format_largest(velocity_loss, survival.time)]
@@ -246,9 +246,9 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     motions = TableSpec(
         "Other motions along the path",
         [
-            Column("motion", "motion"),
-            Column("survival", "locks survived", style="percent"),
-            Column("off", "off the path", style="percent"),
+            TableColumn("motion", "motion"),
+            TableColumn("survival", "locks survived", style="percent"),
+            TableColumn("off", "off the path", style="percent"),
         ],
         [
             [motion_name, survival.survival, 0.0],

@@ -9,7 +9,7 @@ import numpy as np
 
 from holdfast.core.formatting import format_as_given, format_half_width, format_number, format_percent
 from holdfast.core.sweeps.study import Study
-from holdfast.interface.presentation.presentation import Column, TableSpec
+from holdfast.interface.presentation.presentation import TableColumn, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import get_index_key, read_cells
 from holdfast.interface.presentation.studies.designs import build_sweep_blocks
@@ -60,7 +60,9 @@ def build_sections(
 
 def _tabulate(title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Block:
     """Build a table of texts and fractions."""
-    block: Block = build_table_block(TableSpec(title, [Column(label, label, style="percent") for label in head], rows).texts())
+    block: Block = build_table_block(
+        TableSpec(title, [TableColumn(label, label, style="percent") for label in head], rows).texts()
+    )
     return block
 
 
@@ -288,17 +290,9 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
             for candidate in laws
             if candidate.labels["arm"] == result.labels["arm"] and candidate.labels["task"] == result.labels["task"]
         )
-<<<<<<< HEAD
-        gain_text = "–"
-        if result is not reference:
-            gain = results.compare_convergence_cells(reference, result)
-            if gain is not None:
-                gain_text = f"{gain.value:+.3f} ({gain.low:+.3f} to {gain.high:+.3f})".replace("-", "−")
-=======
         gain_text, gain = "–", None if result is reference else results.compare_convergence_cells(reference, result)
         if gain is not None:
             gain_text = f"{gain.value:+.3f} ({gain.low:+.3f} to {gain.high:+.3f})".replace("-", "−")
->>>>>>> s21-present2
         joint = int(np.argmin([reach_interval.value for reach_interval in result.reaches[:-1]]))
         worst = f"{result.joints[joint] if joint < len(result.joints) else joint + 1}: {result.reaches[joint].value:.3f}"
         row: list[Any] = [result.labels["arm"], result.labels["law"], result.labels["task"], result.mean_fraction, gain_text]
