@@ -93,8 +93,8 @@ class Fact:
 
 
 @dataclass(frozen=True)
-class TableColumn:
-    """TableColumn of a table: its name in JSON and CSV, its head, and the unit of its values (of each row, if they differ).
+class Header:
+    """Head of a column of a table: its name in JSON and CSV, its head, and the unit of its values (of each row, if they differ).
 
     Numbers of one unit share one precision where their magnitudes allow it; ``aligned=False`` formats each by itself.
     """
@@ -130,14 +130,14 @@ class TableSpec:
 
     Attributes:
         title: Above the table.
-        columns: See :class:`TableColumn`.
+        columns: See :class:`Header`.
         rows: Values, a sequence for each row.
         key: Its name in JSON, where the presenter has no ``to_dict``.
         on_console, on_page: Where it is shown.
     """
 
     title: str
-    columns: Sequence[TableColumn]
+    columns: Sequence[Header]
     rows: Sequence[Sequence[Any]]
     _: KW_ONLY
     key: str = ""

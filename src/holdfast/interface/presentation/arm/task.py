@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from holdfast.core.labels import TASK_ROW_NAMES
-from holdfast.interface.presentation.presentation import Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
 from holdfast.model.arm.task import Task
 
 
 def present(task: Task) -> Presentation:
     """Present the twist of each task row."""
-    columns = [TableColumn("row", "row"), *[TableColumn(name, name, aligned=False) for name in TASK_ROW_NAMES]]
+    columns = [Header("row", "row"), *[Header(name, name, aligned=False) for name in TASK_ROW_NAMES]]
     rows = [(number, *row) for number, row in enumerate(task.rows.tolist(), 1)]
     return Presentation(task.name, task.describe(), tables=[TableSpec(f"in the {task.frame} frame", columns, rows)])

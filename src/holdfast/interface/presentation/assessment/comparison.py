@@ -24,7 +24,7 @@ from holdfast.interface.presentation.assessment.tables import (
     rank_optimised_upgrades,
 )
 from holdfast.interface.presentation.collision.shape import describe_cell
-from holdfast.interface.presentation.presentation import FigureSpec, Notice, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model.arms.tool import format_tool_pose
 from holdfast.studies.assessment.upgrade import MAX_REOPTIMISED_POSES
@@ -143,16 +143,16 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
     optimised = any(run.optimised is not None for run in runs)
     survival = any(run.survivors is not None for run in runs)
     prefixes = ("", "optimised_")[: 1 + optimised]
-    name = TableColumn("name", "candidate")
+    name = Header("name", "candidate")
     condition = f"P({'≥' if first.larger_is_better else '≤'} {format_as_given(comparison.threshold)})"
     columns = [
         name,
-        TableColumn("task", "task"),
-        TableColumn("redundancy", "redundancy"),
-        TableColumn("reached", "reached, 95 % interval", style="percent"),
-        *[TableColumn(f"{p}probability", f"{p and 'optimised '}{condition}, 95 % interval", style="percent") for p in prefixes],
-        *[TableColumn(f"{p}median", f"{p and 'optimised '}median") for p in prefixes],
-        *[TableColumn("expected_survival", "left after a lock", style="percent")] * survival,
+        Header("task", "task"),
+        Header("redundancy", "redundancy"),
+        Header("reached", "reached, 95 % interval", style="percent"),
+        *[Header(f"{p}probability", f"{p and 'optimised '}{condition}, 95 % interval", style="percent") for p in prefixes],
+        *[Header(f"{p}median", f"{p and 'optimised '}median") for p in prefixes],
+        *[Header("expected_survival", "left after a lock", style="percent")] * survival,
     ]
     title = (
         f"P: fraction of the {format_count(first.distribution.samples, first.noun)} whose {first.condition}; medians are over "
@@ -165,8 +165,8 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
         "Worst failure: the most frequent. Single point of failure: a joint whose lock ends the task in every configuration",
         [
             name,
-            *[TableColumn(f"{p}worst", f"{p and 'optimised: '}worst failure") for p in prefixes],
-            TableColumn("single_points_of_failure", "single point of failure"),
+            *[Header(f"{p}worst", f"{p and 'optimised: '}worst failure") for p in prefixes],
+            Header("single_points_of_failure", "single point of failure"),
         ],
         [
             [row["name"], *[_format_worst_failure(row, prefix) for prefix in prefixes], _list_single_points(row)]
@@ -184,17 +184,12 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
         ]
         for row, run in zip(table, runs, strict=True)
     ]
-    columns = [
-        name,
-        TableColumn("arm", "arm"),
-        TableColumn("tool", "tool"),
-        TableColumn("bound", "bound of the index", digits=3),
-    ]
-    columns += [TableColumn(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
+    columns = [name, Header("arm", "arm"), Header("tool", "tool"), Header("bound", "bound of the index", digits=3)]
+    columns += [Header(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
     yield TableSpec(
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
         "Gap: by how much the median of the reached poses falls short of it",
-        [*columns, TableColumn("source", "source"), TableColumn("fingerprint", "fingerprint")],
+        [*columns, Header("source", "source"), Header("fingerprint", "fingerprint")],
         detail_rows,
         on_console=False,
     )
@@ -238,13 +233,9 @@ def _tabulate_upgrades(comparison: Comparison, first: ThresholdAnswer, optimised
             cells += (list_gain_cells(after[upgrade.joint]) if after else ["–", "–"]) if optimised else []
             rows.append(cells)
     missing = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.has_rows]
-    columns = [
-        TableColumn("name", "candidate"),
-        TableColumn("joint", "if this never failed"),
-        TableColumn("before", "P now", digits=3),
-    ]
+    columns = [Header("name", "candidate"), Header("joint", "if this never failed"), Header("before", "P now", digits=3)]
     for label in ("P then", "after optimisation")[: 1 + optimised]:
-        columns += [TableColumn("after", label, digits=3, aligned=False), TableColumn("gain", "gain, 95 % interval")]
+        columns += [Header("after", label, digits=3, aligned=False), Header("gain", "gain, 95 % interval")]
     title = (
         f"P({first.condition}). The {_MAX_UPGRADES} joints of each candidate that gain most from a redundant motor or brake; "
         f"its own report has all"

@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_as_given, format_decimals
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.presentation.presentation import TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.comparison import Comparison
 from holdfast.studies.assessment.upgrade import Upgrade
@@ -50,18 +50,15 @@ def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
         for label, sampled, reachable_only, mean in samples
     ]
     finite = " of finite values" if distribution.infinite else ""
-    columns = [TableColumn("sample", f"{answer.index.name} over … {answer.noun}s")]
-    columns += [TableColumn(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _QUANTILE_LEVELS]
-    return TableSpec("", [*columns, TableColumn("mean", f"mean{finite}"), TableColumn("best", "best")], rows)
+    columns = [Header("sample", f"{answer.index.name} over … {answer.noun}s")]
+    columns += [Header(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _QUANTILE_LEVELS]
+    return TableSpec("", [*columns, Header("mean", f"mean{finite}"), Header("best", "best")], rows)
 
 
 def _tabulate_thresholds(answer: ThresholdAnswer, thresholds: Sequence[float]) -> TableSpec:
     """Tabulate the probabilities of meeting thresholds."""
     samples = [(False, "probability"), (True, "optimised")][: 1 + (answer.assessment.optimised is not None)]
-    columns = [
-        TableColumn("threshold", answer.index.name),
-        *[TableColumn(label, f"{label}, 95 % interval") for _, label in samples],
-    ]
+    columns = [Header("threshold", answer.index.name), *[Header(label, f"{label}, 95 % interval") for _, label in samples]]
     relation = "at least" if answer.larger_is_better else "at most"
     rows = [
         [f"{relation} {value:g}", *[answer.interval(optimised, threshold=value) for optimised, _ in samples]]
@@ -80,7 +77,7 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
     if len(chosen) > _MAX_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MAX_ROWS])
     tail_level = 0.05 if answer.larger_is_better else 0.95
-    columns, values_by_column = [TableColumn("failure", "if this locks")], [[labels[failure] for failure in chosen]]
+    columns, values_by_column = [Header("failure", "if this locks")], [[labels[failure] for failure in chosen]]
     samples = zip(("", "after: "), answer.samples, (counts, assessment.optimised_worst_counts), strict=False)
     for prefix, (_, _, poses), worst_counts in samples:
         assert worst_counts is not None
@@ -88,20 +85,17 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
             values = poses.by_failure[poses.reached]
             weights = None if poses.weight is None else poses.weight[poses.reached]
             quantiles = np.quantile(values, [0.5, tail_level], axis=0, method="inverted_cdf", weights=weights)
-            columns += [
-                TableColumn("median", f"{prefix}median"),
-                TableColumn("tail", f"{prefix}{100 * tail_level:.0f} % quantile"),
-            ]
+            columns += [Header("median", f"{prefix}median"), Header("tail", f"{prefix}{100 * tail_level:.0f} % quantile")]
             values_by_column += [*quantiles[:, chosen].tolist()]
             if answer.has_threshold:
                 met = values >= answer.threshold if answer.larger_is_better else values <= answer.threshold
                 fractions = np.average(met, axis=0, weights=weights)
                 relation = "≥" if answer.larger_is_better else "≤"
                 label = f"{prefix}P({relation} {format_as_given(answer.threshold)})"
-                columns.append(TableColumn("probability", label, style="percent"))
+                columns.append(Header("probability", label, style="percent"))
                 values_by_column.append(fractions[chosen].tolist())
         if worst_counts.sum():
-            columns.append(TableColumn("worst_fraction", f"{prefix}worst of all", style="percent"))
+            columns.append(Header("worst_fraction", f"{prefix}worst of all", style="percent"))
             values_by_column.append((worst_counts[chosen] / worst_counts.sum()).tolist())
     title = f"{answer.index.name} after each failure, over {answer.distribution.reached:,} {answer.reached_noun}"
     title += ", at the configurations found; after: at the best configurations" if len(answer.samples) > 1 else ""
@@ -128,7 +122,7 @@ def tabulate_upgrades(answer: ThresholdAnswer, max_rows: int = _MAX_ROWS) -> Tab
     if not ranked:
         return None
     condition = f"P({answer.condition})"
-    columns = [TableColumn("joint", "if this never failed"), *_make_gain_columns(condition)]
+    columns = [Header("joint", "if this never failed"), *_make_gain_columns(condition)]
     columns += _make_gain_columns("after optimisation") if optimised else []
     title = f"{condition} now: {ranked[0].before:.3f}"
     title += f"; after optimisation {next(iter(optimised.values())).before:.3f}" if optimised else ""
@@ -139,8 +133,8 @@ def tabulate_upgrades(answer: ThresholdAnswer, max_rows: int = _MAX_ROWS) -> Tab
     return TableSpec(title, columns, rows, on_page=False)
 
 
-def _make_gain_columns(label: str) -> list[TableColumn]:
-    return [TableColumn("after", label, digits=3), TableColumn("gain", "gain, 95 % interval")]
+def _make_gain_columns(label: str) -> list[Header]:
+    return [Header("after", label, digits=3), Header("gain", "gain, 95 % interval")]
 
 
 def list_gain_cells(upgrade: Upgrade) -> list[Any]:
@@ -155,8 +149,8 @@ def tabulate_survival(answer: ThresholdAnswer) -> TableSpec | None:
         return None
     locks = answer.assessment.locks
     rows = [[name, describe_lock(answer, name, locks[name]), share] for name, share in answer.assessment.survival().items()]
-    columns = [TableColumn("joint", "once it has locked"), TableColumn("locked_at", "where")]
-    return TableSpec("", [*columns, TableColumn("survival", "fraction of the poses still reached")], rows, on_page=False)
+    columns = [Header("joint", "once it has locked"), Header("locked_at", "where")]
+    return TableSpec("", [*columns, Header("survival", "fraction of the poses still reached")], rows, on_page=False)
 
 
 def describe_lock(answer: ThresholdAnswer, joint: str, position: float | None) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_percent
-from holdfast.interface.presentation.presentation import Fact, Notice, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
@@ -60,11 +60,11 @@ def present(check: CellCheck) -> Presentation:
             f"{1000 * check.reach:.3g} mm beyond its capsules."
         )
     columns = [
-        TableColumn("object", "object"),
-        TableColumn("margin", "margin, m", aligned=False),
-        TableColumn("width", "grid, mm"),
-        TableColumn("excess", "seems nearer by at most, mm"),
-        *([TableColumn("touching", "touched in", style="percent")] if check.arm else []),
+        Header("object", "object"),
+        Header("margin", "margin, m", aligned=False),
+        Header("width", "grid, mm"),
+        Header("excess", "seems nearer by at most, mm"),
+        *([Header("touching", "touched in", style="percent")] if check.arm else []),
     ]
     from markupsafe import Markup
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.interface.presentation.presentation import TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.model.collision.contacts import Contact
 
@@ -35,11 +35,11 @@ def _contact_entry(contact: Contact, unit: str) -> dict[str, Any]:
 def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec:
     """Tabulate the first contact time of each pair, by the bound and, where requested, exactly, and its depth."""
     columns = [
-        TableColumn("link", "link"),
-        TableColumn("object", "touches"),
-        TableColumn("time", f"first at, {unit}", aligned=False),
-        TableColumn("exact_time", "exactly at"),
-        TableColumn("depth_mm", "at most, mm deep", aligned=False),
+        Header("link", "link"),
+        Header("object", "touches"),
+        Header("time", f"first at, {unit}", aligned=False),
+        Header("exact_time", "exactly at"),
+        Header("depth_mm", "at most, mm deep", aligned=False),
     ]
     rows: list[tuple[Any, ...]] = [
         (contact.link, contact.object, contact.time, _format_exact_time(contact), 1000 * contact.depth) for contact in contacts

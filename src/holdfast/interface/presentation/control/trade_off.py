@@ -9,7 +9,7 @@ import numpy as np
 
 from holdfast.control.laws.trade_offs import QUANTILE_LEVELS, TradeOff
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -72,11 +72,11 @@ def present(curve: TradeOff) -> Presentation:
         ]
     low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
     columns = [
-        TableColumn("pre_failure_error", "allowed error", digits=2),
-        TableColumn("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
-        TableColumn("gain_interval", "95 % interval", digits=3),
-        TableColumn("gain_range", "5 to 95 % of the samples", digits=3),
-        TableColumn("healthy_error", "error of the healthy arm", digits=3),
+        Header("pre_failure_error", "allowed error", digits=2),
+        Header("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
+        Header("gain_interval", "95 % interval", digits=3),
+        Header("gain_range", "5 to 95 % of the samples", digits=3),
+        Header("healthy_error", "error of the healthy arm", digits=3),
     ]
     intervals, ranges = zip(lower, upper, strict=True), zip(low_quantile, high_quantile, strict=True)
     rows = list(zip(curve.allowed, median_gain, intervals, ranges, healthy_error, strict=True))

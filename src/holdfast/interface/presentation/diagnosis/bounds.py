@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.presentation import Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
 from holdfast.response.diagnosis.bounds import Bounds
 
 
@@ -40,10 +40,10 @@ def present(bounds: Bounds) -> Presentation:
     missing += [] if np.isfinite(bounds.position) else ["the measured tool pose"]
     lines += [f"not watched: {signal} (not in the records)" for signal in missing]
     columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("torque", "residual torque, N m (N)", digits=3),
-        TableColumn("tracking", "tracking, rad (m)", digits=3),
-        TableColumn("speed", "fastest, rad/s (m/s)", digits=3),
+        Header("joint", "joint"),
+        Header("torque", "residual torque, N m (N)", digits=3),
+        Header("tracking", "tracking, rad (m)", digits=3),
+        Header("speed", "fastest, rad/s (m/s)", digits=3),
     ]
     rows = list(zip(bounds.joints, bounds.torque, bounds.tracking, bounds.speed, strict=True))
     return Presentation(

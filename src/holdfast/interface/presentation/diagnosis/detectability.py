@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.presentation import FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
 from holdfast.response.diagnosis.detectability.observability import Observability
 from holdfast.response.diagnosis.detectability.probe import Identification, ProbingMotion
 from holdfast.response.diagnosis.detectability.separation import LOG_LIKELIHOOD_THRESHOLD
@@ -64,7 +64,7 @@ def present(result: Observability | ProbingMotion | Identification) -> Presentat
     if isinstance(result, Identification):
         answer, *lines = _describe_identification(result)
         rows = [[name, "possible"] for name in result.remaining] + [[name, "not locked"] for name in result.cleared]
-        columns = [TableColumn("joint", "locked joint"), TableColumn("state", "after the record")]
+        columns = [Header("joint", "locked joint"), Header("state", "after the record")]
         return _compose("Which joint is locked", answer, lines, TableSpec("What the tool's pose says", columns, rows))
     is_probe = isinstance(result, ProbingMotion)
     answer, *lines = _describe_probe(result) if isinstance(result, ProbingMotion) else _describe_observability(result)
@@ -137,11 +137,11 @@ def _tabulate_joints(result: Observability | ProbingMotion) -> TableSpec:
     distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.inseparable for name in locks}
     distinguishable |= dict.fromkeys(unseen, "no")
     nearest = [float(np.delete(row, row_index).min()) for row_index, row in enumerate(result.separation)][1:]
-    columns = [TableColumn("joint", "joint"), TableColumn("nats", "nats to the nearest", digits=3, aligned=False)]
-    columns.append(TableColumn("apart", "told apart by the tool's pose"))
+    columns = [Header("joint", "joint"), Header("nats", "nats to the nearest", digits=3, aligned=False)]
+    columns.append(Header("apart", "told apart by the tool's pose"))
     if not isinstance(result, ProbingMotion):
         return TableSpec("Locks", columns, [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)])
-    columns.insert(1, TableColumn("rate", "largest rate", digits=2, aligned=False))
+    columns.insert(1, Header("rate", "largest rate", digits=2, aligned=False))
     rows = [[names[row], result.visible[row], nearest[row], distinguishable[names[row]]] for row in result.suspects]
     return TableSpec("Suspects", columns, rows)
 

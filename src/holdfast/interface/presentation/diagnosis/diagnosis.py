@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first, format_seconds
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.diagnosis.bounds import present as present_bounds
-from holdfast.interface.presentation.presentation import FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
 from holdfast.response.diagnosis.answer import Diagnosis
 
 if TYPE_CHECKING:
@@ -120,10 +120,10 @@ def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
         for joint, name in enumerate(diagnosis.arm.joint_names)
     ]
     columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("torque", "residual torque", digits=3, aligned=False),
-        TableColumn("tracking", "tracking", digits=3, aligned=False),
-        TableColumn("moved", "moved"),
+        Header("joint", "joint"),
+        Header("torque", "residual torque", digits=3, aligned=False),
+        Header("tracking", "tracking", digits=3, aligned=False),
+        Header("moved", "moved"),
     ]
     return TableSpec("Largest, in units of the bounds", columns, rows)
 

@@ -9,7 +9,7 @@ from holdfast.control.equilibria.attraction import Basins
 from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation.equilibria import points as points_of
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,7 +69,7 @@ def present(basins: Basins) -> Presentation:
         f"{basins.shape[0]} by {basins.shape[1]} cells" if basins.shape else "starts drawn uniformly within the limits"
     )
     errors = dict(zip(map(basins.name, range(len(points))), points_of.format_target_errors(points).tolist(), strict=True))
-    columns = [TableColumn("end", "ends at"), TableColumn("fraction", "fraction of starts"), TableColumn("error", "error")]
+    columns = [Header("end", "ends at"), Header("fraction", "fraction of starts"), Header("error", "error")]
     rows = [(name, fraction, errors.get(name, "")) for name, fraction in basins.shares]
     return Presentation(
         f"Starts from which {points.law.arm.name} still reaches its target",

@@ -12,7 +12,7 @@ from holdfast.control.equilibria.stability import Kind
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import list_alternatives
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
 
 if TYPE_CHECKING:
@@ -148,14 +148,8 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
             errors = display_errors(curves.law, curve.q, curve.error, curves.target)
             spans = [values[segment.first : segment.last + 1] for values in errors]
             rows.append((index, f"{first:.3f} to {last:.3f}", segment.kind.word, *((s.min(), s.max()) for s in spans)))
-    columns = [
-        TableColumn("curve", "curve"),
-        TableColumn("range", f"{arm.joint_names[curves.joint]}, {unit}"),
-        TableColumn("kind", "kind"),
-    ]
-    columns += [
-        TableColumn(kind.key, f"{kind.text}, {kind.unit}, least to most", aligned=False) for kind in error_kinds(curves.law)
-    ]
+    columns = [Header("curve", "curve"), Header("range", f"{arm.joint_names[curves.joint]}, {unit}"), Header("kind", "kind")]
+    columns += [Header(kind.key, f"{kind.text}, {kind.unit}, least to most", aligned=False) for kind in error_kinds(curves.law)]
     return TableSpec("Parts of one kind", columns, rows)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from holdfast.control.equilibria.limit_cycles import Orbit
 from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.presentation import Fact, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 
 
@@ -21,10 +21,10 @@ def present(orbit: Orbit) -> Presentation:
     """Present the period, the motion of each joint over a period, and the range of the errors."""
     period = "" if np.isnan(orbit.period) else f" (period {orbit.period:.4g} s)"
     columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("amplitude", "range, rad (or m)", aligned=False),
-        TableColumn("windings", "whole turns"),
-        TableColumn("rate", "mean rate, rad/s (or m/s)", aligned=False),
+        Header("joint", "joint"),
+        Header("amplitude", "range, rad (or m)", aligned=False),
+        Header("windings", "whole turns"),
+        Header("rate", "mean rate, rad/s (or m/s)", aligned=False),
     ]
     rows = zip(range(1, len(orbit.rates) + 1), orbit.amplitude, orbit.windings, orbit.rates, strict=True)
     ranges = (

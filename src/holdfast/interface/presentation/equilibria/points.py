@@ -11,7 +11,7 @@ from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.stability import REACHED_ERROR, Kind
 from holdfast.control.equilibria.system import idle_joints
 from holdfast.control.simulation.errors import display_errors, error_kinds
-from holdfast.interface.presentation.presentation import Fact, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.simulation.errors import format_errors
 
@@ -133,11 +133,11 @@ def _tabulate_points(points: StationaryPoints) -> TableSpec:
     joints, kinds, attracting = points.law.arm.joints, points.kinds, points.attracting
     errors = display_errors(points.law, points.q, points.error, points.target)
     columns = [
-        TableColumn("kind", "kind"),
-        *[TableColumn(joint.name, f"{joint.name}, {joint.display_unit[1]}", digits=7) for joint in joints],
-        *[TableColumn(kind.key, f"{kind.text}, {kind.unit}", aligned=False) for kind in error_kinds(points.law)],
-        TableColumn("eigenvalues", "eigenvalues, Ke"),
-        TableColumn("notes", ""),
+        Header("kind", "kind"),
+        *[Header(joint.name, f"{joint.name}, {joint.display_unit[1]}", digits=7) for joint in joints],
+        *[Header(kind.key, f"{kind.text}, {kind.unit}", aligned=False) for kind in error_kinds(points.law)],
+        Header("eigenvalues", "eigenvalues, Ke"),
+        Header("notes", ""),
     ]
     rows = []
     for index, kind in enumerate(kinds):

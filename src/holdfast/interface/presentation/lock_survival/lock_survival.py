@@ -10,7 +10,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.renderers import write_json
 
@@ -232,10 +232,10 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     joints = TableSpec(
         "Survival by joint",
         [
-            TableColumn("joint", "joint"),
-            TableColumn("part", "part of all locks", style="percent"),
-            TableColumn("survived", "of its locks survived", style="percent"),
-            TableColumn("loss", "largest loss of tool velocity"),
+            Header("joint", "joint"),
+            Header("part", "part of all locks", style="percent"),
+            Header("survived", "of its locks survived", style="percent"),
+            Header("loss", "largest loss of tool velocity"),
         ],
         [
             [name, float(fraction), survived, _format_largest(velocity_loss, survival.time)]
@@ -246,9 +246,9 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     motions = TableSpec(
         "Other motions along the path",
         [
-            TableColumn("motion", "motion"),
-            TableColumn("survival", "locks survived", style="percent"),
-            TableColumn("off", "off the path", style="percent"),
+            Header("motion", "motion"),
+            Header("survival", "locks survived", style="percent"),
+            Header("off", "off the path", style="percent"),
         ],
         [
             [motion_name, survival.survival, 0.0],

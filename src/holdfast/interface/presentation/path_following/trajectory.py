@@ -10,15 +10,7 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import (
-    Fact,
-    FigureSpec,
-    Notice,
-    Presentation,
-    TableColumn,
-    TableSpec,
-    format_value,
-)
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec, format_value
 from holdfast.kinematics.path_following.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -87,10 +79,10 @@ def present(trajectory: Trajectory) -> Presentation:
         tables.append(_tabulate_slowness(trajectory, slowness))
     if trajectory.events:
         columns = [
-            TableColumn("kind", "what"),
-            TableColumn("start_s", "from, s", aligned=False),
-            TableColumn("end_s", "to, s", aligned=False),
-            TableColumn("text", ""),
+            Header("kind", "what"),
+            Header("start_s", "from, s", aligned=False),
+            Header("end_s", "to, s", aligned=False),
+            Header("text", ""),
         ]
         events = [
             (event.kind, event.start, event.end, capitalise_first(event.text.split(": ", 1)[1])) for event in trajectory.events
@@ -169,9 +161,9 @@ def _tabulate_values(trajectory: Trajectory, unit: str) -> TableSpec:
     if trajectory.best_value is not None:
         values["best of each pose"] = trajectory.best_value
     rows = [(name, *_summarize_values(numbers).values()) for name, numbers in values.items()]
-    columns = [TableColumn(name, name) for name in _summarize_values(trajectory.value)]
+    columns = [Header(name, name) for name in _summarize_values(trajectory.value)]
     title = f"{capitalise_first(trajectory.objective.name)} along the path"
-    return TableSpec(title, [TableColumn("method", ""), *columns], rows)
+    return TableSpec(title, [Header("method", ""), *columns], rows)
 
 
 def _summarize_values(values: FloatArray) -> dict[str, float]:
@@ -198,10 +190,10 @@ def _compose_verdict(trajectory: Trajectory, bound: float, slowness: Sequence[Sl
 def _tabulate_slowness(trajectory: Trajectory, slowness: Sequence[SlowMotion]) -> TableSpec:
     """Tabulate how slow the motion must be for each joint."""
     columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("time_scale", "time scale"),
-        TableColumn("duration_s", "duration, s"),
-        TableColumn("decided_at", "decided at"),
+        Header("joint", "joint"),
+        Header("time_scale", "time scale"),
+        Header("duration_s", "duration, s"),
+        Header("decided_at", "decided at"),
     ]
     rows = []
     for name, joint_slowness in zip(trajectory.arm.joint_names, slowness, strict=True):

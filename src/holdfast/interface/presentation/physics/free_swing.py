@@ -9,7 +9,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
@@ -62,11 +62,11 @@ def present(swing: FreeSwing) -> Presentation:
     duration = Fact("simulated", float(swing.time[-1]), "s")
     rest = [Fact("displacement at the end", swing.rest_angle, failed.unit, style="angle")] if swing.is_settled else []
     columns = [
-        TableColumn("after_ms", "brakes engage after", "ms"),
-        TableColumn("moved", "joint has moved", unit, aligned=False),
-        TableColumn("speed", "at", f"{unit}/s", aligned=False),
-        TableColumn("drop", "tool has dropped", "mm", aligned=False),
-        TableColumn("distance", "and moved", "mm", aligned=False),
+        Header("after_ms", "brakes engage after", "ms"),
+        Header("moved", "joint has moved", unit, aligned=False),
+        Header("speed", "at", f"{unit}/s", aligned=False),
+        Header("drop", "tool has dropped", "mm", aligned=False),
+        Header("distance", "and moved", "mm", aligned=False),
     ]
     rows = [
         (f"{braked.after_ms:g} ms", factor * braked.angle, factor * braked.speed, 1000 * braked.drop, 1000 * braked.distance)

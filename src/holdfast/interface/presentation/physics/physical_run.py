@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.control.simulation.errors import error_history, error_kinds
 from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.simulation import runs as simulation
 from holdfast.interface.presentation.simulation.errors import format_errors
@@ -59,7 +59,7 @@ def present(run: PhysicalRun) -> Presentation:
     saturated_text = ", ".join(f"{name} {format_percent(fraction)}" for name, fraction in saturation if fraction > 0)
     if saturated_text:
         notices.append(Notice(f"Motors are at their effort for a part of the time: {saturated_text}."))
-    columns = [TableColumn("", ""), TableColumn("kinematic", "kinematic"), TableColumn("mujoco", "in MuJoCo")]
+    columns = [Header("", ""), Header("kinematic", "kinematic"), Header("mujoco", "in MuJoCo")]
     caption = "Thick: kinematic; thin: with masses and joint servos. Right: how far the joints lag behind."
     return replace(
         kinematic,

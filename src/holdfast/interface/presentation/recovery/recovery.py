@@ -10,7 +10,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
 from holdfast.interface.presentation.renderers import sentences, write_json
@@ -219,12 +219,7 @@ def _tabulate_joints(recovery: Recovery) -> TableSpec:
     factors, units = zip(*(joint.display_unit for joint in recovery.arm.joints), strict=True)
     start, end = np.array(factors) * configurations
     marks = [recovery.degraded.mark(name) for name in recovery.arm.joint_names]
-    columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("start", "start", units),
-        TableColumn("end", "end", units),
-        TableColumn("mark", ""),
-    ]
+    columns = [Header("joint", "joint"), Header("start", "start", units), Header("end", "end", units), Header("mark", "")]
     rows = list(zip(recovery.arm.joint_names, start.tolist(), end.tolist(), marks, strict=True))
     return TableSpec("Where the joints begin and end", columns, rows)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.interface.presentation.presentation import Fact, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
 from holdfast.kinematics.regions.region import Region
 
 _BOX_COLUMNS = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
@@ -31,6 +31,6 @@ def present(region: Region) -> Presentation:
         bounds = np.array([center - size / 2, center + size / 2])
         bounds = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
         rows.append((f"{name}{unit and ', '}{unit}", *bounds))
-    head = TableColumn("parameter", "" if region.kind in ("box", "cone") else "rad or m")
-    columns = [head, TableColumn("from", "from", aligned=False), TableColumn("to", "to", aligned=False)]
+    head = Header("parameter", "" if region.kind in ("box", "cone") else "rad or m")
+    columns = [head, Header("from", "from", aligned=False), Header("to", "to", aligned=False)]
     return Presentation(title, title, lines=[region.describe()], tables=[TableSpec("", columns, rows)])

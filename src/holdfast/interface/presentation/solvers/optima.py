@@ -18,7 +18,7 @@ from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, Notice, Presentation, TableColumn, TableSpec, format_value
+from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
 from holdfast.interface.presentation.printing import format_significant, to_json_types
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
@@ -185,10 +185,10 @@ def _compose_answer(optima: Optima, before: float, after: float) -> str:
 def _tabulate_joints(rows: Optima) -> TableSpec:
     """Tabulate the configuration and the measures of a single pose joint by joint."""
     units, arm = [joint.unit for joint in rows.arm.joints], rows.arm
-    columns, values = [TableColumn("joint", "joint")], [list(arm.joint_names)]
+    columns, values = [Header("joint", "joint")], [list(arm.joint_names)]
     for label, joint_units, before, after in [("", units, rows.q_before, rows.q), *_compare_measures(rows)]:
         for moment, numbers in (("before", before), ("best", after)):
-            columns.append(TableColumn(moment, f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
+            columns.append(Header(moment, f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
             values.append(numbers[0].tolist())
     return TableSpec("Configurations, before and best", columns, list(zip(*values, strict=True)))
 
@@ -196,12 +196,12 @@ def _tabulate_joints(rows: Optima) -> TableSpec:
 def _tabulate_poses(rows: Optima, unit: str) -> TableSpec:
     """Tabulate the objective of each pose."""
     columns = [
-        TableColumn("pose", "pose"),
-        TableColumn("before", "before", unit, digits=6, aligned=False),
-        TableColumn("best", "best", unit, digits=6, aligned=False),
-        TableColumn("agreeing", "agreeing", style="percent"),
-        TableColumn("starts", "of starts"),
-        TableColumn("status", ""),
+        Header("pose", "pose"),
+        Header("before", "before", unit, digits=6, aligned=False),
+        Header("best", "best", unit, digits=6, aligned=False),
+        Header("agreeing", "agreeing", style="percent"),
+        Header("starts", "of starts"),
+        Header("status", ""),
     ]
     status_texts = ["" if status == Status.OK else _status_name(status).replace("_", " ") for status in rows.status]
     numbers = range(1, len(rows.poses) + 1)

@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.core.formatting import format_count, format_percent, list_alternatives
 from holdfast.core.status import Status
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.kinematics.solvers.joint_space import is_unlimited
 
 if TYPE_CHECKING:
@@ -153,10 +153,10 @@ def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> 
 def _build_tables(motion: SelfMotion) -> list[TableSpec]:
     """Tabulate the curves, and where each joint may lock."""
     columns = [
-        TableColumn("curve", "curve"),
-        TableColumn("length_rad", "length, rad", aligned=False),
-        TableColumn("points", "points"),
-        TableColumn("ends", ""),
+        Header("curve", "curve"),
+        Header("length_rad", "length, rad", aligned=False),
+        Header("points", "points"),
+        Header("ends", ""),
     ]
     rows = [(i + 1, curve.length, len(curve.q), motion.ends(i)) for i, curve in enumerate(motion.components)]
     specs = [TableSpec("Self-motions", columns, rows)] if rows else []
@@ -169,7 +169,7 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
             for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]
         title = "A lock keeps the target within reach if and only if it lies there"
-        specs.append(TableSpec(title, [TableColumn("joint", "joint"), TableColumn("may_lock_at", "may lock at")], lock_rows))
+        specs.append(TableSpec(title, [Header("joint", "joint"), Header("may_lock_at", "may lock at")], lock_rows))
     return specs
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.designs.figures import draw_parameters, draw_pareto_front
-from holdfast.interface.presentation.presentation import TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import format_index_name, format_level
 from holdfast.interface.report import figures
@@ -50,7 +50,7 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
     parameters = TableSpec(
         "Rank correlation (Spearman) of the parameter alone with the guaranteed index: near 1 or -1 it decides, near 0 it "
         "hardly matters, or its best value lies inside. In the best tenth: the middle half of its values there",
-        [TableColumn(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "in the best tenth")],
+        [Header(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "in the best tenth")],
         [
             [
                 *(parameter.name, parameter.display_unit[1], (parameter.lower * factor, parameter.upper * factor)),
@@ -65,13 +65,13 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         else front[np.unique(np.round(np.linspace(0, len(front) - 1, _MAX_FRONT_DESIGNS)).astype(int))]
     )
     columns = [
-        TableColumn("reach", "reach, m"),
-        TableColumn("guaranteed", "guaranteed"),
-        TableColumn("reached", "poses reached", style="percent"),
+        Header("reach", "reach, m"),
+        Header("guaranteed", "guaranteed"),
+        Header("reached", "poses reached", style="percent"),
     ]
     designs = TableSpec(
         f"Designs of the front ({len(selected)} of {len(front)}): none of the sweep has more of both",
-        [*columns, *(TableColumn(label, label) for label in parameter_labels)],
+        [*columns, *(Header(label, label) for label in parameter_labels)],
         [
             [
                 *(float(column[index]) for column in (swept.reach, swept.guaranteed, swept.reached)),

@@ -11,7 +11,7 @@ from holdfast.core.errors import StoreError
 from holdfast.core.formatting import format_count, format_duration, list_alternatives
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
-from holdfast.interface.presentation.presentation import Notice, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.single_points import Structure, structure
@@ -60,12 +60,7 @@ def present(study: Study) -> Presentation:
     spent = format_duration(sum(cell.seconds for cell in cells))
     listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
     is_cut = len(listed_cells) > _MAX_TABLE_CELLS
-    columns = [
-        TableColumn("name", "cell"),
-        TableColumn("rows", "rows"),
-        TableColumn("chunks", "chunks"),
-        TableColumn("seconds", "processor time"),
-    ]
+    columns = [Header("name", "cell"), Header("rows", "rows"), Header("chunks", "chunks"), Header("seconds", "processor time")]
     rows = [
         (
             cell.name,

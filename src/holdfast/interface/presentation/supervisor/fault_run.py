@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first
 from holdfast.interface.presentation.collision.contacts import list_contacts
 from holdfast.interface.presentation.collision.shape import describe_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.response.supervisor.run import OUTCOME_PHRASES
 
@@ -91,7 +91,7 @@ def present(run: FaultRun) -> Presentation:
     rows = [
         [time, sentence if sentence.split(":")[0] in names else capitalise_first(sentence)] for time, sentence in sorted(events)
     ]
-    table = TableSpec("In order of time", [TableColumn("time", "time, s", aligned=False), TableColumn("event", "event")], rows)
+    table = TableSpec("In order of time", [Header("time", "time, s", aligned=False), Header("event", "event")], rows)
     return Presentation(
         f"{run.arm.name} with faults",
         answer,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import format_decimals, format_number
-from holdfast.interface.presentation.presentation import TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.teleop.analysis.result import Analysis
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def format_p_relation(probability: float) -> str:
 def make_table(analysis: Analysis, title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> TableSpec:
     """Make a table, which marks simulated operators; its section of the page shows it."""
     title = f"{title} (simulated operators)" if analysis.is_simulated else title
-    return TableSpec(title, [TableColumn(label, label, aligned=False) for label in head], rows, on_page=False)
+    return TableSpec(title, [Header(label, label, aligned=False) for label in head], rows, on_page=False)
 
 
 def build_tables(analysis: Analysis) -> list[TableSpec]:

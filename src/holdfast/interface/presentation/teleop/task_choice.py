@@ -12,7 +12,7 @@ import numpy as np
 from holdfast.core.files.output import write_files
 from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model import arms
 from holdfast.teleop.bank.selection import TaskChoice
@@ -77,14 +77,14 @@ def present(choice: TaskChoice) -> Presentation:
         )
         lines += [f"Most disorienting of the others: {choice.disorienting + 1}.", trapped]
     columns = [
-        TableColumn("scenario", "scenario"),
-        TableColumn("label", ""),
-        TableColumn("not_reached", "not completed"),
-        TableColumn("time_cycles", "time, cycles", digits=3),
-        TableColumn("path_m", "path, m", digits=3),
-        TableColumn("velocity_error", "velocity error", digits=3),
-        TableColumn("peak_direction_error_rad", "peak direction error, deg", digits=3),
-        TableColumn("cpm", "CPM", digits=3),
+        Header("scenario", "scenario"),
+        Header("label", ""),
+        Header("not_reached", "not completed"),
+        Header("time_cycles", "time, cycles", digits=3),
+        Header("path_m", "path, m", digits=3),
+        Header("velocity_error", "velocity error", digits=3),
+        Header("peak_direction_error_rad", "peak direction error, deg", digits=3),
+        Header("cpm", "CPM", digits=3),
     ]
     summaries = [
         summary | {"peak_direction_error_rad": np.degrees(summary["peak_direction_error_rad"])}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableColumn, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
@@ -61,9 +61,9 @@ def present(region: TolerantWorkspace) -> Presentation:
         "locks; right: the sizes, with what is left after the locks of each joint alone."
     )
     columns = [
-        TableColumn("joint", "joint"),
-        TableColumn("limits", "artificial limits"),
-        TableColumn("lost", "points lost by its lock", style="percent"),
+        Header("joint", "joint"),
+        Header("limits", "artificial limits"),
+        Header("lost", "points lost by its lock", style="percent"),
     ]
     joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
     return Presentation(
