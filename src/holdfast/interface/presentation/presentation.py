@@ -94,7 +94,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Header:
-    """Head of a column of a table: its key in JSON and CSV, its label, and the unit of its values (of each row, if they differ).
+    """Head of a column of a table: its key in JSON and CSV, its label, and the unit of its values, if need be one for each row.
 
     Numbers of one unit share one precision where their magnitudes allow it; ``aligned=False`` formats each by itself.
     """
