@@ -176,8 +176,7 @@ def test_the_walk_of_a_claim_kind(run, tmp_path):
     (tmp_path / "radius.py").write_text(
         "import holdfast as hf\n"
         "proof = hf.certify(hf.certificates.radius_claim(hf.arms.load('planar-3r'), 3.1))\n"
-        "proof.write('a.certificate')\n"
-        "assert 'radius.certificate' in proof._repr_html_()\n",
+        "proof.write('a.certificate')\n",
         encoding="utf-8",
     )
     code, told = run("radius")

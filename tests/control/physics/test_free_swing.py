@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import builtins
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -284,13 +284,6 @@ def test_arms_that_cannot_swing_are_refused():
 
 
 def test_without_mujoco_it_says_what_to_install(monkeypatch):
-    real = builtins.__import__
-
-    def without(name, *rest):
-        if name == "mujoco":
-            raise ImportError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(hf.HoldfastError, match=r"holdfast-arms\[physics\]"):
         hf.free_swing(pendulum(), [0.0], 0)

@@ -89,7 +89,7 @@ def test_optimise_keeps_the_arm_clear_of_itself(cli, ask):
     assert free["poses"][0]["value"] >= row["value"]
     code, out, _ = cli(*BEST, "--radius", 0.13)
     assert code == 0
-    assert "clearance of the arm from itself" in out
+    assert "clearance of the best" in out
 
 
 def test_optimise_says_why_nothing_is_clear(cli):

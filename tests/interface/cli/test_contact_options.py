@@ -70,7 +70,7 @@ def test_a_swing_ends_on_what_it_falls_on(cli, ask, tmp_path):
     assert data["contacts"][0]["object"] == "table"
     code, out, _ = cli(*call, *around, "--out", tmp_path / "swing")
     assert code == 0
-    assert "It lies against an object of the cell." in " ".join(out.split())
+    assert "falls until panda_joint7 lies against table" in " ".join(out.split())
     page = (tmp_path / "swing" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
     assert "lies against table" in page

@@ -69,8 +69,8 @@ def test_bounds_of_its_own_loop(ask, cli, tmp_path, monkeypatch):
     bounds = hf.diagnosis.load("bounds.json")
     replace(bounds, torque=bounds.torque / 4).to_json("narrow.json")
     found = cli(*CALL, "--physics", "--monitor", "narrow.json")[1]
-    assert "no fault in this episode" in found
-    assert "the first alarm is false, nothing had failed" in found
+    assert "No fault in this episode." in found
+    assert "The first alarm is false, nothing had failed" in found
 
 
 def test_without_physics_faults_are_locks(ask, refused, tmp_path):

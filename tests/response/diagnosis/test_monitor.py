@@ -297,7 +297,7 @@ def test_bounds_and_records_come_back_from_files(panda, bounds, healthy, tmp_pat
         for field in dataclasses.fields(Log):
             assert getattr(again, field.name) == pytest.approx(getattr(log, field.name), rel=digits, abs=digits, nan_ok=True)
     (tmp_path / "bounds.json").write_text("{}", encoding="utf-8")
-    with pytest.raises(InputError, match="it is no file of bounds"):
+    with pytest.raises(InputError, match="it has no digest"):
         hf.diagnosis.load(tmp_path / "bounds.json")
 
 
