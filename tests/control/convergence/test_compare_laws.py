@@ -16,7 +16,8 @@ import oracles
 from holdfast.control.convergence import healthy_cost
 from holdfast.control.convergence.healthy_cost import measure_healthy_cost
 from holdfast.control.simulation import Reason, batch
-from holdfast.interface.presentation.convergence import law_comparison as compare_laws_report
+from holdfast.interface.presentation.convergence.law_comparison import present
+from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.report import page
 from holdfast.model.cell import Sphere
 
@@ -215,7 +216,7 @@ def test_nothing_failed_and_control_cycles(laws, motions):
 
 
 def compare_html(found):
-    return page.render(compare_laws_report.build(found))
+    return page.render(build_page(present(found)))
 
 
 def test_bad_rows_stay_theirs(laws, motions):

@@ -13,7 +13,7 @@ import oracles
 from holdfast.control import damped, pseudoinverse
 from holdfast.control.convergence.maps import average_fraction
 from holdfast.core.probability.intervals import Interval
-from holdfast.interface.presentation.convergence.law_choice import story
+from holdfast.interface.presentation.convergence.law_choice import present
 from holdfast.model.cell import Sphere
 
 
@@ -165,7 +165,8 @@ def test_laws_meet_the_same_failures():
     assert choice.ranking[-1] == "weak"
     assert choice.share("plain", 2).value == pytest.approx(choice.maps[0].values()[:, 2].mean())
     assert worse.value == pytest.approx(choice.share("weak").value - choice.share("plain").value)
-    assert "points against the best" in choice.describe()[-1]
+    (table,) = present(choice).list_tables()
+    assert table.texts().rows[-1][-1] == f"{100 * worse.value:+.1f} ({100 * worse.low:+.1f} to {100 * worse.high:+.1f})"
 
 
 def test_the_best_law_by_runs_of_scipy():
@@ -240,10 +241,10 @@ def test_the_best_law_in_a_cell_is_told_with_what_it_touches():
     assert touched.any()
     with pytest.raises(hf.InputError, match="outcome 'touched' is not known"):
         plain.share("plain", outcome="touched")
-    assert all("is touched on the way in" in line for line in choice.describe()[1:])
     assert not any("touch" in line for line in plain.describe())
-    told = story(choice)
-    assert told.tables[0].head[-1] == "touches something, at most"
+    told = present(choice)
+    assert [column.key for column in told.tables[0].columns][-1] == "touched"
+    assert [row[-1] for row in told.tables[0].rows] == [choice.share(name, outcome="touched").value for name in choice.ranking]
     assert told.answer.endswith("of the motions touch something on the way.")
     assert cell.digest[:12] in dict(told.method)["Contacts"]
 

@@ -13,6 +13,7 @@ from cards import check_card
 from holdfast.control.convergence.analysis import StartConfigurations
 from holdfast.control.convergence.places import read_places
 from holdfast.interface.cli.program import main
+from holdfast.interface.presentation.convergence.workspace import present
 
 
 def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
@@ -26,9 +27,9 @@ def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
             np.testing.assert_allclose(found.measures[name][k], known.mean(axis=0).filled(np.nan))
         np.testing.assert_array_equal(found.ends[k], one.ends.sum(axis=0))
     assert all(np.isnan(v[2]).all() for v in found.measures.values())
-    assert found.describe()[0].count("2 of 3 targets") == 1
-    files = found.save(tmp_path)
-    rows = list(csv.DictReader(files[0].read_text(encoding="utf-8").splitlines()))
+    assert present(found).about.count("2 of 3 targets") == 1
+    found.save(tmp_path)
+    rows = list(csv.DictReader((tmp_path / "targets.csv").read_text(encoding="utf-8").splitlines()))
     assert float(rows[1]["Ravg_any_percent"]) == pytest.approx(found.measures["Ravg"][1, -1])
     assert rows[2]["Ravg_any_percent"] == ""
     data = found.to_xarray()

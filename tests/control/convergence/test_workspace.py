@@ -16,7 +16,7 @@ from holdfast.control.convergence.analysis import TargetAnalysis, _find_sinks
 from holdfast.control.convergence.healthy_motion import HealthyPaths
 from holdfast.control.convergence.late_convergence import is_near_attracting_solution
 from holdfast.control.convergence.places import configurations_at, make_lattice, read_places
-from holdfast.interface.presentation.convergence import origins as workspace_output
+from holdfast.interface.presentation.convergence import workspace as workspace_output
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
 PUBLISHED = {
@@ -214,7 +214,7 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
 
 def test_files(small, tmp_path, monkeypatch):
     w = small["procedure"]
-    monkeypatch.setattr(workspace_output, "drawings", lambda w: {})  # those of the command are looked at in its test
+    monkeypatch.setattr(workspace_output, "_list_maps", lambda *given: {})  # those of the command are looked at in its test
     assert [file.name for file in w.save(tmp_path)] == ["workspace.csv", "workspace.json", "report.html"]
     lines = (tmp_path / "workspace.csv").read_text().splitlines()
     assert len(lines) == len(w.places) + 1

@@ -15,7 +15,9 @@ from cards import check_card
 from holdfast import arms
 from holdfast.core.probability import Distribution
 from holdfast.core.probability.intervals import Interval
-from holdfast.interface.presentation.designs import page as report
+from holdfast.interface.presentation.designs.designs import present
+from holdfast.interface.presentation.designs.sections import format_command
+from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.report.page import render
 from holdfast.kinematics.indices import by_name
 from holdfast.kinematics.regions.pose_list import PoseList
@@ -60,6 +62,10 @@ def found(rng) -> hf.Designs:
     )
 
 
+def build(designs):
+    return build_page(present(designs))
+
+
 def test_its_figures_are_given(found):
     assert list(found.figures()) == ["front", "arms"]
     assert list(replace(found, best=0).figures()) == ["front"]
@@ -68,7 +74,7 @@ def test_its_figures_are_given(found):
 
 
 def test_the_page_says_what_to_build(found):
-    page = render(report.build(found)).replace("\u00a0", " ")
+    page = render(build(found)).replace("\u00a0", " ")
     check(page)
     for words in (
         "For 95 % of the poses of the region the best design keeps a relative manipulability of at least 0.38",
@@ -85,7 +91,7 @@ def test_the_page_says_what_to_build(found):
 
 
 def test_the_command_is_the_search(found):
-    line, remark = report.format_command(found)
+    line, remark = format_command(found)
     words = shlex.split(line.replace("\\\n", " "))
     assert words[:3] == ["holdfast", "design", "planar-3r"]
     assert remark == ""
@@ -102,12 +108,12 @@ def test_the_command_is_the_search(found):
 
 def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
-    assert same.headline.startswith("No design was found that keeps more than the given arm: at 95 % of the poses")
-    assert "Before and after" not in [s.title for _, s in report.build(same).parts]
+    assert present(same).answer.startswith("No design was found that keeps more than the given arm: at 95 % of the poses")
+    assert "Before and after" not in [s.title for _, s in build(same).parts]
     none = HeldOutResult(Distribution.from_values([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=HeldOutCheck(none, none, 0.0))
-    assert "keeps any relative manipulability" in lost.headline
-    page = render(report.build(lost)).replace("\u00a0", " ")
+    assert "keeps any relative manipulability" in present(lost).answer
+    page = render(build(lost)).replace("\u00a0", " ")
     check(page)
     assert "Neither arm reaches a pose of the region" in page
 
@@ -116,27 +122,27 @@ def test_a_design_that_guarantees_as_much_and_reaches_farther_is_not_nothing(fou
     alike = replace(
         found, guaranteed=np.array([0.4, 0.25, 0.1, 0.4]), checked=HeldOutCheck(checked(rng, 0.38), checked(rng, 0.38), 0.0)
     )
-    line = alike.headline
+    line = present(alike).answer
     assert line.startswith("No design keeps more than the given arm, but the best one keeps as much, 0.38")
     assert line.endswith("reaches 3.500 m instead of 3.000 m.")
 
 
 def test_the_headline_says_what_the_front_has_for_a_little_less(found):
     near = replace(found, guaranteed=np.array([0.2, 0.39, 0.1, 0.4]))
-    assert near.headline.endswith(
+    assert present(near).answer.endswith(
         "For 2.5 % less, 0.390 on the poses of the search, another design reaches 3.600 m, 2.9 % farther."
     )
 
 
 def test_a_gain_that_does_not_last_is_no_gain(found, rng):
     flattered = replace(found, checked=HeldOutCheck(checked(rng, 0.3), checked(rng, 0.25), 0.15))
-    assert flattered.headline.startswith("No gain that lasts was found: on the 64 poses of the search the best design")
+    assert present(flattered).answer.startswith("No gain that lasts was found: on the 64 poses of the search the best design")
 
 
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):
-    page = render(
-        report.build(replace(found, checked=HeldOutCheck(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0)))
-    ).replace("\u00a0", " ")
+    page = render(build(replace(found, checked=HeldOutCheck(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0)))).replace(
+        "\u00a0", " "
+    )
     assert "does not reach 4.0 % of the poses of the region, the given arm 0 %" in page
 
 

@@ -87,31 +87,6 @@ class LawChoice(Result):
         """The first of the ranking; :meth:`difference` returns its certainty."""
         return self.ranking[0]
 
-    def describe(self) -> list[str]:
-        """Return the ranking of the laws in a few sentences."""
-        first_map, best = self.maps[0], self.best
-        lines = [
-            f"{len(self.names)} laws on {first_map.law.arm.title}, task {first_map.law.task.describe()}: the same "
-            f"{int(first_map.has_configuration.sum()) * first_map.law.arm.n} failures, "
-            f"{int(first_map.has_configuration.any(axis=1).sum())} {first_map.over}"
-        ]
-        for name in self.ranking:
-            converged = self.share(name)
-            line = (
-                f"{name}: converges after {100 * converged.value:.1f} % of the failures ({100 * converged.low:.1f} to "
-                f"{100 * converged.high:.1f} %)"
-            )
-            if name != best:
-                difference = self.difference(name, best)
-                line += (
-                    f", {100 * difference.value:+.1f} points against the best ({100 * difference.low:+.1f} to "
-                    f"{100 * difference.high:+.1f})"
-                )
-            if first_map.touched is not None:
-                line += f"; something is touched on the way in {100 * self.share(name, outcome='touched').value:.1f} % at most"
-            lines.append(line)
-        return lines
-
     def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> FloatArray:
         law_map = self.map_of(name)
         values = law_map.values(outcome)[:, :-1]

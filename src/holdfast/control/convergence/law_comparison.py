@@ -358,20 +358,6 @@ class LawComparison(Result):
         reason = self.runs[self._law_index(law)].reason
         return {cause.name.lower(): int((reason == cause).sum()) for cause in UNDECIDED_REASONS if (reason == cause).any()}
 
-    def describe(self) -> list[str]:
-        """Return the comparison of the laws in a few sentences."""
-        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
-        for name in self.names:
-            healthy = self.case(name).share()
-            assert healthy is not None
-            text = f"{name}: healthy {healthy.value:.1%} converge"
-            if self.joints:
-                failed = self.share_any(name)
-                text += f"; with a joint locked {failed.value:.1%} (95 % interval {failed.low:.1%} to {failed.high:.1%})"
-                text += f"; {self.touched_any(name).value:.1%} touch something on the way" if self.clearance is not None else ""
-            lines.append(text)
-        return lines
-
 
 def target_error_threshold(law: Law) -> float:
     """Return the norm of the error, m and rad, below which a target counts as reached at rest."""

@@ -139,27 +139,6 @@ class ConvergenceMap(Result):
         values |= {"q0": ((*dimensions, "joint"), self.q0), "target": ((*dimensions, "row", "column"), self.target)}
         return self.places.dataset(values, locked=self.columns, joint=self.law.arm.joint_names)
 
-    def describe(self) -> list[str]:
-        """Return the outcomes of the motions in a few sentences."""
-        runs = int(self.has_configuration.sum())
-        lines = [
-            f"{self.law.describe()} on {self.law.arm.title}: {int(self.has_configuration.any(axis=1).sum())} of "
-            f"{len(self.places)} {self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
-        ]
-        if runs:
-            converged, trapped = self.shares("converged"), self.shares("trapped")
-            worst_joint = min(self.columns[:-1], key=lambda worst_joint: converged[worst_joint].value)
-            worst = converged[worst_joint]
-            lines.append(
-                f"with {worst_joint} locked fewest converge: {100 * worst.value:.1f} % (95 % interval {100 * worst.low:.1f} to "
-                f"{100 * worst.high:.1f} %); {100 * trapped[worst_joint].value:.1f} % do not, though the target is in reach"
-            )
-        counts = self.count_undecided()
-        if sum(counts.values()):
-            count_text = ", ".join(f"{count} {worst_joint.replace('_', ' ')}" for worst_joint, count in counts.items() if count)
-            lines.append(f"undecided runs: {count_text}")
-        return lines
-
     def count_undecided(self) -> dict[str, int]:
         """Return the number of undecided runs, by the name of the :class:`holdfast.control.simulation.Reason` in lower case."""
         return {cause.name.lower(): int((self.reason == cause).sum()) for cause in UNDECIDED_REASONS}

@@ -142,29 +142,6 @@ class Workspace(Result):
         values["ends"] = (("place", "ending"), self.ends)
         return self.places.dataset(values, joint=self.columns, ending=FAILURE_ENDS)
 
-    def describe(self) -> list[str]:
-        """Return the analysis of the workspace in a few sentences."""
-        reached = int((self.configurations > 0).sum())
-        lines = [
-            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
-            f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
-        ]
-        end_counts = dict(zip(FAILURE_ENDS, self.ends.sum(axis=0).tolist(), strict=True))
-        if self.ends.sum():
-            end_text = ", ".join(f"{end_counts[name]} {name}" for name in FAILURE_ENDS[:3])
-            fraction_text = f" ({100 * self.undecided_fraction:.2f} %)" if self.simulated_count else ""
-            lines.append(
-                f"{self.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
-                f"undecided at the time limit{fraction_text}, of which {end_counts['arriving']} next to a solution that "
-                "attracts, counted as converged"
-            )
-        if self.method == "procedure":
-            lines.append(
-                f"{end_counts['no_sink']} more were not simulated ({100 * self.skipped_fraction:.2f} %): the joint locked away "
-                "from every sink, which makes convergence very likely but does not prove it"
-            )
-        return lines
-
 
 def compute_workspace(
     job: TargetAnalysis, starts: StartConfigurations, store: str | Path | None = None, progress: Progress | None = None

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.convergence.analysis import (
-    FAILURE_END_TEXTS,
     FAILURE_ENDS,
     PATH_CELLS,
     RUN_TOLERANCE,
@@ -101,18 +100,6 @@ class TargetMeasures(Result):
         return {
             name: np.array([mean_intervals(columns, confidence) for columns in values]) for name, values in self.values.items()
         }
-
-    def describe(self) -> list[str]:
-        """Return the measures over the targets in a few sentences."""
-        end_text = ", ".join(
-            f"{count} {word}" for word, count in zip(FAILURE_END_TEXTS, self.ends.sum(axis=0).tolist(), strict=True)
-        )
-        within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
-        return [
-            f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "
-            f"from {len(self.starts)} starts",
-            f"failures: {end_text}",
-        ]
 
     def to_xarray(self) -> xr.Dataset:
         """Return the measures, percent, by target, start, and joint (the last is ``any``), and the position of each target."""

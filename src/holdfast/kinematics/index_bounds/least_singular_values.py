@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, isfinite, sqrt
+from math import isfinite, sqrt
 from typing import Protocol
 
 import numpy as np
@@ -17,8 +17,6 @@ from holdfast.kinematics.index_bounds.manipulability_bounds import (
     ArmSize,
     FailureProblem,
     TaskSize,
-    count_rows,
-    failure_phrase,
     max_simultaneous_failures,
     upper_bound,
 )
@@ -115,16 +113,6 @@ class SingularValueBound(Result):
         if self.angular or self.k > 1:
             return None
         return sqrt(self.n / self.m) * self.lever * equal_row_frame(self.n, self.m).T
-
-    def describe(self) -> list[str]:
-        """The bound, why, and what it supposes."""
-        unit = " in characteristic lengths" if self.angular else ""
-        lengths = "any lengths" if self.lever == inf else f"mean lever of the joints {self.lever:.4g}{unit or ' m'}"
-        reason = f"{self.bound_by}, {BOUND_REASONS[self.bound_by]}{', attained' if self.jacobian is not None else ''}"
-        return [
-            f"{self.n} joints, a task of {count_rows(self.m)}, {lengths}: when {failure_phrase(self.k)}, no least singular "
-            f"value is above {self.bound:.6g} ({reason})"
-        ]
 
 
 def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angular: bool = False) -> SingularValueBound:

@@ -19,7 +19,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.kinematics.index_bounds.closed_forms import CLOSED_FORMS
 from holdfast.kinematics.index_bounds.frames import known_null_space, orthogonal_complement
 from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
-from holdfast.kinematics.index_bounds.theorems import THEOREM_TEXTS, ProvedBound, best_proved_bound
+from holdfast.kinematics.index_bounds.theorems import ProvedBound, best_proved_bound
 
 _ATTAINED_TOLERANCE = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
 _ORTHONORMAL_TOLERANCE = 1e-12
@@ -122,23 +122,6 @@ class UpperBound(Result):
             f"{self.bound:.4g}"
         )
 
-    def describe(self) -> list[str]:
-        """Return the proved bound and the best known value in sentences."""
-        head = f"{self.n} joints, a task of {count_rows(self.m)}: when {failure_phrase(self.k)}"
-        proof = " and ".join(
-            f"{name}, {THEOREM_TEXTS[name]}" for name in self.bound_by.replace(" with ", " and ").split(" and ")
-        )
-        if self.is_attained:
-            return [f"{head}, the ceiling is {self.bound:.10g}: proven, and attained ({proof})"]
-        lines = [f"{head}, no arm keeps more than {self.bound:.6g} of its manipulability ({proof})"]
-        if self.best_known is None:
-            lines.append("what can be attained is not stored for this size: search for it")
-        else:
-            form = f" = {self.closed_form}" if self.closed_form else ""
-            above = format_percent(self.gap or 0.0)
-            lines.append(f"the best that is known is {self.best_known:.10g}{form}; the bound is {above} above it")
-        return lines
-
     def verify(self) -> UpperBound:
         """Recompute the value of the stored null space by singular values and compare it with the bound; return the object
         itself. ``python -m measurements.upper_bounds.proofs`` in the repository replays the proof of the bound.
@@ -220,13 +203,6 @@ class UpperBoundTable(Result):
     """
 
     ceilings: list[UpperBound]
-
-    def describe(self) -> list[str]:
-        """Return the number of stored bounds in a sentence."""
-        reached = sum(bound.is_attained for bound in self.ceilings)
-        return [
-            f"{len(self.ceilings)} sizes; of {reached} the ceiling is known, of the others the best known is below the bound"
-        ]
 
 
 def bound_table(m: int | None = None) -> UpperBoundTable:

@@ -103,21 +103,6 @@ class ArmComparison(Result):
         better = (lower[:, None] > upper[None]).any(axis=2)
         return np.flatnonzero(~(no_worse & better).any(axis=0))
 
-    def describe(self) -> list[str]:
-        """Return the best arm of each column, and the measures left out."""
-        arm_names = ", ".join(arm.name for arm in self.arms)
-        lines = [
-            f"{arm_names}: task {self.task.name}, {self.region.name}, seed {self.seed}; intervals of "
-            f"{_format_percent(INTERVAL_CONFIDENCE)}"
-        ]
-        for index, column in enumerate(self.columns):
-            best = int(self.values[:, index].argmax())
-            unit_text = "" if column.unit == "1" else f" {column.unit}"
-            arm_text = f", {self.arms[best].name}" if len(self.arms) > 1 else ""
-            spread = f"{self.low[best, index]:.4g} to {self.high[best, index]:.4g}"
-            lines.append(f"{column.name}: {self.values[best, index]:.4g}{unit_text} ({spread}){arm_text}")
-        return [*lines, *self.left_out]
-
 
 @check_arguments
 @reports_progress("judging arms")

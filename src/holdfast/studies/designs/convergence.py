@@ -88,27 +88,6 @@ class ConvergenceDesigns(Result):
         chosen = self.values[[self.best if design is None else design]]
         return self._rest.radial(_make_link_lengths(self._rest, self.space, chosen), self._rings)
 
-    def describe(self) -> list[str]:
-        """Return the result in a few sentences."""
-        method = "from its stationary sets" if self.exact else "by simulation"
-        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {method}"]
-        for word, design in (("given", 0), ("best", self.best)):
-            numbers = ", ".join(
-                f"{parameter.name} {parameter.text(value)}"
-                for parameter, value in zip(self.space.parameters, self.values[design], strict=True)
-            )
-            measures_text = ", ".join(f"{name} {100 * values[design]:.1f} %" for name, values in self.measures.items())
-            lines.append(f"{word}: {numbers}: {measures_text}")
-        if self.checked is not None:
-            baseline, best, difference = self.checked
-            lines.append(
-                f"on fresh failures: given {100 * baseline.value:.1f} % ({100 * baseline.low:.1f} to "
-                f"{100 * baseline.high:.1f}), best "
-                f"{100 * best.value:.1f} % ({100 * best.low:.1f} to {100 * best.high:.1f}), difference "
-                f"{100 * difference.value:+.1f} points ({100 * difference.low:+.1f} to {100 * difference.high:+.1f})"
-            )
-        return lines
-
     def arm_file(self) -> str:
         """Return the best arm as a file that every command reads."""
         from holdfast.model.arms.dh_file import format_dh_file

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.core.formatting import format_count, format_number, format_percent, indefinite_article
+from holdfast.core.formatting import format_number, format_percent
 from holdfast.core.probability.distribution import Distribution
 from holdfast.core.probability.intervals import Interval
 from holdfast.core.result import Result
@@ -156,62 +155,6 @@ class Designs(Result):
     def arm(self, number: int | None = None) -> Arm:
         """Return the arm of a design, by default the best one."""
         return self.space.arm_of(self.values[self.best if number is None else number])
-
-    @property
-    def headline(self) -> str:
-        """Answer in one or two sentences."""
-        baseline, best = self.checked.given, self.checked.best
-        baseline_text, best_text = format_value_interval(baseline.guaranteed), format_value_interval(best.guaranteed)
-        index_name, level_text = self.index.name, format_level(self.level)
-        if not best.guaranteed.value > 0 and not baseline.guaranteed.value > 0:
-            return (
-                f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too "
-                f"many poses "
-                "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
-                "level."
-            )
-        farther_text = describe_farther_design(self.guaranteed, self.reach, self.best)
-        if self.best_is_start:
-            answer = (
-                f"No design was found that keeps more than the given arm: at {level_text} of the poses of the region its "
-                f"{index_name} "
-                f"is at least {baseline_text}, {self._describe_failures()}."
-            )
-            return f"{answer} {farther_text}".rstrip()
-        if self.guaranteed[self.best] <= (1 + SAME_VALUE_TOLERANCE) * self.start_guaranteed:
-            return (
-                f"No design keeps more than the given arm, but the best one keeps as much, {best_text} "
-                f"at {level_text} of the poses (the given arm {baseline_text}), and reaches {self.reach[self.best]:.3f} m "
-                f"instead of {self.start_reach:.3f} m. {farther_text}"
-            ).rstrip()
-        if best.guaranteed.value <= baseline.guaranteed.value:
-            return (
-                f"No gain that lasts was found: on the {format_count(self.poses, 'pose')} of the search the best design "
-                f"keeps a {index_name} of {format_number(float(self.guaranteed[self.best]))}, but on fresh ones "
-                f"{best_text}, and the given "
-                f"arm {baseline_text}. Search with more poses."
-            )
-        reaches = f"The reach goes from {self.start_reach:.3f} m to {self.reach[self.best]:.3f} m."
-        return (
-            f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} "
-            f"{index_name} of at least "
-            f"{best_text}, {self._describe_failures()}; the given arm {baseline_text}. {reaches} {farther_text}"
-        ).rstrip()
-
-    def _describe_failures(self) -> str:
-        sizes = {len(failed) for failed in self.index.failures}
-        if len(sizes) > 1 or len(self.index.failures) != math.comb(self.space.arm.n, min(sizes)):
-            return "after any of the failures considered"
-        return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
-
-    def describe(self) -> list[str]:
-        """Return the result in a few sentences."""
-        reach_range = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
-        return [
-            self.headline,
-            f"{len(self.values):,} designs tried; {len(self.front)} of them are on the Pareto front of reach and "
-            f"{self.index.name}, reach {reach_range}",
-        ]
 
 
 def format_level(fraction: float) -> str:

@@ -1,21 +1,22 @@
-"""Numbers of the choice of a law, a comparison of the laws, and the convergence map of each."""
+"""Presentation of the choice of a law: a comparison of the laws, and the convergence map of each."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from holdfast.control.convergence.law_choice import LawChoice
-from holdfast.core.formatting import capitalise_first, format_count, format_percent
-from holdfast.interface.presentation import results
+from holdfast.core.formatting import format_count, format_percent
+from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence import maps
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.convergence.shares import format_points, rank_successes
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_TITLE_LENGTH = 24  # letters of a title
+save = partial(renderers.save, dpi=130)
 
 
 def to_dict(choice: LawChoice) -> dict[str, Any]:
@@ -23,118 +24,71 @@ def to_dict(choice: LawChoice) -> dict[str, Any]:
     return {"best": choice.best, "laws": list(choice.names), "maps": [maps.to_dict(law_map) for law_map in choice.maps]}
 
 
-def key_table(choice: LawChoice) -> TextTable:
-    """Return how often each law converges, the best first."""
-    shares = {name: choice.share(name) for name in choice.ranking}
-    table_rows = [
-        [name, f"{100 * share.value:.1f} % ({100 * share.low:.1f} to {100 * share.high:.1f})"] for name, share in shares.items()
-    ]
-    header = ["law", "converges after a lock, 95 %"]
-    if choice.maps[0].touched is None:
-        return TextTable(header, table_rows)
-    touched = [format_percent(choice.share(name, outcome="touched").value) for name in shares]
-    return TextTable(
-        [*header, "touches something, at most"],
-        [[*row, touched_text] for row, touched_text in zip(table_rows, touched, strict=True)],
-    )
-
-
-def story(choice: LawChoice) -> PageContent:
-    """Compose the report: the law that reaches the target most often, and the confidence in that."""
-    first_map = choice.maps[0]
-    arm, best_law, shares = first_map.law.arm, choice.best, {name: choice.share(name) for name in choice.ranking}
-    title, probability = f"The law with which {arm.name} reaches its targets most often", shares[best_law]
-    failures = int(first_map.has_configuration.sum()) * arm.n
-    if not probability.value:
+def present(choice: LawChoice) -> Presentation:
+    """Present the law that reaches the target most often, and the confidence in that."""
+    first_map, ranking = choice.maps[0], choice.ranking
+    arm, task, best_law = first_map.law.arm, first_map.law.task, ranking[0]
+    shares = {name: choice.share(name) for name in ranking}
+    failures = format_count(int(first_map.has_configuration.sum()) * arm.n, "failure")
+    share = shares[best_law]
+    if not share.value:
         answer = (
-            f"Under none of the {len(shares)} laws a target is reached after a lock; at most "
-            f"{format_percent(probability.high)} would be, 95 %."
+            f"Under none of the {len(shares)} laws a target is reached after a lock; at most {format_percent(share.high)} "
+            "would be, 95 %."
         )
     else:
-        answer = (
-            f"After an unnoticed lock {best_law} reaches the target most often, in "
-            f"{format_percent(probability.value)} of {format_count(failures, 'failure')}"
-        )
-    facts = (
-        [
-            (
-                format_percent(probability.value),
-                f"with {best_law}; {format_percent(probability.low)} to {format_percent(probability.high)}, 95 %",
-            )
-        ]
-        if probability.value
-        else []
-    )
-    if probability.value and len(shares) > 1:
-        runner_up = choice.ranking[1]
+        runner_up = ranking[1]
         difference = choice.difference(best_law, runner_up)
         points = f"{100 * difference.value:.1f} percentage points"
         if difference.low > 0:
-            answer += f"; {points} more than {runner_up} ({100 * difference.low:.1f} to {100 * difference.high:.1f}, 95 %)."
+            comparison = f"{points} more than {runner_up} ({100 * difference.low:.1f} to {100 * difference.high:.1f}, 95 %)"
         else:
-            answer += (
-                f"; that it is more than with {runner_up} ({format_percent(shares[runner_up].value)}) cannot be "
-                f"told from these failures."
+            comparison = (
+                f"that it is more than with {runner_up} ({format_percent(shares[runner_up].value)}) cannot be told from these "
+                "failures"
             )
-        facts += [(format_percent(shares[runner_up].value), f"with {runner_up}, the next")] if shares[runner_up].value else []
-        last_law = choice.ranking[-1]
-        facts += (
-            [(format_percent(shares[last_law].value), f"with {last_law}, the last")]
-            if len(shares) > 2 and shares[last_law].value
-            else []
+        answer = (
+            f"After an unnoticed lock {best_law} reaches the target most often, in {format_percent(share.value)} of "
+            f"{failures}; {comparison}."
         )
-    elif probability.value:
-        answer += "."
+    facts = rank_successes(shares)
+    columns = [
+        Column("law", "law"),
+        Column("converged", "converges after a lock", style="percent"),
+        Column("difference", "percentage points against the best"),
+    ]
+    rows: list[list[Any]] = [
+        [name, shares[name], "" if name == best_law else format_points(choice.difference(name, best_law))] for name in ranking
+    ]
     if first_map.touched is not None:
-        touched = choice.share(best_law, outcome="touched").value
-        answer += (
-            f" With {best_law} {f'at most {format_percent(touched)}' if touched else 'none'} of the motions touch "
-            f"something on the way."
-        )
-        facts += (
-            [(format_percent(touched), f"of the motions touch something at most, with {best_law}; a real arm would stop")]
-            if touched
-            else []
-        )
-    return PageContent(
-        title,
+        touched = [choice.share(name, outcome="touched").value for name in ranking]
+        touched_text = f"at most {format_percent(touched[0])}" if touched[0] else "none"
+        answer += f" With {best_law} {touched_text} of the motions touch something on the way."
+        phrase = f"of the motions touch something at most, with {best_law}; a real arm would stop"
+        facts.append(Fact("", touched[0], phrase=phrase, style="percent"))
+        columns.append(Column("touched", "touches something, at most", style="percent"))
+        rows = [[*row, value] for row, value in zip(rows, touched, strict=True)]
+    places = int(first_map.has_configuration.any(axis=1).sum())
+    caption = "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals."
+    return Presentation(
+        f"The law with which {arm.name} reaches its targets most often",
         answer,
-        about=f"{arm.name}, task {first_map.law.task.describe()}",
+        about=(f"{len(ranking)} laws on {arm.title}, task {task.describe()}: the same {failures}, {places} {first_map.over}"),
         facts=facts,
-        lines=[f"{capitalise_first(line)}." for line in choice.describe()[1:]],
-        figures={
-            "laws": (
-                "How the motions end under each law",
-                "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals.",
-            )
-        },
-        tables=[key_table(choice)],
+        tables=[TableSpec("Paired differences with 95 % intervals", columns, rows)],
+        figures={"laws": FigureSpec(partial(_draw_outcomes, choice), "How the motions end under each law", caption)},
         method=[
-            *((f"Law {index + 1}", law_map.law.describe()) for index, law_map in enumerate(choice.maps)),
-            *maps.story(first_map).method[1:],
+            *((f"Law {index}", law_map.law.describe()) for index, law_map in enumerate(choice.maps, 1)),
+            *maps.list_method_facts(first_map)[1:],
         ],
         arm=arm,
+        exports={f"{index}-{law_map.law.slug}": law_map.save for index, law_map in enumerate(choice.maps, 1)},
     )
 
 
-def next_steps(choice: LawChoice, name: str) -> list[str]:
-    """Suggest the confidence in the ranking and the map of the best law."""
-    steps = [f"{name}.difference(*{name}.ranking[:2])  # how sure that is"] if len(choice.names) > 1 else []
-    return [*steps, f"{name}.map_of({name}.best)"]
-
-
-def figures(choice: LawChoice) -> dict[str, Figure]:
-    """Draw ``laws``, the outcomes of the motions with each joint locked, law by law."""
+def _draw_outcomes(choice: LawChoice) -> Figure:
     titles = [
         name if len(name) <= _MAX_TITLE_LENGTH else law_map.law.label
         for name, law_map in zip(choice.names, choice.maps, strict=True)
     ]
-    return {"laws": maps.draw_map_outcomes(choice.maps, titles)}
-
-
-def save(choice: LawChoice, folder: Path, command: str = "") -> list[Path]:
-    """Save the figure, the report, and a folder with the map of each law."""
-    files = results.save(choice, folder, command, dpi=130)
-    for index, law_map in enumerate(choice.maps):
-        files += maps.save(law_map, folder / f"{index + 1}-{law_map.law.slug}")
-    return files
+    return maps.draw_map_outcomes(choice.maps, titles)

@@ -9,7 +9,7 @@ from holdfast.control.convergence.law_comparison import ANY_JOINT, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.core.formatting import capitalise_first
 from holdfast.core.probability.intervals import Difference
-from holdfast.interface.presentation.convergence.law_rows import OUTCOME_NAMES, get_time_unit
+from holdfast.interface.presentation.convergence.law_tables import OUTCOME_NAMES, get_time_unit
 from holdfast.interface.report.figures import Curve, compare_cdf_figure
 from holdfast.interface.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 

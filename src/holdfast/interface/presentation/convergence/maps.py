@@ -1,4 +1,4 @@
-"""Numbers, figures and files of a convergence map."""
+"""Presentation of a convergence map."""
 
 from __future__ import annotations
 
@@ -10,23 +10,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.control.convergence.maps import ConvergenceMap
-from holdfast.control.convergence.table import save_places
-from holdfast.core.formatting import capitalise_first, format_count, format_percent
-from holdfast.core.progress import reports_progress
+from holdfast.core.formatting import format_count, format_percent
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation import results
+from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.convergence.places import prepare_place_maps
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
+from holdfast.interface.presentation.convergence.shares import format_range
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from holdfast.interface.presentation.results import Drawings
     from holdfast.interface.report.outcomes import Stack
 
-
+save = partial(renderers.save, dpi=130)
 _END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
 _ENDING_LABELS = (
     "converges",
@@ -63,52 +60,52 @@ def to_dict(result: ConvergenceMap) -> dict[str, Any]:
     } | ({} if result.clearance is None else {"clearance": summarize_shape(result.clearance, 0.0)})
 
 
-def key_table(result: ConvergenceMap) -> TextTable:
-    """Return how often the motions converge with each joint locked."""
-    if not result.has_configuration.any():
-        return TextTable(["", ""], [["motions", "none"]])
-    converged, trapped = result.shares("converged"), result.shares("trapped")
-    cells = [
-        [
-            name,
-            f"{100 * share.value:.1f} % ({100 * share.low:.1f} to {100 * share.high:.1f})",
-            f"{100 * trapped[name].value:.1f} %",
-        ]
-        for name, share in converged.items()
-    ]
-    return TextTable(["locked", "converged, 95 %", "not there, target in reach"], cells)
-
-
-def story(result: ConvergenceMap) -> PageContent:
-    """Compose the report: how often the target is still reached, the lock with the fewest successes, and the other outcomes."""
-    law, place_noun = result.law, result.over
+def present(result: ConvergenceMap) -> Presentation:
+    """Present how often the target is still reached, the lock with the fewest successes, and the other outcomes."""
+    law, arm, places = result.law, result.law.arm, format_count(len(result.places), result.over[:-1])
     title = (
-        f"Starts from which {law.arm.name} reaches its target"
-        if place_noun == "starts"
-        else f"Targets that {law.arm.name} reaches"
+        f"Starts from which {arm.name} reaches its target" if result.over == "starts" else f"Targets that {arm.name} reaches"
     )
-    title += " after a lock that its controller does not know of"
-    subject = f"{law.arm.name}, {law.describe()}"
-    if not result.has_configuration.any():
-        explanation = (
-            f"No configuration was found at any of the {format_count(len(result.places), place_noun[:-1])}, so no "
-            f"motion was made; choose places within reach."
-        )
-        return PageContent(title, explanation, about=subject, method=_list_method_facts(result), arm=law.arm)
+    motions, motion_places = int(result.has_configuration.sum()), int(result.has_configuration.any(axis=1).sum())
+    about = (
+        f"{law.describe()} on {arm.title}: {motion_places} of {places} with {motions} motions, "
+        f"{motions * len(result.columns)} runs, seed {result.seed}"
+    )
+    if motions:
+        answer, facts, lines = _compose_answer(result)
+    else:
+        answer = f"No configuration was found at any of the {places}, so no motion was made; choose places within reach."
+        facts, lines = [], []
+    undecided = [f"{count} {reason.replace('_', ' ')}" for reason, count in result.count_undecided().items() if count]
+    if undecided:
+        lines.append(f"Undecided runs: {', '.join(undecided)}.")
+    return Presentation(
+        f"{title} after a lock that its controller does not know of",
+        answer,
+        about=about,
+        lines=lines,
+        facts=facts,
+        tables=[_tabulate_outcomes(result)] if motions else [],
+        figures=_list_figures(result) if motions else {},
+        method=list_method_facts(result),
+        arm=arm,
+        exports={"map.csv": partial(_write_csv, result), "map.json": partial(renderers.write_json, result)},
+    )
+
+
+def _compose_answer(result: ConvergenceMap) -> tuple[str, list[Fact], list[str]]:
+    """Compose the answer, its facts, and the sentences after it."""
     converged, trapped = result.shares("converged"), result.shares("trapped")
     *joints, healthy = converged
     values = np.array([converged[name].value for name in joints])
-    mean_success, worst_joint, trapped_mean = (
-        float(values.mean()),
-        joints[int(values.argmin())],
-        float(np.mean([trapped[x].value for x in joints])),
-    )
+    mean_success, worst_joint = float(values.mean()), joints[int(values.argmin())]
+    trapped_mean = float(np.mean([trapped[name].value for name in joints]))
     if not mean_success:
         fractions = {
             outcome: float(np.mean([share.value for name, share in result.shares(outcome).items() if name != healthy]))
             for outcome in _END_PHRASES
         }
-        ending = max(fractions, key=lambda x: fractions[x])
+        ending = max(fractions, key=lambda outcome: fractions[outcome])
         answer = (
             f"No motion reaches its target once a joint has locked: {format_percent(fractions[ending])} of them "
             f"{_END_PHRASES[ending]}"
@@ -121,61 +118,36 @@ def story(result: ConvergenceMap) -> PageContent:
             else " whichever joint it is"
         )
     answer += f". With no joint locked {_format_fraction(converged[healthy].value)} do."
-    facts = (
-        [(format_percent(mean_success), "of the motions reach their target, mean over the joint that locks")]
-        if mean_success
-        else []
-    )
-    if np.ptp(values) and values.min():
-        lowest = converged[worst_joint]
-        facts.append(
-            (
-                format_percent(lowest.value),
-                f"once {worst_joint} has locked, the worst of them; {format_percent(lowest.low)} to "
-                f"{format_percent(lowest.high)}, 95 %",
-            )
-        )
-    facts += [(format_percent(converged[healthy].value), "with no joint locked")] if converged[healthy].value else []
-    facts += (
-        [(format_percent(trapped_mean), "do not get there although the target is still within reach")] if trapped_mean else []
-    )
+    phrase = "of the motions reach their target, mean over the joint that locks"
+    facts = [Fact("", mean_success, phrase=phrase, style="percent")]
+    if np.ptp(values):
+        phrase = f"once {worst_joint} has locked, the worst of them; {format_range(converged[worst_joint])}"
+        facts.append(Fact("", converged[worst_joint].value, phrase=phrase, style="percent"))
+    facts.append(Fact("", converged[healthy].value, phrase="with no joint locked", style="percent"))
     if result.touched is not None:
         touched = result.shares("touched")
         touched_mean = float(np.mean([touched[name].value for name in joints]))
-        touched_text = (
-            "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
-        )
-        facts += [(format_percent(touched_mean), touched_text)] if touched_mean else []
         answer += (
-            f" On the way {format_percent(touched_mean) if touched_mean else 'none'} of those with a joint locked "
-            f"touch something."
+            f" On the way {format_percent(touched_mean) if touched_mean else 'none'} of those with a joint locked touch "
+            "something."
         )
-    return PageContent(
-        title,
-        answer,
-        about=subject,
-        facts=facts,
-        lines=[f"{capitalise_first(result.describe()[-1])}."] if sum(result.count_undecided().values()) else [],
-        figures={
-            "outcomes": (
-                "How the motions end",
-                "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals.",
-            ),
-            **{
-                f"map{view}": ("Where", f"The {place_noun} by what becomes of their motions, joint by joint.")
-                for view in ("", "-top", "-side")
-            },
-        },
-        method=_list_method_facts(result),
-        arm=law.arm,
-    )
+        phrase = "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
+        facts.append(Fact("", touched_mean, phrase=phrase, style="percent"))
+    lines = []
+    if trapped_mean:
+        lines.append(
+            f"{format_percent(trapped_mean)} of the motions with a joint locked do not get there although the target is still "
+            "in reach."
+        )
+    return answer, facts, lines
 
 
 def _format_fraction(fraction: float) -> str:
     return {0.0: "none", 1.0: "all"}.get(fraction, format_percent(fraction))
 
 
-def _list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
+def list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
+    """List how the map was computed."""
     places, motions = int(result.has_configuration.any(axis=1).sum()), int(result.has_configuration.sum())
     return [
         ("Law", result.law.describe()),
@@ -200,39 +172,22 @@ def _list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
     ]
 
 
-def tables(result: ConvergenceMap) -> list[TextTable]:
-    """Return how the motions end with each joint locked."""
-    if not result.has_configuration.any():
-        return []
-    shares = {outcome: result.shares(outcome) for outcome in result.words if outcome != "in_reach"}
-    table_rows = []
-    for name in result.columns:
-        converged, *other_cells = (f"{100 * outcome_shares[name].value:.1f} %" for outcome_shares in shares.values())
-        table_rows.append(
-            [
-                name,
-                converged,
-                f"{100 * shares['converged'][name].low:.1f} to {100 * shares['converged'][name].high:.1f}",
-                *other_cells,
-            ]
-        )
-    header = ["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"]
-    return [TextTable([*header, *(() if result.touched is None else ("touch something",))], table_rows)]
+def _tabulate_outcomes(result: ConvergenceMap) -> TableSpec:
+    """Tabulate how the motions end with each joint locked."""
+    columns = [Column("locked", "locked"), Column("converged", "converged", style="percent")]
+    columns += [Column(outcome, outcome, style="percent") for outcome in ("stuck", "moving", "undecided")]
+    columns.append(Column("trapped", "not there, in reach", style="percent"))
+    columns += [] if result.touched is None else [Column("touched", "touch something", style="percent")]
+    shares = [result.shares(column.key) for column in columns[1:]]
+    rows = [(name, shares[0][name], *(share[name].value for share in shares[1:])) for name in result.columns]
+    return TableSpec("How the motions end", columns, rows)
 
 
-def next_steps(result: ConvergenceMap, name: str) -> list[str]:
-    """Suggest the single motions and the full report."""
-    del result
-    return [f"{name}.to_xarray()  # every motion", f'{name}.report("map.html")']
-
-
-@reports_progress("writing the results")
-def save(result: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
-    """Save ``map.csv`` (a line for each place), ``map.json``, the figures and the report."""
+def _write_csv(result: ConvergenceMap, path: Path) -> None:
+    """Write the outcomes at each place."""
     columns = ["motions", *(f"{outcome}_{name}" for outcome in result.words for name in result.columns)]
     values = [result.has_configuration.sum(axis=1), *(result.values(outcome) for outcome in result.words)]
-    files = save_places(folder, "map", result.places, columns, values, result.to_dict())
-    return files + results.save(result, folder, command, dpi=130)
+    write_place_table(path, result.places, columns, values)
 
 
 def draw_map_outcomes(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
@@ -262,10 +217,8 @@ def _build_outcome_stack(title: str, result: ConvergenceMap) -> Stack:
     )
 
 
-def drawings(result: ConvergenceMap) -> Drawings:
-    """Return functions that draw ``outcomes``, bars for each joint, and ``map-top`` and ``map-side``, or ``map`` for a planar
-    task.
-    """
+def _list_figures(result: ConvergenceMap) -> dict[str, FigureSpec]:
+    """List ``outcomes``, bars for each joint, and ``map-top`` and ``map-side``, or ``map`` for a planar task."""
     percentages = {"converges": 100 * result.values("converged"), "not there, in reach": 100 * result.values("trapped")}
     percentages |= {} if result.touched is None else {"touches something": 100 * result.values("touched")}
     percentages = {name: values[:, :-1] for name, values in percentages.items()}
@@ -280,7 +233,12 @@ def drawings(result: ConvergenceMap) -> Drawings:
         f"{_compose_caption(result)}\nwhere the {result.over} are",
         target[0] if has_one_target else None,
     )
-    return {"outcomes": partial(draw_map_outcomes, [result]), **{f"map{view}": draw_view for view, draw_view in maps.items()}}
+    bars_caption = "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals."
+    map_caption = f"The {result.over} by what becomes of their motions, joint by joint."
+    return {
+        "outcomes": FigureSpec(partial(draw_map_outcomes, [result]), "How the motions end", bars_caption),
+        **{f"map{view}": FigureSpec(draw_view, "Where", map_caption) for view, draw_view in maps.items()},
+    }
 
 
 def _compose_caption(result: ConvergenceMap, laws: int = 1) -> str:

@@ -1,26 +1,32 @@
-"""Report of a search for designs that still reach their targets after an undetected lock."""
+"""Presentation of a search for designs that still reach their targets after an undetected lock."""
 
 from __future__ import annotations
 
 import shlex
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from markupsafe import Markup
-from matplotlib.figure import Figure
 
-from holdfast.core.files.output import write_files
-from holdfast.core.formatting import capitalise_first, format_decimals, format_percent
+from holdfast.core.files.output import replace_file
+from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.core.probability.intervals import Difference, Interval
-from holdfast.core.progress import reports_progress
-from holdfast.interface.presentation.designs.figures import draw_parameters
-from holdfast.interface.presentation.designs.page import ARM_FILE, build_bounds_callout, tabulate_parameters
-from holdfast.interface.presentation.page_content import build_method_blocks
-from holdfast.interface.report import figures as drawing
-from holdfast.interface.report import page
-from holdfast.interface.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
+from holdfast.interface.presentation.convergence.shares import format_points
+from holdfast.interface.presentation.designs.parameters import (
+    ARM_FILE,
+    build_file_section,
+    list_bound_notices,
+    tabulate_parameters,
+)
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec, format_value
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Block, Section
 
 _MEASURE_MEANINGS = {
     "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
@@ -30,94 +36,109 @@ _MEASURE_MEANINGS = {
 }
 
 
-@reports_progress("drawing the report")
-def write(designs: ConvergenceDesigns, path: Path) -> Path:
-    """Write the report: the best design, its gain, and how it was found."""
-    return page.write(build(designs), path)
+def to_dict(designs: ConvergenceDesigns) -> dict[str, Any]:
+    """Return the given arm and the best design, rad, m and fractions, as JSON data."""
 
+    def describe_design(number: int) -> dict[str, Any]:
+        values = dict(zip(designs.space.names, designs.values[number].tolist(), strict=True))
+        return {"values": values, **{name: float(measure[number]) for name, measure in designs.measures.items()}}
 
-@reports_progress("writing the results")
-def save(designs: ConvergenceDesigns, folder: Path) -> list[Path]:
-    """Save designs.csv, a row for each design with its values (m, rad) and measures (fractions), best-arm.yaml and
-    report.html.
-    """
-    lines = [",".join((*designs.space.names, *designs.measures))]
-    columns = [*designs.values.T.tolist(), *(measure.tolist() for measure in designs.measures.values())]
-    lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*columns, strict=True)]
-    files = write_files(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: designs.arm_file()})
-    return [*files, designs.report(folder / "report.html")]
-
-
-def figures(designs: ConvergenceDesigns) -> dict[str, Figure]:
-    """Draw the value of each design against each parameter."""
-    factors = np.array([parameter.display_unit[0] for parameter in designs.space.parameters])
-    names = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in designs.space.parameters]
-    objective_values = designs.measures[designs.objective if designs.exact else "converged"]
-    baseline = designs.values[0] * factors, float(objective_values[0])
-    return {
-        "parameters": draw_parameters(
-            names, designs.values * factors, objective_values, baseline, f"fraction, {designs.objective}"
-        )
+    data: dict[str, Any] = {
+        **designs.law.arm.entry(),
+        "law": designs.law.label,
+        "task": designs.law.task.name,
+        "objective": designs.objective,
+        "exact": designs.exact,
+        "designs": len(designs.values),
+        "given": describe_design(0),
+        "best": describe_design(designs.best),
     }
+    if designs.checked is not None:
+        baseline, best, difference = designs.checked
+        estimates: dict[str, Interval | Difference] = {"given": baseline, "best": best, "difference": difference}
+        data["fresh"] = {
+            n: {"value": estimate.value, "low": estimate.low, "high": estimate.high} for n, estimate in estimates.items()
+        }
+    return data
 
 
-def build(designs: ConvergenceDesigns) -> Page:
-    """Build the report as blocks, before it becomes HTML."""
-    best_values = designs.values[designs.best]
-    return Page(
-        f"Designs of {designs.law.arm.name} that reach their targets after an unknown lock",
-        headline(designs),
-        [
-            Section(
-                "What to build",
-                [
-                    *(build_bounds_callout(designs.space, best_values) if designs.best else []),
-                    tabulate_parameters(designs.space, best_values),
-                ],
+def present(designs: ConvergenceDesigns) -> Presentation:
+    """Present the best design, its gain, and how it was found."""
+    law, best, is_given = designs.law, designs.best, designs.best == 0
+    measures = [
+        (name, float(measure[0]), float(measure[best]), _MEASURE_MEANINGS[name]) for name, measure in designs.measures.items()
+    ]
+    if designs.checked is not None:
+        given_value, best_value = designs.checked[0].value, designs.checked[1].value
+        label = "of fresh failures, after which it reaches its target:"
+        phrases = (f"{label} the given arm", f"{label} the best design")
+    else:
+        measure = _objective_values(designs)
+        given_value, best_value = float(measure[0]), float(measure[best])
+        phrases = ("the given arm", f"{designs.objective}, the best design")
+    facts = [] if is_given else [Fact("", best_value, phrase=phrases[1], style="percent")]
+    facts.append(Fact("", given_value, phrase=phrases[0], style="percent"))
+    facts.append(Fact("designs", len(designs.values), phrase="designs were tried"))
+    columns = [Column("measure", "measure"), Column("given", "given arm", style="percent")]
+    columns += [Column("best", "best design", style="percent"), Column("meaning", "what it is")]
+    tables = [tabulate_parameters(designs.space, designs.values[best]), TableSpec("Measured in the search", columns, measures)]
+    settings = designs.searched
+    measured = (
+        "from the stationary sets of the planar arm, all targets at once"
+        if designs.exact
+        else f"simulation: {settings['targets']} targets, {settings['failures']} failures of each joint at each, the same for "
+        "all designs; a joint locks where it is in some configuration at the target, and the arm starts anywhere"
+    )
+    caption = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
+    can_rerun = designs.exact or (settings["targets"], settings["failures"]) == (DEFAULT_TARGETS, FAILURES_PER_JOINT)
+    return Presentation(
+        f"Designs of {law.arm.name} that reach their targets after an unknown lock",
+        _compose_answer(designs),
+        about=f"{law.arm.title} under {law.describe()}; {', '.join(designs.space.names)}",
+        lines=(
+            ["Having no sink and no singular trap does not prove convergence: limit cycles exist."]
+            if designs.checked is None
+            else []
+        ),
+        notices=[] if is_given else list_bound_notices(designs.space, designs.values[best]),
+        facts=facts,
+        tables=tables,
+        figures={"parameters": FigureSpec(partial(_draw_parameters, designs), "Which parameter matters", caption, saved=False)},
+        sections=partial(_build_sections, designs),
+        method=[
+            ("Law", law.describe()),
+            ("Measured", measured),
+            (
+                "Search",
+                f"{settings['designs']:,} Sobol designs, those with equal lengths, and pattern searches from "
+                f"{settings['climbs']} of them",
             ),
-            Section("What that gains", _build_gain_blocks(designs)),
-            Section("Which parameter matters", [_build_parameter_picture(designs)]),
-            Section("The best arm as a file", _build_file_blocks(designs)),
+            *([] if designs.checked is None else [("Fresh failures", "targets and failures that had no part in the search")]),
+            ("Seed", str(settings["seed"])),
         ],
-        subtitle=f"{designs.law.describe()}; {', '.join(designs.space.names)}",
-        facts=[fact for fact in _list_answer_facts(designs) if fact[0] != "0 %"],
-        method=_build_method_blocks(designs),
-        again=_build_rerun_blocks(designs),
+        arm=law.arm,
+        again=partial(_build_rerun_blocks, designs) if can_rerun else tuple,
+        exports={"designs.csv": partial(_write_designs, designs), ARM_FILE: partial(_write_arm, designs)},
     )
 
 
-def _list_answer_facts(designs: ConvergenceDesigns) -> list[tuple[Cell, Cell]]:
-    """List the values of the best design and of the baseline arm, and the number of designs."""
-    if designs.checked is not None:
-        baseline, best_share, _ = designs.checked
-        label = "of fresh failures, after which it reaches its target:"
-        pairs = [(best_share.value, f"{label} the best design")] * (designs.best > 0) + [
-            (baseline.value, f"{label} the given arm")
-        ]
-    else:
-        measure = designs.measures[designs.objective if designs.exact else "converged"]
-        pairs = [(float(measure[designs.best]), f"{designs.objective}, the best design"), (float(measure[0]), "the given arm")][
-            : 1 + (designs.best > 0)
-        ]
-    return [
-        *((format_percent(value), description) for value, description in pairs),
-        (f"{len(designs.values):,}", "designs were tried"),
-    ]
+def _objective_values(designs: ConvergenceDesigns) -> Any:
+    return designs.measures[designs.objective if designs.exact else "converged"]
 
 
-def headline(designs: ConvergenceDesigns) -> str:
+def _compose_answer(designs: ConvergenceDesigns) -> str:
     """Compose the answer in one or two sentences."""
     if designs.checked is not None:
         baseline, best, difference = designs.checked
         if designs.best == 0:
             return (
-                f"Nothing better than the given arm was found: it reaches its target in {_format_share(baseline)} of "
+                f"Nothing better than the given arm was found: it reaches its target in {format_value(baseline, 'percent')} of "
                 f"fresh failures."
             )
         text = (
             "After a lock that the controller does not know of, the best design reaches its target in "
-            f"{_format_share(best)} of fresh failures, the given arm in {_format_share(baseline)}: "
-            f"{_format_percentage_points(difference)} more."
+            f"{format_value(best, 'percent')} of fresh failures, the given arm in {format_value(baseline, 'percent')}: "
+            f"{format_points(difference)} percentage points."
         )
         return (
             text if difference.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
@@ -129,82 +150,24 @@ def headline(designs: ConvergenceDesigns) -> str:
     return f"The best design has {name} {best_text}, the given arm {baseline_text}: the {_MEASURE_MEANINGS[name]}."
 
 
-def _format_share(fraction: Interval) -> str:
-    return f"{format_percent(fraction.value)} ({format_percent(fraction.low)} to {format_percent(fraction.high)}, 95 %)"
+def _draw_parameters(designs: ConvergenceDesigns) -> Figure:
+    """Draw the value of each design against each parameter."""
+    from holdfast.interface.presentation.designs.figures import draw_parameters
+
+    factors = np.array([parameter.display_unit[0] for parameter in designs.space.parameters])
+    names = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in designs.space.parameters]
+    values = _objective_values(designs)
+    baseline = designs.values[0] * factors, float(values[0])
+    return draw_parameters(names, designs.values * factors, values, baseline, f"fraction, {designs.objective}")
 
 
-def _format_percentage_points(difference: Difference) -> str:
-    middle, lower, upper = (format_decimals(100 * value, 1) for value in (difference.value, difference.low, difference.high))
-    return f"{middle} points ({lower} to {upper})"
-
-
-def _build_gain_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    table_rows: list[list[Cell]] = [
-        [name, format_percent(float(measure[0])), format_percent(float(measure[designs.best])), _MEASURE_MEANINGS[name]]
-        for name, measure in designs.measures.items()
-    ]
-    header = ["Measure", "given arm", "best design", "what it is"]
-    blocks: list[Block] = [
-        Table(
-            table_rows, header, frozenset({1, 2}), caption=f"As measured in the search, over {len(designs.values):,} designs."
-        )
-    ]
-    if designs.checked is not None:
-        baseline, best, difference = designs.checked
-        check_rows: list[list[Cell]] = [
-            ["converged", _format_share(baseline), _format_share(best), _format_percentage_points(difference)]
-        ]
-        check_caption = "On targets and failures that had no part in the search, the same for both."
-        blocks.append(
-            Table(check_rows, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=check_caption)
-        )
-    else:
-        blocks.append(Text("Having no sink and no singular trap does not prove convergence: limit cycles exist.", quiet=True))
-    return blocks
-
-
-def _build_parameter_picture(designs: ConvergenceDesigns) -> Picture:
-    (figure,) = figures(designs).values()
-    caption = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
-    return Picture(drawing.svg(figure, "parameters", "Measure of the designs against each parameter"), caption)
-
-
-def _build_file_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
-    return [
-        Code(designs.arm_file().rstrip(), label),
-        Text("It has no masses: a table of Denavit-Hartenberg rows holds none.", quiet=True),
-    ]
-
-
-def _build_method_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    settings = designs.searched
-    measured = (
-        "from the stationary sets of the planar arm, all targets at once"
-        if designs.exact
-        else f"simulation: {settings['targets']} targets, {settings['failures']} failures of each joint at each, the same "
-        f"for all designs; a "
-        "joint locks where it is in some configuration at the target, and the arm starts anywhere"
-    )
-    entries: list[tuple[str, Cell]] = [
-        ("Law", designs.law.describe()),
-        ("Measured", measured),
-        (
-            "Search",
-            f"{settings['designs']:,} Sobol designs, those with equal lengths, and pattern searches from "
-            f"{settings['climbs']} of them",
-        ),
-        ("Seed", str(settings["seed"])),
-    ]
-    return build_method_blocks(designs.law.arm, *entries, arm_word="given arm")
+def _build_sections(designs: ConvergenceDesigns) -> list[Section]:
+    return [build_file_section(designs.arm_file(), "It has no masses: a table of Denavit-Hartenberg rows holds none.")]
 
 
 def _build_rerun_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    if not designs.exact and (designs.searched["targets"], designs.searched["failures"]) != (
-        DEFAULT_TARGETS,
-        FAILURES_PER_JOINT,
-    ):
-        return []
+    from holdfast.interface.report.page import Code
+
     command_line, remark = format_command(designs)
     return [Code(command_line, remark and f"{capitalise_first(remark)}:")]
 
@@ -219,3 +182,15 @@ def format_command(designs: ConvergenceDesigns) -> tuple[str, str]:
     ] * bool(settings.get("keep_reach"))
     words.append(f"--designs {settings['designs']} --local-searches {settings['climbs']} --seed {settings['seed']}")
     return " \\\n    ".join([f"holdfast design {shlex.quote(arm_spec)}", *words]), remark
+
+
+def _write_designs(designs: ConvergenceDesigns, path: Path) -> None:
+    """Write a row for each design with its values (m, rad) and measures (fractions)."""
+    lines = [",".join((*designs.space.names, *designs.measures))]
+    columns = [*designs.values.T.tolist(), *(measure.tolist() for measure in designs.measures.values())]
+    lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*columns, strict=True)]
+    replace_file(path, "\n".join(lines) + "\n")
+
+
+def _write_arm(designs: ConvergenceDesigns, path: Path) -> None:
+    replace_file(path, designs.arm_file())

@@ -1,58 +1,131 @@
-"""Numbers and text of records and their checks."""
+"""Presentation of record designs, their checks, and the record book."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from holdfast.core.files.output import write_files
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.printing import TextTable
-from holdfast.studies.designs.record_book.entries import DesignRecord, RecordBook, RecordCheck
+from holdfast.interface.presentation import renderers
+from holdfast.interface.presentation.presentation import Column, Notice, Presentation, TableSpec
+from holdfast.studies.designs.record_book.entries import (
+    TOTAL_LINK_LENGTH_M,
+    DesignRecord,
+    RecordBook,
+    RecordCheck,
+    find_best_record,
+)
 
-BookResult = RecordBook | DesignRecord | RecordCheck
+if TYPE_CHECKING:
+    from holdfast.interface.report.page import Section
 
-_RECORD_HEADER = ["record", "task", "joints", "locked", "value", "no arm can beat", "by", "gap"]
-
-
-def format_record_row(record: DesignRecord) -> list[str]:
-    """Format a record as a row of a table."""
-    kind, bound = record.data.kind, record.data.proven_bound
-    task_text, gap_text = kind.task or f"any of {kind.rows} rows", "0" if record.gap < 1e-8 else format_percent(record.gap)
-    return [record.id, task_text, f"{kind.joints}", f"{kind.failures}", record.amount, f"{bound.value:.7g}", bound.by, gap_text]
+PAGE_FILE = "records.html"
+_ZERO_GAP = 1e-8  # relative: rounding
 
 
-def to_dict(result: BookResult) -> dict[str, Any]:
+def to_dict(result: RecordBook | DesignRecord | RecordCheck) -> dict[str, Any]:
     """Return the content of the file, or the claims of a check, as JSON data."""
     if isinstance(result, RecordBook):
         return {"records": [to_dict(record) for record in result.values()]}
     if isinstance(result, DesignRecord):
         return result.data.model_dump(by_alias=True, exclude_none=True)
-    return {
-        "record": result.record.id,
-        "ok": result.ok,
-        "claims": [{"said": claim, "holds": holds} for claim, holds in result.claims],
-    }
+    return {"record": result.record.id, "ok": result.ok, "claims": _tabulate_claims(result).records()}
 
 
-def tables(result: BookResult) -> list[TextTable]:
-    """Return a row for each record."""
-    if isinstance(result, RecordBook):
-        return [TextTable(_RECORD_HEADER, [format_record_row(item) for item in result.values()])]
-    return []
-
-
-def key_table(result: BookResult) -> TextTable:
-    """Return a row for each record or claim, for notebooks."""
-    if isinstance(result, DesignRecord):
-        return TextTable(_RECORD_HEADER, [format_record_row(result)])
+def present(result: RecordBook | DesignRecord | RecordCheck) -> Presentation:
+    """Present the value and the bound of a record or of all records, or the claims of a check."""
     if isinstance(result, RecordCheck):
-        return TextTable(["claim", "holds"], [[claim, "yes" if holds else "no"] for claim, holds in result.claims])
-    return tables(result)[0]
-
-
-def next_steps(result: BookResult, name: str) -> list[str]:
-    """Suggest a use of the result."""
-    if isinstance(result, RecordBook):
-        return [f'{name}["pose-9R-k2-001"].check()  # measures it again']
+        return _present_check(result)
     if isinstance(result, DesignRecord):
-        return [f"{name}.check()  # measures it again"]
-    return [f"{name}.ok  # every claim holds"]
+        return Presentation(f"Record {result.id}", _describe_record(result), tables=[tabulate_records([result])])
+    null_spaces = [record for record in result.values() if record.arm is None]
+    open_count = sum(record.gap > _ZERO_GAP for record in null_spaces)
+    answer = (
+        f"{len(result)} records: the best that anybody has found. For {open_count} of {len(null_spaces)} null spaces the value "
+        "is below the proved bound: those are open."
+    )
+    return Presentation(
+        "Record book",
+        answer,
+        about="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
+        tables=[tabulate_records(result.values(), on_page=False)],
+        sections=partial(_build_sections, result),
+        method=[("Checks", "Each record is one file and is checked by independent code: holdfast record-designs check.")],
+    )
+
+
+def _describe_record(record: DesignRecord) -> str:
+    """Describe the class, the value, and the bound of a record in a sentence."""
+    kind, bound = record.data.kind, record.data.proven_bound
+    quantity_texts = {
+        "relative-manipulability": f"{kind.failures} locked at once",
+        "self-motion-size": "whole turns in one self-motion",
+        "tolerant-workspace": f"m^2 whichever locks, {TOTAL_LINK_LENGTH_M:g} m of links, each at least "
+        f"{format_percent(kind.least_link)} of it",
+    }
+    arm_prefix = "" if kind.of is None else f"{kind.of}, "
+    class_text = (
+        f"{arm_prefix}{kind.task or f'any task of {kind.rows} rows'}, {kind.joints} joints, {quantity_texts[kind.quantity]}"
+    )
+    beaten_text = f"; beaten by {record.data.beaten_by}" if record.data.beaten_by else ""
+    value_text = f"{record.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten_text}"
+    return f"{record.id}: {class_text}: {value_text}."
+
+
+def _present_check(check: RecordCheck) -> Presentation:
+    """Present whether the claims hold, and the comparison with the current record."""
+    record, current, lines = check.record, find_best_record(check.record.data.kind), []
+    if check.ok and current is None:
+        lines.append("It is the first of its class.")
+    elif check.ok and current is not None and current.id != record.id:
+        relative_gain = record.data.value / current.data.value - 1
+        verb = "beats" if relative_gain > 1e-9 else "does not beat"
+        lines.append(f"It {verb} {current.id}: {100 * relative_gain:+.2g} %.")
+    return Presentation(
+        f"Check of record {record.id}",
+        f"{record.id} {'holds' if check.ok else 'does not hold'}.",
+        lines=lines,
+        notices=[Notice(f"Not so: {claim}", "bad") for claim, holds in check.claims if not holds],
+        tables=[_tabulate_claims(check)],
+    )
+
+
+def _tabulate_claims(check: RecordCheck) -> TableSpec:
+    return TableSpec("", [Column("said", "claim"), Column("holds", "holds")], check.claims)
+
+
+def tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
+    """Tabulate records, a row for each."""
+    keys = ("record", "task", "joints", "locked", "value", "bound", "by", "gap")
+    columns = [Column(key, "no arm can beat" if key == "bound" else key) for key in keys]
+    rows = []
+    for record in records:
+        kind, bound = record.data.kind, record.data.proven_bound
+        task_text, gap_text = kind.task or f"any of {kind.rows} rows", _format_gap(record)
+        bound_text = f"{bound.value:.7g}"
+        rows.append([record.id, task_text, kind.joints, kind.failures, record.amount, bound_text, bound.by, gap_text])
+    return TableSpec("", columns, rows, on_page=on_page)
+
+
+def _format_gap(record: DesignRecord) -> str:
+    return "0" if record.gap < _ZERO_GAP else format_percent(record.gap)
+
+
+def _build_sections(book: RecordBook) -> list[Section]:
+    from holdfast.interface.presentation.designs.book import build_sections
+
+    return build_sections(book)
+
+
+def save(result: RecordBook | DesignRecord | RecordCheck, folder: Path, command: str = "") -> list[Path]:
+    """Save the page; of the book with the YAML file of each record and the URDF file of each arm, to which the page leads."""
+    if not isinstance(result, RecordBook):
+        return renderers.save(result, folder, command)
+    files = {f"{record.id}.yaml": record.text for record in result.values()}
+    files |= {f"{record.id}.urdf": record.urdf() for record in result.values() if record.arm is not None}
+    written = write_files(folder, files)
+    page_file: Path = renderers.write(result, folder / PAGE_FILE, command or "holdfast record-designs check --all")
+    return [*written, page_file]

@@ -158,25 +158,6 @@ class DesignRecord(Result):
         """Configuration (n,), rad."""
         return np.zeros(self.data.kind.joints) if self.data.at == "home" else np.array(self.data.at)
 
-    def describe(self) -> list[str]:
-        """Return the class, value, and bound in a sentence."""
-        record_class, bound = self.data.kind, self.data.proven_bound
-        quantity_texts = {
-            "relative-manipulability": f"{record_class.failures} locked at once",
-            "self-motion-size": "whole turns in one self-motion",
-            "tolerant-workspace": f"m^2 whichever locks, {TOTAL_LINK_LENGTH_M:g} m of links, each at least "
-            f"{format_percent(record_class.least_link)} of it",
-        }
-        arm_prefix = "" if record_class.of is None else f"{record_class.of}, "
-        class_text = (
-            f"{arm_prefix}{record_class.task or f'any task of {record_class.rows} rows'}, {record_class.joints} "
-            f"joints, {quantity_texts[record_class.quantity]}"
-        )
-        beaten_text = f"; beaten by {self.data.beaten_by}" if self.data.beaten_by else ""
-        return [
-            f"{self.id}: {class_text}: {self.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten_text}"
-        ]
-
     def check(self) -> RecordCheck:
         """Measure all claims again with code that is independent of the search."""
         record_class, claimed, claims = self.data.kind, self.data, list[tuple[str, bool]]()
@@ -323,27 +304,9 @@ class RecordCheck(Result):
         """True if every claim holds."""
         return all(holds for _, holds in self.claims)
 
-    def describe(self) -> list[str]:
-        """Return a line for each claim, and the comparison with the current record."""
-        lines = [f"{self.record.id}: {'holds' if self.ok else 'does not hold'}"]
-        lines += [f"{'ok' if holds else 'NOT SO'}: {claim}" for claim, holds in self.claims]
-        current = find_best_record(self.record.data.kind)
-        if self.ok and current is not None and current.id != self.record.id:
-            relative_gain = self.record.data.value / current.data.value - 1
-            comparison = "beats" if relative_gain > 1e-9 else "does not beat"
-            lines.append(f"{comparison} {current.id}: {100 * relative_gain:+.2g} %")
-        if self.ok and current is None:
-            lines.append("the first of its class")
-        return lines
-
 
 class RecordBook(dict[str, DesignRecord], Result):
     """All records by their id."""
-
-    def describe(self) -> list[str]:
-        """Return the number of records and the number of open ones."""
-        open_count = sum(entry.gap > 1e-8 for entry in self.values() if entry.arm is None)
-        return [f"{len(self)} records; of {open_count} null spaces the value is below the proven bound: those are open"]
 
 
 def record_designs() -> RecordBook:

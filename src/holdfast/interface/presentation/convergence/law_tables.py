@@ -1,0 +1,195 @@
+"""Tables of a comparison of laws, for people and as rows of CSV and JSON."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from holdfast.control.convergence.law_comparison import ANY_JOINT, LawComparison
+from holdfast.control.simulation.errors import error_kinds
+from holdfast.control.simulation.runs import RunOutcome
+from holdfast.core.formatting import format_count, format_percent
+from holdfast.interface.presentation.presentation import Column, TableSpec
+
+OUTCOME_NAMES = [outcome.name.lower() for outcome in RunOutcome]
+_RUN_COLUMNS = ("path_length", "path_ratio", "excursion", "time")
+
+
+def build_outcome_table(comparison: LawComparison) -> TableSpec:
+    """Tabulate how the runs of each law ended, with each joint locked."""
+    kinds = error_kinds(comparison.laws[0])
+    percent_columns = [*OUTCOME_NAMES, "reachable"]
+    columns = [Column("law", "law"), Column("failure", "locked")]
+    columns += [Column(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
+    columns.insert(3, Column("interval", "95 % interval", style="percent"))
+    columns += [Column(f"{kind.key}_astray", f"astray, {kind.unit}", aligned=False) for kind in kinds]
+    rows = [
+        [
+            row["law"],
+            row["failure"],
+            row["converged"],
+            (row["converged_low"], row["converged_high"]),
+            *(row[name] for name in percent_columns[1:]),
+            *(_scale(row[f"{kind.key}_astray"], kind.factor) for kind in kinds),
+        ]
+        for row in comparison.table
+    ]
+    return TableSpec(f"{format_count(len(comparison), 'motion')} each; joint limits are not enforced", columns, rows)
+
+
+def build_detail_table(comparison: LawComparison) -> TableSpec:
+    """Tabulate quantiles of the errors, for the page."""
+    kinds, levels = error_kinds(comparison.laws[0]), ("50", "75", "95")
+    columns = [
+        Column("law", "law"),
+        Column("failure", "locked"),
+        Column("converged_reachable", "converged of those within reach", style="percent"),
+        Column("converged_within_limits", "converged within limits", style="percent"),
+        Column("past_limits", "past a limit", style="percent"),
+    ]
+    columns += [
+        Column(f"{kind.key}_{level}", f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}", aligned=False)
+        for kind in kinds
+        for level in levels
+    ]
+    columns += [
+        Column("path_ratio", "path length, divided by the straight distance", aligned=False),
+        Column("excursion", "sum of the joint ranges, rad and m", aligned=False),
+    ]
+    factors = {f"{kind.key}_{level}": kind.factor for kind in kinds for level in levels}
+    rows = [[_scale(row[column.key], factors.get(column.key)) for column in columns] for row in comparison.table]
+    return TableSpec("Quantiles over all runs, at their ends; path and joints: medians", columns, rows, on_console=False)
+
+
+def _scale(value: Any, factor: float | None) -> Any:
+    """Convert an error to the unit for people; None stays None."""
+    return value if value is None or factor is None else factor * value
+
+
+def build_gain_table(comparison: LawComparison, gains: list[dict[str, Any]]) -> TableSpec:
+    """Tabulate the paired differences to the first law, with their intervals."""
+    kinds = error_kinds(comparison.laws[0])
+    columns = [Column("law", "law"), Column("failure", "locked"), Column("gain", "converge, percentage points")]
+    columns += [Column("gain_p_value", "p", digits=2, aligned=False)]
+    columns += [Column(kind.key, f"mean {kind.text}, {kind.unit}") for kind in kinds]
+    rows = [
+        [
+            row["law"],
+            row["failure"],
+            _format_difference(row, "gain", 100.0),
+            row["gain_p_value"],
+            *(_format_difference(row, kind.key, kind.factor) for kind in kinds),
+        ]
+        for row in gains
+    ]
+    return TableSpec(f"Differences to {comparison.names[0]} over the same motions, with 95 % intervals", columns, rows)
+
+
+def _format_difference(row: dict[str, Any], key: str, factor: float) -> str:
+    """Format a difference with its sign and its interval."""
+    value, low, high = (f"{factor * row[name]:+.1f}" for name in (key, f"{key}_low", f"{key}_high"))
+    return f"{value} ({low} to {high})"
+
+
+def build_contact_table(comparison: LawComparison) -> TableSpec:
+    """Tabulate the runs with a contact, the converged runs without one, and the objects touched first."""
+    columns = [
+        Column("law", "law"),
+        Column("failure", "locked"),
+        Column("touched", "touch something", style="percent"),
+        Column("interval", "95 % interval", style="percent"),
+        Column("converged_clear", "converge and touch nothing", style="percent"),
+        Column("objects", "touched first"),
+    ]
+    rows = []
+    for row in comparison.table:
+        contacts = comparison.case(row["law"], row["failure"]).contacts or ()
+        first_touched = Counter(contact.object for contact in contacts if contact is not None).most_common(2)
+        objects = ", ".join(f"{name} ({format_percent(count / len(comparison))})" for name, count in first_touched)
+        interval = (row["touched_low"], row["touched_high"])
+        rows.append([row["law"], row["failure"], row["touched"], interval, row["converged_clear"], objects or "nothing"])
+    return TableSpec("What they touch on the way, and how often it is first", columns, rows)
+
+
+def build_cost_table(comparison: LawComparison, costs: list[dict[str, Any]]) -> TableSpec:
+    """Tabulate the cost of each law for the healthy arm."""
+    time_unit = get_time_unit(comparison)
+    columns = [Column("law", "while healthy")]
+    for measure, unit, text in (
+        ("deviation", "m", "off the line, m"),
+        ("angle", "deg", "angle, deg"),
+        ("time", "", f"time, {time_unit}"),
+    ):
+        suffix = f"_{unit}" if unit else ""
+        columns += [Column(f"{measure}_50{suffix}", f"{text}: median"), Column(f"{measure}_95{suffix}", "95 %")]
+    rows = [[row[column.key] for column in columns] for row in costs]
+    return TableSpec(
+        "Distance from the straight line, largest angle to the command, and time of the motions that converge with every law "
+        "while nothing has failed",
+        columns,
+        rows,
+    )
+
+
+def get_time_unit(comparison: LawComparison) -> str:
+    """Return the unit of the time of a run."""
+    return "cycles" if comparison.runs[0].cycles else "s"
+
+
+def tabulate_gains(comparison: LawComparison) -> list[dict[str, Any]]:
+    """Return the paired differences to the first law, with their intervals, for each other law and each joint."""
+    table_rows = []
+    for name in comparison.names[1:]:
+        for failure in [*comparison.joints, ANY_JOINT]:
+            row: dict[str, Any] = {"law": name, "than": comparison.names[0], "failure": failure}
+            gain = comparison.gain(name, failure)
+            row |= {"gain": gain.value, "gain_low": gain.low, "gain_high": gain.high, "gain_p_value": gain.p_value}
+            for kind in error_kinds(comparison.laws[0]):
+                change = comparison.change(name, kind.name, failure)
+                row |= {kind.key: change.value, f"{kind.key}_low": change.low, f"{kind.key}_high": change.high}
+            table_rows.append(row)
+    return table_rows
+
+
+def tabulate_healthy_costs(comparison: LawComparison) -> list[dict[str, Any]]:
+    """Return medians and 95 % quantiles of the cost of each law for the healthy arm; m, deg, and s or cycles."""
+    table_rows = []
+    for name in comparison.names:
+        row: dict[str, Any] = {"law": name}
+        for measure, unit, factor in (("deviation", "m", 1.0), ("angle", "deg", 180 / np.pi), ("time", "", 1.0)):
+            median, upper_quantile = factor * comparison.cost(name, measure, (0.5, 0.95))  # type: ignore[arg-type]
+            row |= {
+                "_".join(word for word in (measure, quantile, unit) if word): value
+                for quantile, value in (("50", median), ("95", upper_quantile))
+            }
+        table_rows.append(row)
+    return table_rows
+
+
+def tabulate_runs(comparison: LawComparison) -> list[dict[str, Any]]:
+    """Return the end of the run for each law, failure and motion."""
+    table_rows: list[dict[str, Any]] = []
+    for case in (comparison.case(name, failure) for name in comparison.names for failure in comparison.failures):
+        for motion in range(len(comparison)):
+            row: dict[str, Any] = {
+                "law": case.law,
+                "failure": case.failure,
+                "motion": motion,
+                "outcome": OUTCOME_NAMES[case.code[motion]],
+            }
+            row["reachable"] = int(case.reachable[motion])
+            row |= {kind.key: f"{getattr(case, kind.name)[motion]:.9g}" for kind in error_kinds(comparison.laws[0])}
+            row |= {column: f"{getattr(case, column)[motion]:.9g}" for column in _RUN_COLUMNS}
+            row["past_limits"] = int(case.past_limits[motion])
+            if case.contacts is not None:
+                contact = case.contacts[motion]
+                row |= {"touched_at": "", "link": "", "object": ""}
+                row |= (
+                    {}
+                    if contact is None
+                    else {"touched_at": f"{contact.time:.9g}", "link": contact.link, "object": contact.object}
+                )
+            table_rows.append(row)
+    return table_rows

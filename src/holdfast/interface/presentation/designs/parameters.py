@@ -1,0 +1,82 @@
+"""Parameters of the best design, those at their bounds, and its file, for designs of both kinds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.presentation import Column, Notice, TableSpec
+from holdfast.studies.designs.space import DesignParameter, DesignSpace
+
+if TYPE_CHECKING:
+    from holdfast.interface.report.page import Block, Section
+
+ARM_FILE = "best-arm.yaml"
+_BOUND_TOLERANCE = 1e-6  # of the width between the bounds
+_PARAMETER_DESCRIPTIONS = {
+    "a": "length of link {row} (a)",
+    "alpha": "twist of link {row} (alpha)",
+    "d": "offset of joint {row} (d)",
+    "theta": "angle of joint {row} at 0 (theta)",
+    "lower": "lower limit of joint {row}",
+    "upper": "upper limit of joint {row}",
+    "x": "tool point, x",
+    "y": "tool point, y",
+    "z": "tool point, z",
+    "roll": "tool, roll",
+    "pitch": "tool, pitch",
+    "yaw": "tool, yaw",
+}
+
+
+def _name_reached_bound(parameter: DesignParameter, value: float) -> str:
+    """Return ``lower`` or ``upper`` if a value is at that bound of the parameter, else an empty string."""
+    slack = _BOUND_TOLERANCE * (parameter.upper - parameter.lower)
+    return "lower" if value <= parameter.lower + slack else "upper" if value >= parameter.upper - slack else ""
+
+
+def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
+    """Name the parameters of the best design (k,) that are at their bounds, if any are."""
+    bounded = [
+        f"{parameter.name} ({parameter.text(value)})"
+        for parameter, value in zip(space.parameters, best.tolist(), strict=True)
+        if _name_reached_bound(parameter, value)
+    ]
+    if not bounded:
+        return []
+    verb_phrase = "is at its bound" if len(bounded) == 1 else "are at their bounds"
+    text = f"{', '.join(bounded)} of the best design {verb_phrase}: wider ones may give more, if that can be built."
+    return [Notice(text, title="Bounds")]
+
+
+def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
+    """Tabulate the parameters of the given arm and of the best design (k,)."""
+    columns = [
+        Column("parameter", "parameter"),
+        Column("description", "what it is"),
+        Column("given", "given arm"),
+        Column("best", "best design"),
+        Column("bounds", "bounds"),
+        Column("remark", ""),
+    ]
+    rows = []
+    for parameter, before, after in zip(space.parameters, space.start.tolist(), best.tolist(), strict=True):
+        row_number = None if parameter.row is None else parameter.row + 1
+        description = _PARAMETER_DESCRIPTIONS[parameter.kind].format(row=row_number)
+        bound_name = _name_reached_bound(parameter, after)
+        bounds = f"{parameter.text(parameter.lower)} to {parameter.text(parameter.upper)}"
+        remark = f"at the {bound_name} bound" if bound_name else ""
+        rows.append([parameter.name, description, parameter.text(before), parameter.text(after), bounds, remark])
+    title = "What to build; rows and joints are numbered from the base, in the Denavit-Hartenberg table of the arm"
+    return TableSpec(title, columns, rows)
+
+
+def build_file_section(arm_file: str, remark: str, further_blocks: Sequence[Block] = ()) -> Section:
+    """Build the section with the best arm as a file that every command takes."""
+    from markupsafe import Markup
+
+    from holdfast.interface.report.page import Code, Section, Text
+
+    label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
+    return Section("The best arm as a file", [Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])

@@ -1,0 +1,107 @@
+"""Sections of the page of a search of designs: the distribution of the index, the best arm as a file, the command."""
+
+from __future__ import annotations
+
+import shlex
+
+import numpy as np
+
+from holdfast.core.formatting import capitalise_first, format_as_given
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.commands import (
+    build_region_file_blocks,
+    format_failures_option,
+    format_task_option,
+    wrap_command,
+)
+from holdfast.interface.presentation.designs.parameters import ARM_FILE, build_file_section
+from holdfast.interface.report import figures as drawing
+from holdfast.interface.report.page import Block, Code, Picture, Section, Text
+from holdfast.model import arms
+from holdfast.model.arms.dh_file import format_dh_file
+from holdfast.model.failure_modes import failure_sets
+from holdfast.studies.designs.designs import Designs, HeldOutResult, format_level
+
+
+def build_sections(designs: Designs) -> list[Section]:
+    """Build the distribution of the index before and after, and the best arm as a file."""
+    assess_command = (
+        f"holdfast assess {ARM_FILE} --region region.yaml --task {_format_task_option(designs)} --optimise --out check"
+    )
+    return [
+        Section("How the index is distributed, before and after", _build_distribution_blocks(designs)),
+        build_file_section(
+            format_arm_file(designs),
+            "It has no masses: those of links of other lengths are not known.",
+            [Code(assess_command, "Its own report over the same region:")],
+        ),
+    ]
+
+
+def _build_distribution_blocks(designs: Designs) -> list[Block]:
+    baseline, best = designs.checked.given, designs.checked.best
+    extremes = [checked.distribution.highest for checked in (baseline, best) if checked.distribution.reached]
+    extremes = [value for value in extremes if np.isfinite(value)]
+    if not extremes:
+        return [Text("Neither arm reaches a pose of the region.")]
+    bound = designs.index.bound
+    marks = [drawing.Mark(bound, f"no configuration can exceed {bound:.3f}", "bound")] if bound else []
+    axis_values = np.linspace(0.0, 1.04 * max(*extremes, *[mark.x for mark in marks]), 801)
+    curves = [_make_curve(checked, name, axis_values) for checked, name in ((best, "best design"), (baseline, "given arm"))]
+    unit_text = "" if designs.index.unit == "1" else f", {designs.index.unit}"
+    label = drawing.format_label(f"worst-case {designs.index.name}{unit_text}")
+    figure = drawing.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
+    explanation = (
+        f"{best.distribution.samples:,} fresh poses of the region, each at its best configuration; a pose that is not reached "
+        f"counts as 0. A curve crosses {format_level(1 - designs.level)} at the quantile in the table."
+    )
+    return [Picture(drawing.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), explanation)]
+
+
+def _make_curve(checked: HeldOutResult, name: str, axis_values: FloatArray) -> drawing.Curve:
+    band = checked.distribution.band()
+    label = f"{drawing.format_label(name, 40)}, 95 % band ±{band:.3f}"
+    return drawing.Curve(axis_values, checked.distribution.cdf(axis_values), label, second=name == "given arm", band=band)
+
+
+def format_arm_file(designs: Designs) -> str:
+    """Format the best arm as a file that every command takes."""
+    arm = designs.arm(designs.best)
+    return format_dh_file(designs.space.table_of(designs.values[designs.best]), arm.name, arm.gravity, arm.source)
+
+
+def _format_task_option(designs: Designs) -> str:
+    return shlex.quote(format_task_option(designs.space.arm, designs.index.task) or "TASK")
+
+
+def format_command(designs: Designs) -> tuple[str, str]:
+    """Return the command that repeats the search, and a remark."""
+    space = designs.space
+    arm_spec, words, remark = arms.command_words(space.arm)
+    words += [f"--vary {shlex.quote(parameter.option_text)}" for parameter in space.parameters]
+    words += [
+        f"--maximise {designs.index.label}",
+        "--region region.yaml",
+        f"--task {shlex.quote(format_task_option(space.arm, designs.index.task) or 'TASK')}",
+    ]
+    if designs.index.task.length != 1.0:
+        words.append(f"--length {designs.index.task.length!r}")
+    if designs.index.failures != failure_sets(space.arm, "single"):
+        words.append(f"--failures {shlex.quote(format_failures_option(space.arm, designs.index.failures))}")
+    words += [
+        f"--level {format_as_given(designs.level)}",
+        f"--poses {designs.poses}",
+        f"--designs {designs.screened}",
+        f"--local-searches {designs.climbs}",
+    ]
+    words += [f"--check-poses {designs.checked.best.distribution.samples}", f"--seed {designs.seed}"]
+    return wrap_command(f"holdfast design {shlex.quote(arm_spec)}", words), remark
+
+
+def build_rerun_blocks(designs: Designs) -> list[Block]:
+    """Build the command that repeats the search, and its region file."""
+    command_line, remark = format_command(designs)
+    return [
+        Code(command_line, remark and f"{capitalise_first(remark)}:"),
+        *(build_region_file_blocks(designs.region) if designs.region.storable else []),
+    ]
