@@ -164,7 +164,7 @@ def test_no_floor_where_the_arm_is_singular(panda):
 def test_a_ceiling_below_what_occurs_is_refuted(panda, tmp_path):
     proof = hf.certify(ceiling_claim(panda, box_around(panda, 5), 0.06))
     assert proof.refuted
-    assert "Refuted by a witness" in proof.describe()[1]
+    assert "Refuted by a witness" in proof.describe()[0]
     assert "Refuted: 0.066" in checked(proof, tmp_path).summary
 
 

@@ -79,7 +79,7 @@ def test_the_proved_fraction_stands_in_the_claim(three, tmp_path, monkeypatch, c
     only = f"Proved for only {verifier.format_percent(proof.proved)} of this claim: For every"
     file = proof.write(tmp_path / "a.certificate")
     check = hf.check_certificate(file)
-    assert proof.describe()[0].startswith(only)
+    assert proof.describe()[1].startswith(only)
     assert check.describe()[0].startswith(only)
     for told in (None, check):
         page = proof.report(tmp_path / "a.html", check=told).read_text(encoding="utf-8").replace("\N{NO-BREAK SPACE}", " ")
@@ -96,7 +96,7 @@ def test_only_a_claim_that_is_verified_as_a_whole_stands_alone(small, three, tmp
     assert verifier.qualify_claim(claim, 0) == "Not proved: For every x."
     assert verifier.qualify_claim(claim, 0, refuted=True) == "False: For every x."
     refuted = hf.certify(out_of_reach_claim(three, (1.5, 1.0), 0.2))
-    assert refuted.describe()[0].startswith("False: For every")
+    assert refuted.describe()[1].startswith("False: For every")
     assert hf.check_certificate(refuted.write(tmp_path / "b.certificate")).describe()[0].startswith("False: For")
     capsys.readouterr()
     monkeypatch.setattr(sys, "argv", ["verifier.py", str(small)])

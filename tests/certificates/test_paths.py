@@ -577,5 +577,5 @@ def test_words_and_picture(bent):
     told = bent.to_dict()
     assert told["parts"]["joint1"]["proved"]["value"] == float(bent.parts[0].proved)
     assert list(bent.figures()) == ["slices"]
-    assert "one continuous motion" in bent.describe()[0]
+    assert "one continuous motion" in bent.describe()[1]
     assert march.SEGMENT_INSTANTS == SEGMENT

@@ -18,7 +18,7 @@ from holdfast.certificates.joint_boxes import halving as boxes
 from holdfast.certificates.target_boxes import jobs
 from holdfast.certificates.tool_paths import proof as motions
 from holdfast.core.errors import InputError, StoreError
-from holdfast.interface.presentation.certificates.console import format_state
+from holdfast.interface.cli.certify_search import format_state
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 WORDS = ["--range", "1=-1..0.5", "--range", "2=0..1.4", "--range", "3=0..1.4"]

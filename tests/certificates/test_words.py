@@ -8,7 +8,7 @@ import pytest
 import holdfast as hf
 from holdfast.certificates.kinds import find_claim_kinds
 from holdfast.certificates.verifier_parts.kinds import CERTIFICATE_KINDS
-from holdfast.interface.presentation.certificates import console
+from holdfast.interface.presentation.renderers import present
 
 RANGES = {"joint1": (-1.0, 0.5), "joint2": (0.0, 1.4), "joint3": (0.0, 1.4)}
 
@@ -32,13 +32,15 @@ def test_proved_and_undecided_go_together(three, panda, tmp_path):
         if getattr(proof, "refuted", False):
             continue
         check = hf.check_certificate(proof.write(tmp_path / f"{number}.certificate"), sample=3)
-        for found in (proof, check):
-            story = console.story(found)
+        for found, shown in ((proof, present(proof)), (check, present(check)), (proof, present(proof, check=check))):
+            tables = [table.texts() for table in shown.list_tables()]
             texts = [
                 " ".join(found.describe()),
-                " ".join(console.to_dict(found)),
-                " ".join([story.answer, *story.lines]),
-                *(" ".join([*rows.head, *(cell for row in rows.rows for cell in row)]) for rows in console.tables(found)),
+                " ".join(found.to_dict()),
+                shown.answer,
+                " ".join([shown.answer, *shown.lines]),
+                " ".join(f"{fact.label} {fact.text} {fact.phrase}" for fact in shown.facts),
+                *(" ".join([*table.head, *(cell for row in table.rows for cell in row)]) for table in tables),
             ]
             for text in texts:
                 assert "undecided" in text.lower() or "proved" not in text.lower(), text

@@ -53,12 +53,6 @@ class CertificateCheck(Result):
         """True if every cell was checked and accepted."""
         return self.rejected == 0 and self.accepted == self.leaves
 
-    def describe(self) -> list[str]:
-        """Return the claim and the verifier's summary as sentences."""
-        sampled = self.accepted + self.rejected < self.leaves
-        proved = self.tolerant if self.parts else self.proved_fraction
-        return [verifier.qualify_claim(self.claim, proved, refuted=self.witnessed, sampled=sampled), self.summary]
-
     @property
     def proved_fraction(self) -> Fraction:
         """Exact fraction of the claim that is proved; of a bundle in its worst part."""

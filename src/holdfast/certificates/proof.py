@@ -90,15 +90,6 @@ class Proof(BisectionResult):
 
     claim: ReachClaim
 
-    def describe(self) -> list[str]:
-        """Return the claim and the result of the search as sentences."""
-        return [
-            verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)}, "
-            f"undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
-            describe_cells(self),
-        ]
-
 
 class CompositeResult(CertificateResult):
     """Results of the searches for the parts of a claim. They are not verified: :func:`check_certificate` does that."""
@@ -212,29 +203,6 @@ class TolerantProof(CompositeResult):
                 archive.writestr(ZipInfo(name), encode_document(document), ZIP_DEFLATED, 9)
         replace_file(path, buffer.getvalue(), "certificate")
         return path
-
-    def describe(self) -> list[str]:
-        """Return the claim and the result of the search as sentences."""
-        worst = "the healthy arm" if self.worst.claim.locked < 0 else f"a lock of {self.part_label(self.worst)}"
-        qualifier = "" if self.ok else f", at most, with {worst}"
-        return [
-            verifier.qualify_claim(self.document()["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: whatever locks, proved {verifier.format_percent(self.tolerant)} of the "
-            f"targets at least; undecided {verifier.format_percent(self.undecided, up=True)}{qualifier}"
-            f"{format_early_stop(self.finished)}.",
-            describe_cells(self),
-        ]
-
-
-def describe_cells(proof: Proof | TolerantProof) -> str:
-    """Return a sentence with the number of cells and the duration of the search."""
-    looked_at = f"of {proof.nodes:,} that were looked at; {proof.seconds:.1f} s."
-    return f"{proof.leaves:,} cells are proved, each by one configuration, {looked_at}"
-
-
-def format_early_stop(finished: bool) -> str:
-    """Return the note about a search that was stopped early, or an empty string."""
-    return "" if finished else "; the search was stopped before the smallest cells were reached"
 
 
 def write_document(document: dict[str, Any], path: Path) -> Path:

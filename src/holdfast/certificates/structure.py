@@ -57,14 +57,6 @@ class StructuralZero(CertificateResult):
             raise InputError("there is no certificate: " + self.describe()[0])
         return super().write(file)
 
-    def describe(self) -> list[str]:
-        """Return the claim or the reason for its failure as sentences."""
-        if self.document is not None:
-            return [self.document["claim"], "Found by the prover, not yet verified."]
-        name = self.claim.arm.joint_names[self.claim.locked]
-        reason = f"miss a common point by {self.shifted:.4g} m" if np.isfinite(self.shifted) else "are parallel"
-        return [f"No structural zero was found for {name}: axes before it, or behind it, {reason}."]
-
 
 def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
     """Prove a structural zero if the geometry is within the tolerance of one whose axes meet exactly."""

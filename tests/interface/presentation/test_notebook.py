@@ -144,7 +144,6 @@ WITHOUT_FIGURE |= {
 WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
     "Analysis",
-    "BisectionResult",
     "Bounds",
     "ConvergenceDesigns",
     "Designs",

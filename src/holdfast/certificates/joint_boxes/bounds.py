@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.certificates import documents, verifier
+from holdfast.certificates import documents
 from holdfast.certificates.joint_boxes.halving import BoxTest, bisect_box, require_feasible_box_count, summarize_tree
 from holdfast.certificates.joint_boxes.kernels import ManipulabilityFloorTest
 from holdfast.certificates.joint_boxes.wrenches import ManipulabilityCeilingTest
 from holdfast.certificates.joint_claims import BoundClaim
 from holdfast.certificates.kinds import ClaimKind
-from holdfast.certificates.proof import BisectionResult, format_early_stop
+from holdfast.certificates.proof import BisectionResult
 from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import UNDECIDED_TOKEN
@@ -47,22 +47,6 @@ class ManipulabilityBound(BisectionResult):
     def refuted(self) -> bool:
         """True if the extreme configuration is beyond the threshold."""
         return _maximization_sign(self.claim) * (self.value - self.claim.threshold) > 0
-
-    def describe(self) -> list[str]:
-        """Return the claim and the result of the search as sentences."""
-        configuration = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.extreme))
-        occurs = f"{self.value:.6f} occurs, at ({configuration}) deg"
-        if self.refuted:
-            return [
-                verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
-                f"Refuted by a witness: {occurs}.",
-            ]
-        return [
-            verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)} of the box, undecided "
-            f"{verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}; {occurs}.",
-            f"{self.leaves:,} boxes are proved, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
-        ]
 
 
 def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budget: SearchBudget) -> ManipulabilityBound:

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.certificates import documents, verifier
+from holdfast.certificates import documents
 from holdfast.certificates.claims import OutOfReachClaim
 from holdfast.certificates.joint_boxes.exclusion import Exclusion, search_witness_or_exclusion
 from holdfast.certificates.kinds import ClaimKind
-from holdfast.certificates.proof import BisectionResult, format_early_stop
+from holdfast.certificates.proof import BisectionResult
 from holdfast.certificates.search_pool import SearchBudget
 
 
@@ -35,21 +35,6 @@ class Refutation(BisectionResult):
     def refuted(self) -> bool:
         """True if a witness was found."""
         return self.witness is not None
-
-    def describe(self) -> list[str]:
-        """Return the claim and the result of the search as sentences."""
-        if self.witness is not None:
-            configuration = ", ".join(f"{x:.4g}" for x in np.rad2deg(self.witness))
-            return [
-                verifier.qualify_claim(self.document["claim"], self.proved, refuted=True),
-                f"Refuted by a witness: at ({configuration}) deg the tool is in the box.",
-            ]
-        return [
-            verifier.qualify_claim(self.document["claim"], self.proved),
-            f"Found by the prover, not yet verified: proved {verifier.format_percent(self.proved)} of all pairs of target and "
-            f"configuration, undecided {verifier.format_percent(self.undecided, up=True)}{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} boxes are told apart, of {self.nodes:,} that were looked at; {self.seconds:.1f} s.",
-        ]
 
 
 def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Refutation:

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from holdfast.certificates.claims import TolerantClaim, narrow_limits, tolerant_claim
 from holdfast.certificates.suggestions.box_samples import sample_box_poses
 from holdfast.core.errors import InputError
-from holdfast.core.formatting import format_percent
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
@@ -85,26 +84,6 @@ class WorkingRanges(Result):
                 lower, upper = (f"{round(joint.display_unit[0] * limit, 10) + 0.0:.12g}" for limit in self.ranges[index])
                 options.append(f"{joint.name}={lower}..{upper}")
         return options
-
-    def describe(self) -> list[str]:
-        """Return whether ranges were found, by which sample, and the limiting joint."""
-        arm, index = self.claim.arm, self.claim.arm.joint_index(self.limiting_joint)
-        factor, unit = arm.joints[index].display_unit
-        span = f"{factor * self.ranges[index, 0]:.4g} to {factor * self.ranges[index, 1]:.4g} {unit}"
-        if self.ok:
-            return [
-                f"Found working ranges: the healthy arm reaches all of {self.targets} sampled targets within them, and so does "
-                f"the arm with one joint locked at any of {self.values} sampled values of its range. A sample proves nothing.",
-                f"The limiting joint is {arm.joint_names[index]}: its range of {span} is "
-                f"{format_percent(float(self.relative_widths[index]))} of its limits.",
-            ]
-        reason = f"the healthy arm reaches {self.healthy} of them"
-        if self.lost[index]:
-            reason += f", and locks of {arm.joint_names[index]}, whose range is {span}, lose {self.lost[index]}"
-        return [
-            f"Not found: with the best working ranges {self.passed} of {self.targets} sampled targets "
-            f"({format_percent(self.passed / self.targets)}) are reached whatever locks; {reason}."
-        ]
 
 
 @check_arguments

@@ -11,10 +11,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from holdfast.certificates import documents, verifier
+from holdfast.certificates import documents
 from holdfast.certificates.claims import TASK_ROWS
 from holdfast.certificates.kinds import ClaimKind
-from holdfast.certificates.proof import CompositeResult, format_early_stop
+from holdfast.certificates.proof import CompositeResult
 from holdfast.certificates.search_pool import JobResult, SearchBudget, SearchJob
 from holdfast.certificates.tool_paths.cells import PATH_CENTER_UNIT, SEGMENT_INSTANTS, LockSlab
 from holdfast.certificates.tool_paths.claims import PathClaim
@@ -216,22 +216,6 @@ class PathProof(CompositeResult):
     def gaps(self, part: LockedPath) -> list[Span]:
         """Return the undecided intervals of lock instants."""
         return paths.find_uncovered_intervals(part.proved_lock_intervals + part.refuted_lock_intervals, self.document)
-
-    def describe(self) -> list[str]:
-        """Return the claim and the result of the search as sentences."""
-        whichever = f"; whichever joint locks, {verifier.format_percent(self.tolerant)}" if len(self.parts) > 1 else ""
-        worst = min(self.parts, key=lambda part: part.proved)
-        fraction_texts = f"proved {verifier.format_percent(worst.proved)}, "
-        fraction_texts += f"refuted {verifier.format_percent(worst.refuted)}, " * bool(worst.refuted)
-        fraction_texts += f"undecided {verifier.format_percent(worst.undecided, up=True)}"
-        qualifier = "" if self.ok else f" with a lock of {self.claim.arm.joint_names[worst.joint]}, of which least is proved"
-        return [
-            verifier.qualify_claim(self.document["claim"], self.tolerant),
-            f"Found by the prover, not yet verified: of the lock instants "
-            f"{fraction_texts}{qualifier}{whichever}{format_early_stop(self.finished)}.",
-            f"{self.leaves:,} cells, each glued to the next or with no configuration in it, of {self.nodes:,} that were looked "
-            f"at; {self.seconds:.1f} s.",
-        ]
 
 
 def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathProof:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Sequence
+from fractions import Fraction
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from holdfast.interface.presentation.results import current_command, print_resul
 Options = UnseededProofOptions | ProofOptions
 if TYPE_CHECKING:
     from holdfast.certificates import WorkingRanges
+    from holdfast.certificates.tree import SearchState
     from holdfast.model.arm.model import Arm
 
 
@@ -66,12 +68,23 @@ def _command_with_ranges(ranges: Sequence[str]) -> str:
     return f"holdfast {shlex.join([*retained, '--degrees', *(word for interval in ranges for word in ('--range', interval))])}"
 
 
+def format_state(search_state: SearchState) -> str:
+    """Format the progress of a search as one line: fractions are never rounded up to the whole or down to nothing."""
+    from holdfast.certificates.verifier import format_percent
+
+    shares = [f"{key} {format_percent(Fraction(min(getattr(search_state, key), 1.0)))}" for key in ("proved", "refuted")]
+    open_fractions = [
+        f"{name} {format_percent(Fraction(max(fraction, 0.0)), up=True)}"
+        for name, fraction in (("undecided", search_state.undecided), ("open", search_state.open))
+    ]
+    return f"{', '.join([*shares, *open_fractions])}; {search_state.nodes:,} boxes"
+
+
 def prove_claim(claim: Any, options: Options, ranges: WorkingRanges | None = None, **certify_options: Any) -> None:
     """Prove a claim, write and check the certificate, draw it and print the result; ranges found for the claim are on the page
     and in the JSON.
     """
     from holdfast.certificates.checks import CheckStopped
-    from holdfast.interface.presentation.certificates.console import format_state
 
     _check_output_and_flint(options, len(claim.parts) > 1)
     # Of a limited time half is kept for the check, which gets what the search leaves as well.

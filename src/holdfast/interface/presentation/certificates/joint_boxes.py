@@ -1,356 +1,152 @@
-"""Figures of the bisection of boxes of configurations, and the report of such a proof."""
+"""Presentation of proofs about boxes of configurations: that nothing is reached, and bounds of manipulability."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import lru_cache
-from itertools import chain
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from holdfast.certificates import verifier
+from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
-from holdfast.certificates.joint_boxes.exclusion import joint_ranges
 from holdfast.certificates.joint_boxes.refutations import Refutation
-from holdfast.certificates.tree import UNDECIDED_TOKEN
 from holdfast.certificates.verifier import format_percent
-from holdfast.core.typing import FloatArray, IndexArray
-from holdfast.interface.presentation.certificates.pages import SCOPE_NOTE, UNVERIFIED_NOTE, add_legend, bind_percent_sign
-from holdfast.interface.presentation.certificates.pages import write as write
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.certificates.joint_boxes_figures import (
+    Found,
+    LeafBoxes,
+    display_factors,
+    find_largest_lemma,
+)
+from holdfast.interface.presentation.certificates.verification import (
+    SCOPE_NOTE,
+    build_entries,
+    find_proved_fraction,
+    present_proof,
+)
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from fractions import Fraction
+
     from matplotlib.figure import Figure
 
-Found = Refutation | ManipulabilityBound
-
-_MAX_DRAWN_HALVINGS = 7  # halvings of an axis that a picture shows
-_HARDEST_ROWS = 5
+    from holdfast.core.typing import FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class LeafBoxes:
-    """Boxes at which the bisection ended.
-
-    Attributes:
-        axis_ranges: (A, 2) of the whole, rad and m.
-        axis_names, is_angle: (A,) of the axes, and which are angles.
-        cell_indices, depth: (N, A), box k of 2^depth along each axis.
-        undecided: (N,).
-    """
-
-    axis_ranges: FloatArray
-    axis_names: list[str]
-    is_angle: NDArray[np.bool_]
-    cell_indices: IndexArray
-    depth: IndexArray
-    undecided: NDArray[np.bool_]
-
-    @classmethod
-    def from_proof(cls, proof: Found) -> LeafBoxes:
-        """Read the leaves of a proof, or those of its largest lemma if that has more boxes than the rest."""
-        arm, document = proof.claim.arm, proof.document
-        names, turns, packed_tree = list(arm.joint_names), ~arm.prismatic, document["tree"]
-        if isinstance(proof, ManipulabilityBound):
-            box, last_token, lock_token = proof.claim.joint_box, 2, verifier.FIRST_LOCK_TOKEN
-        elif lemma := _find_largest_lemma(document):
-            behind, last_token, lock_token = slice(lemma["link"], arm.n), 2, 256
-            box, names, turns, packed_tree = joint_ranges(proof.claim)[behind], names[behind], turns[behind], lemma["tree"]
-        else:
-            box, axis_letters = np.vstack([joint_ranges(proof.claim), proof.claim.box]), document["target"]["axes"]
-            last_token, lock_token = 2 + len(document["lemmas"]), 256
-            names += [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in axis_letters]
-            turns = np.append(turns, [axis not in "xyz" for axis in axis_letters])
-        return cls(box, names, turns, *_unpack_leaves(packed_tree, len(box), last_token, lock_token))
-
-    @property
-    def halvings(self) -> IndexArray:
-        """Number of halvings of each box (N,)."""
-        return np.asarray(self.depth.sum(axis=1))
-
-    @property
-    def most_halved_axes(self) -> tuple[int, int]:
-        """The two axes that are halved most often, in their order."""
-        halving_counts = self.depth.sum(axis=0) + 1e-9 * (self.axis_ranges[:, 1] > self.axis_ranges[:, 0])
-        lower_axis, upper_axis = sorted(np.argsort(-halving_counts, kind="stable")[:2].tolist())
-        return lower_axis, upper_axis
-
-    def describe_box(self, box_index: int) -> list[str]:
-        """Return the number of halvings of a box, its middle, and its half widths."""
-        width = (self.axis_ranges[:, 1] - self.axis_ranges[:, 0]) * 0.5 ** self.depth[box_index]
-        middle = self.axis_ranges[:, 0] + width * (self.cell_indices[box_index] + 0.5)
-        scale = _display_factors(self.is_angle)
-        texts = [", ".join(f"{value:.4g}" for value in scale * values) for values in (middle, width / 2)]
-        return [str(self.halvings[box_index]), *texts, "undecided" if self.undecided[box_index] else "proved"]
-
-    def tabulate_hardest(self) -> TextTable:
-        """Tabulate the smallest boxes, or the largest of the undecided ones."""
-        order = np.lexsort((np.where(self.undecided, self.halvings, -self.halvings), ~self.undecided))[:_HARDEST_ROWS]
-        units = "deg and m" if not self.is_angle.all() else "deg"
-        header = ["halvings", f"middle, {units}", f"half widths, {units}", ""]
-        return TextTable(header, [self.describe_box(box_index) for box_index in order], title="The hardest boxes")
-
-    def project_onto(self, axes: tuple[int, int]) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """Project the boxes onto two axes (2^7, 2^7): the largest number of halvings over the other axes, and the undecided
-        area.
-        """
-        max_halvings = np.zeros((1 << _MAX_DRAWN_HALVINGS,) * 2)
-        undecided_area = max_halvings > 0
-        excess_halvings = np.maximum(self.depth[:, axes] - _MAX_DRAWN_HALVINGS, 0)
-        cell_indices, depth = self.cell_indices[:, axes] >> excess_halvings, self.depth[:, axes] - excess_halvings
-        for depths in np.unique(depth, axis=0):
-            box_rows = np.flatnonzero((depth == depths).all(axis=1))
-            grid_halvings, grid_index = np.zeros((1 << depths).tolist()), tuple(cell_indices[box_rows].T)
-            is_open = grid_halvings > 0
-            np.maximum.at(grid_halvings, grid_index, self.halvings[box_rows])
-            np.logical_or.at(is_open, grid_index, self.undecided[box_rows])
-            pixel_block = np.ones((1 << (_MAX_DRAWN_HALVINGS - depths)).tolist(), dtype=bool)
-            max_halvings = np.maximum(max_halvings, np.kron(grid_halvings, pixel_block))
-            undecided_area |= np.kron(is_open, pixel_block).astype(bool)
-        return max_halvings, undecided_area
+def to_dict(proof: Found) -> dict[str, Any]:
+    """Return fractions as exact rationals and as numbers, cell counts, the witness or the extreme, and seconds."""
+    if isinstance(proof, Refutation):
+        return build_entries(proof, witness=None if proof.witness is None else proof.witness.tolist())
+    return build_entries(proof, extreme=proof.extreme.tolist(), value=proof.value)
 
 
-@lru_cache(maxsize=1)  # a page has a table of them, and a picture
-def _unpack_leaves(
-    packed_tree: str, axes: int, last_token: int, lock_token: int
-) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
-    """Unpack the leaves of a tree: the cell index and the halvings of each axis (N, A), and the undecided ones."""
-    tree, tokens = verifier.decompress_payload(packed_tree, 2 * verifier.MAX_LEAVES, "tree"), list[int]()
-
-    def stream_numbers() -> Any:
-        for token, cell in verifier.iterate_cells(tree, axes, last_token, lock_token):
-            tokens.append(token)
-            yield from chain.from_iterable(cell)
-
-    cell_numbers = np.fromiter(stream_numbers(), dtype=np.int64).reshape(-1, axes, 2)
-    return cell_numbers[:, :, 0], cell_numbers[:, :, 1], np.isin(tokens, (1, UNDECIDED_TOKEN))
+def present(proof: Found, **options: Any) -> Presentation:
+    """Present the proved fraction, its meaning, and its limits; the options are those of :func:`present_proof`."""
+    return _present_refutation(proof, **options) if isinstance(proof, Refutation) else _present_bound(proof, **options)
 
 
-def _display_factors(is_angle: NDArray[np.bool_]) -> FloatArray:
-    """Return the factors for display: angles are shown in degrees, prismatic joints in metres."""
-    return np.where(is_angle, 180 / np.pi, 1.0)
-
-
-def _find_largest_lemma(document: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the lemma with the most boxes, if it has more than the main proof."""
-    trees = [*document["lemmas"], document]
-    sizes = [len(verifier.decompress_payload(proof_tree["tree"], 2 * verifier.MAX_LEAVES, "tree")) for proof_tree in trees]
-    largest = trees[int(np.argmax(sizes))]
-    return None if largest is document else largest
-
-
-def figures(proof: Found) -> dict[str, Figure]:
-    """Draw the distance of the values from a bound, and the box sizes or the witness that refutes the claim."""
-    drawings = {"bound": _draw_value_scale(proof)} if isinstance(proof, ManipulabilityBound) else {}
-    # The configuration that refutes a claim, or comes nearest to a bound.
-    q = proof.witness if isinstance(proof, Refutation) else proof.extreme
-    if proof.refuted:
-        assert q is not None
-        return drawings | {"witness": _draw_witness(proof, q)}
-    return drawings | {"boxes": _draw_boxes(LeafBoxes.from_proof(proof), q)}
-
-
-def _draw_witness(proof: Found, q: FloatArray) -> Figure:
-    """Draw the position of each joint within its range."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
-
-    arm, spans = proof.claim.arm, joint_ranges(proof.claim) if isinstance(proof, Refutation) else proof.claim.joint_box
-    scale = _display_factors(~arm.prismatic)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
-        axes = figure.subplots()
-        rows = np.arange(arm.n)
-        axes.hlines(rows, *(spans * scale[:, None]).T, color=FAINT, linewidth=7)
-        axes.plot(q * scale, rows, "o", color=ORANGE, markersize=7)
-        axes.set(yticks=rows, yticklabels=[format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
-        axes.set_xlabel("deg" if not arm.prismatic.any() else "deg and m")
-        return settle_layout(figure)
-
-
-def _draw_value_scale(proof: ManipulabilityBound) -> Figure:
-    """Draw a line of values: those that occur, the extreme, and those that are proved not to occur."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
-
-    claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
-    bound, value = claim.threshold, proof.value
-    axis_end = min(claim.most, 1.6 * max(bound, value))
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.9), layout="constrained")
-        axes = figure.subplots()
-        excluded_range = (bound, axis_end) if is_upper_bound else (0.0, bound)
-        if proof.refuted:
-            axes.axvspan(*sorted((bound, value)), color=ORANGE, alpha=0.55, linewidth=0)
-        else:
-            axes.axvspan(*excluded_range, color=SKY, linewidth=0)
-            axes.axvspan(*sorted((bound, value)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0)
-        for position, color, label, is_left in (
-            (value, INK, f"{value:.4g} occurs", is_upper_bound != proof.refuted),
-            (bound, BLUE, f"{claim.kind} {bound:.4g}", is_upper_bound == proof.refuted),
-        ):
-            axes.axvline(position, color=color, linewidth=1.6)
-            place = {"xycoords": ("data", "axes fraction"), "ha": "right" if is_left else "left", "va": "bottom"}
-            axes.annotate(label, (position, 1.03), color=color, **place)
-        axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
-        axes.grid(visible=False)
-        return settle_layout(figure)
-
-
-def _draw_boxes(leaves: LeafBoxes, marked: FloatArray | None) -> Figure:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
-
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
-        plane, bars = figure.subplots(1, 2)
-        _draw_projection(plane, leaves, marked)
-        proved, undecided = (np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided))
-        bottom, bar_style = np.pad(proved, (0, len(undecided)))[: len(undecided)], {"width": 1.0, "edgecolor": INK}
-        bars.bar(np.arange(len(proved)), proved, facecolor=SKY, linewidth=0.6, **bar_style)
-        hatching = {"facecolor": EMPTY_COLOR, "hatch": "////", "linewidth": 0.3}
-        bars.bar(np.arange(len(undecided)), undecided, bottom=bottom, **hatching, **bar_style)
-        bars.set(xlabel="halvings of the whole", ylabel="boxes", title="How small they are")
-        bars.xaxis.get_major_locator().set_params(integer=True)
-        add_legend(figure, {"proved (darker: smaller boxes)": SKY})
-        return settle_layout(figure)
-
-
-def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:
-    """Draw the boxes over two axes, to scale; the worst box over all other axes counts."""
-    from matplotlib.collections import PatchCollection
-    from matplotlib.colors import LinearSegmentedColormap
-    from matplotlib.patches import Rectangle
-
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, SKY, format_label
-
-    shown_axes = leaves.most_halved_axes
-    scale = _display_factors(leaves.is_angle)[list(shown_axes)]
-    lower, upper = (leaves.axis_ranges[list(shown_axes)] * scale[:, None]).T
-    max_halvings, undecided_area = leaves.project_onto(shown_axes)
-    colormap = LinearSegmentedColormap.from_list("halvings", [SKY, BLUE])
-    extent = (lower[0], upper[0], lower[1], upper[1])
-    axes.imshow(max_halvings.T, origin="lower", extent=extent, cmap=colormap, aspect="auto", interpolation="nearest")
-    step, rectangles = (upper - lower) / len(undecided_area), []
-    for column_index, column in enumerate(undecided_area):
-        run_ends = np.flatnonzero(np.diff(np.concatenate([[False], column, [False]]).astype(int)))
-        for begin, end in zip(run_ends[::2], run_ends[1::2], strict=True):
-            rectangles.append(Rectangle(tuple(lower + step * [column_index, begin]), step[0], step[1] * (end - begin)))
-    axes.add_collection(PatchCollection(rectangles, facecolor=EMPTY_COLOR, edgecolor="none"))
-    axes.add_collection(PatchCollection(rectangles, facecolor="none", edgecolor=INK, hatch="////", linewidth=0))
-    if marked is not None:
-        position = marked[list(shown_axes)] * scale
-        axes.plot(*position, "o", color=INK, markersize=7, markeredgecolor="white", clip_on=False)
-    labels = [f"{format_label(leaves.axis_names[axis])} [{'deg' if leaves.is_angle[axis] else 'm'}]" for axis in shown_axes]
-    axes.set(xlabel=labels[0], ylabel=labels[1], title="Where they are small")
-    axes.grid(visible=False)
-
-
-def story(proof: Found) -> PageContent:
-    """Compose the report: the proved fraction, its meaning, and its limits."""
-    return _report_refutation(proof) if isinstance(proof, Refutation) else _report_bound(proof)
-
-
-def _describe_proved_fraction(proof: Found, object_text: str) -> str:
-    """Return the answer of a search that found no witness."""
-    if not proof.proved:
+def _describe_fraction(fraction: Fraction, object_text: str) -> str:
+    """Describe the result of a search that found no witness."""
+    if not fraction:
         return "Nothing is proved: all is undecided."
-    remainder = "nothing is undecided" if proof.ok else "the rest is undecided, which does not say that it is false"
-    return f"{bind_percent_sign(format_percent(proof.proved))} of {object_text}; {remainder}."
+    remainder = "nothing is undecided" if fraction == 1 else "the rest is undecided, which does not say that it is false"
+    return f"{format_percent(fraction)} of {object_text}; {remainder}."
 
 
-def _list_facts(proof: Found, object_text: str) -> Sequence[tuple[str, str]]:
-    return [
-        (bind_percent_sign(format_percent(proof.proved)), object_text),
-        (f"{proof.leaves:,}", "boxes, each told by one inequality"),
-    ]
-
-
-def _format_configuration(q: FloatArray, proof: Found) -> str:
-    return ", ".join(f"{position:.4g}" for position in _display_factors(~proof.claim.arm.prismatic) * q)
-
-
-def _report_refutation(proof: Refutation) -> PageContent:
-    claim = proof.claim
+def _present_refutation(proof: Refutation, check: CertificateCheck | None = None, **options: Any) -> Presentation:
+    claim, fraction = proof.claim, find_proved_fraction(proof, check)
     lock = f" with {claim.arm.joint_names[claim.locked]} locked" if claim.locked >= 0 else ""
-    answer = _describe_proved_fraction(proof, "the pairs of a target and a configuration are told apart")
-    if proof.ok:
-        answer = "No target of the box is reached: all pairs of a target and a configuration are told apart."
-    facts = _list_facts(proof, "of the pairs of a target and a configuration are told apart")
+    answer = _describe_fraction(fraction, "the pairs of a target and a configuration are told apart")
     if proof.witness is not None:
-        answer = f"The claim is false: at ({_format_configuration(proof.witness, proof)}) the tool is in the box."
-        facts = [("refuted", "by one configuration")]
-    lemmas, largest = len(proof.document["lemmas"]), _find_largest_lemma(proof.document)
+        position = _format_configuration(proof.witness, proof)
+        answer = f"Refuted by a witness. The claim is false: at ({position}) deg the tool is in the box."
+    elif fraction == 1:
+        answer = "No target of the box is reached: all pairs of a target and a configuration are told apart."
+    lemma_count, largest = len(proof.document["lemmas"]), find_largest_lemma(proof.document)
     other_axes, lemma_text = "all other joints and targets", ""
     if largest is not None:
         base_text = "the base" if largest["link"] == 0 else f"the link of {claim.arm.joint_names[largest['link'] - 1]}"
         other_axes, lemma_text = "all others", f"Of the lemma that took most boxes, about the joints behind {base_text}. "
     proof_text = "a bisection tree of boxes of configurations and targets; in each the tool is elsewhere, by one distance"
-    if lemmas:
-        lemma_count = "one of these distances is a lemma" if lemmas == 1 else f"{lemmas} of these distances are lemmas"
-        proof_text += f"; {lemma_count} about the joints behind a point alone, with a tree of its own"
-    return PageContent(
-        f"What {claim.arm.name}{lock} cannot reach",
-        f"{answer} {UNVERIFIED_NOTE}",
-        lines=proof.describe()[:1],
-        facts=facts,
-        figures=_figure_captions(proof, other_axes, lemma_text),
-        tables=[] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()],
+    if lemma_count:
+        count_text = "one of these distances is a lemma" if lemma_count == 1 else f"{lemma_count} of these distances are lemmas"
+        proof_text += f"; {count_text} about the joints behind a point alone, with a tree of its own"
+    return present_proof(
+        proof,
+        title=f"What {claim.arm.name}{lock} cannot reach",
+        answer=answer,
+        fraction_phrase="of the pairs of a target and a configuration are told apart",
+        cell_phrase="boxes, each told by one inequality",
+        list_tables=partial(_list_tables, proof),
+        figures=_list_figures(proof, other_axes, lemma_text),
         method=[("Proof", proof_text), ("Not said", f"{SCOPE_NOTE}; nor what is reached outside of the box")],
-        arm=claim.arm,
+        check=check,
+        **options,
     )
 
 
-def _figure_captions(proof: Found, other_axes: str, lemma_text: str = "") -> dict[str, tuple[str, str]]:
-    """Return titles and captions of the figures of boxes, or of the configuration that refutes the claim."""
-    text = (
-        f"{lemma_text}Left: the two axes that were halved most often, to scale, the worst over {other_axes}; the darker, the "
-    )
-    text += "smaller the boxes that it took. Hatched: something is undecided. Right: boxes by their size."
-    if isinstance(proof, ManipulabilityBound):
-        text += " The dot is the configuration that comes nearest to the bound."
-    return {
-        "boxes": ("Where it was hard", text),
-        "witness": ("The configuration that refutes it", "Of each joint its range, and where it is."),
-    }
-
-
-def _report_bound(proof: ManipulabilityBound) -> PageContent:
-    claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
+def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = None, **options: Any) -> Presentation:
+    claim, is_upper_bound, fraction = proof.claim, proof.claim.kind == "ceiling", find_proved_fraction(proof, check)
     extreme_word, side = ("greatest", "above") if is_upper_bound else ("lowest", "below")
     occurrence = f"{proof.value:.6f} occurs, at ({_format_configuration(proof.extreme, proof)}) deg"
-    answer = _describe_proved_fraction(proof, f"the box is proved to keep the {claim.kind} of {claim.threshold:g}")
-    facts = [*_list_facts(proof, f"of the box: {claim.kind} {claim.threshold:g}"), (f"{proof.value:.4g}", "occurs")]
-    caption = f"Blue: proved that nothing of the box is {side} the {claim.kind}. Hatched: the {extreme_word} value of the box "
-    caption += "is in here."
-    if not proof.ok:
-        caption = f"Blue: nothing is {side} the {claim.kind} but for what is undecided. Hatched: between it and what occurs."
     if proof.refuted:
-        answer, facts = f"The claim is false: {occurrence}.", [(f"{proof.value:.4g}", "occurs")]
+        answer = f"Refuted by a witness. The claim is false: {occurrence}."
         caption = f"Vermilion: from the {claim.kind} to a value that occurs, which refutes it."
-    elif proof.ok:
+    elif fraction == 1:
         lower_end, upper_end = sorted((proof.value, claim.threshold))
-        answer = f"The {extreme_word} value in the box is from {lower_end:.6g} to {upper_end:.6g}: "
-        answer += f"{occurrence}, and nothing is {side} {claim.threshold:g}."
+        answer = (
+            f"The {extreme_word} value in the box is from {lower_end:.6g} to {upper_end:.6g}: {occurrence}, and nothing is "
+            f"{side} {claim.threshold:g}."
+        )
+        caption = (
+            f"Blue: proved that nothing of the box is {side} the {claim.kind}. Hatched: the {extreme_word} value of the box "
+            "is in here."
+        )
     else:
+        answer = _describe_fraction(fraction, f"the box is proved to keep the {claim.kind} of {claim.threshold:g}")
         answer += f" {occurrence}."
+        caption = f"Blue: nothing is {side} the {claim.kind} but for what is undecided. Hatched: between it and what occurs."
     bound_text = "wrench bounds what a lock leaves" if is_upper_bound else "inverse bounds what every lock leaves, as a series"
-    proof_text = f"in each box of a bisection tree one {bound_text}"
-    return PageContent(
-        f"A {claim.kind} of relative manipulability of {claim.arm.name}",
-        f"{answer} {UNVERIFIED_NOTE}",
-        lines=proof.describe()[:1],
-        facts=facts,
-        figures={"bound": ("The bound, and what occurs", caption), **_figure_captions(proof, "all other joints")},
-        tables=[] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()],
-        method=[("Proof", proof_text), ("Not said", f"{SCOPE_NOTE}; nor anything of configurations outside of the box")],
-        arm=claim.arm,
+    bound_figure = FigureSpec(partial(_draw, proof, "value_scale"), "The bound, and what occurs", caption)
+    return present_proof(
+        proof,
+        title=f"A {claim.kind} of relative manipulability of {claim.arm.name}",
+        answer=answer,
+        fraction_phrase=f"of the box: {claim.kind} {claim.threshold:g}",
+        cell_phrase="boxes, each told by one inequality",
+        facts=[Fact("", proof.value, phrase="occurs")],
+        list_tables=partial(_list_tables, proof),
+        figures={"bound": bound_figure, **_list_figures(proof, "all other joints")},
+        method=[
+            ("Proof", f"in each box of a bisection tree one {bound_text}"),
+            ("Not said", f"{SCOPE_NOTE}; nor anything of configurations outside of the box"),
+        ],
+        check=check,
+        **options,
     )
+
+
+def _format_configuration(q: FloatArray, proof: Found) -> str:
+    return ", ".join(f"{position:.4g}" for position in display_factors(~proof.claim.arm.prismatic) * q)
+
+
+def _list_figures(proof: Found, other_axes: str, lemma_text: str = "") -> dict[str, FigureSpec]:
+    """List the figure of boxes, or that of the configuration that refutes the claim."""
+    if proof.refuted:
+        caption = "Of each joint its range, and where it is."
+        return {"witness": FigureSpec(partial(_draw, proof, "witness"), "The configuration that refutes it", caption)}
+    caption = (
+        f"{lemma_text}Left: the two axes that were halved most often, to scale, the worst over {other_axes}; the darker, the "
+        "smaller the boxes that it took. Hatched: something is undecided. Right: boxes by their size."
+    )
+    if isinstance(proof, ManipulabilityBound):
+        caption += " The dot is the configuration that comes nearest to the bound."
+    return {"boxes": FigureSpec(partial(_draw, proof, "boxes"), "Where it was hard", caption)}
+
+
+def _list_tables(proof: Found) -> list[TableSpec]:
+    return [] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()]
+
+
+def _draw(proof: Found, name: str) -> Figure:
+    from holdfast.interface.presentation.certificates import joint_boxes_figures
+
+    return getattr(joint_boxes_figures, f"draw_{name}")(proof)  # type: ignore[no-any-return]

@@ -1,4 +1,4 @@
-"""Text and tables of working ranges found by sampling."""
+"""Presentation of working ranges found by sampling."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from holdfast.certificates.suggestions.working_ranges import WorkingRanges
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
 
@@ -30,18 +30,46 @@ def to_dict(working_ranges: WorkingRanges) -> dict[str, Any]:
     }
 
 
-def tables(working_ranges: WorkingRanges) -> list[TextTable]:
-    """Return each range, its width, and the number of sampled targets that its locks lose."""
-    rows = []
-    columns = working_ranges.claim.arm.joints, working_ranges.ranges, working_ranges.relative_widths
-    for joint_index, (joint, limits, relative) in enumerate(zip(*columns, strict=True)):
-        factor, unit = joint.display_unit
-        loss_text = str(working_ranges.lost[joint_index]) if joint_index in working_ranges.claim.locks else "does not lock"
-        width = f"{factor * (limits[1] - limits[0]):.4g} {unit}"
-        rows.append([joint.name, format_ranges([limits], joint), width, format_percent(float(relative)), loss_text])
-    return [TextTable(["joint", "working range", "width", "fraction of its limits", "targets lost"], rows)]
-
-
-def next_steps(working_ranges: WorkingRanges, name: str) -> list[str]:
-    """Return the proof for every point of the box."""
-    return [f"hf.certify({name}.claim)  # for every point of the box, not a sample"] if working_ranges.ok else []
+def present(working_ranges: WorkingRanges) -> Presentation:
+    """Present whether ranges were found, by which sample, the limiting joint, and the range of each joint."""
+    arm, ranges, lost = working_ranges.claim.arm, working_ranges.ranges, working_ranges.lost
+    targets, relative_widths = working_ranges.targets, working_ranges.relative_widths.tolist()
+    limiting = arm.joint_index(working_ranges.limiting_joint)
+    factor, unit = arm.joints[limiting].display_unit
+    span = f"{factor * ranges[limiting, 0]:.4g} to {factor * ranges[limiting, 1]:.4g} {unit}"
+    if working_ranges.ok:
+        answer = (
+            f"Found working ranges: the healthy arm reaches all of {targets} sampled targets within them, and so does "
+            f"the arm with one joint locked at any of {working_ranges.values} sampled values of its range. "
+            "A sample proves nothing."
+        )
+        lines = [
+            f"The limiting joint is {arm.joint_names[limiting]}: its range of {span} is "
+            f"{format_percent(relative_widths[limiting])} of its limits."
+        ]
+    else:
+        reason, lines = f"the healthy arm reaches {working_ranges.healthy} of them", []
+        if lost[limiting]:
+            reason += f", and locks of {arm.joint_names[limiting]}, whose range is {span}, lose {lost[limiting]}"
+        answer = (
+            f"Not found: with the best working ranges {working_ranges.passed} of {targets} sampled targets "
+            f"({format_percent(working_ranges.passed / targets)}) are reached whatever locks; {reason}."
+        )
+    columns = [
+        Header("joint", "joint"),
+        Header("range", "working range"),
+        Header("width", "width", [joint.display_unit[1] for joint in arm.joints], aligned=False),
+        Header("relative_width", "fraction of its limits", style="percent"),
+        Header("lost", "targets lost"),
+    ]
+    rows = [
+        [
+            joint.name,
+            format_ranges([limits], joint),
+            float(joint.display_unit[0] * (limits[1] - limits[0])),
+            relative_width,
+            int(lost[index]) if index in working_ranges.claim.locks else "does not lock",
+        ]
+        for index, (joint, limits, relative_width) in enumerate(zip(arm.joints, ranges, relative_widths, strict=True))
+    ]
+    return Presentation(f"Working ranges of {arm.name}", answer, lines=lines, tables=[TableSpec("", columns, rows)], arm=arm)

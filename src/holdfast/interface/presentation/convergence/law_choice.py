@@ -10,7 +10,7 @@ from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence import maps
 from holdfast.interface.presentation.convergence.shares import format_points, rank_successes
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -53,9 +53,9 @@ def present(choice: LawChoice) -> Presentation:
         )
     facts = rank_successes(shares)
     columns = [
-        Column("law", "law"),
-        Column("converged", "converges after a lock", style="percent"),
-        Column("difference", "percentage points against the best"),
+        Header("law", "law"),
+        Header("converged", "converges after a lock", style="percent"),
+        Header("difference", "percentage points against the best"),
     ]
     rows: list[list[Any]] = [
         [name, shares[name], "" if name == best_law else format_points(choice.difference(name, best_law))] for name in ranking
@@ -66,7 +66,7 @@ def present(choice: LawChoice) -> Presentation:
         answer += f" With {best_law} {touched_text} of the motions touch something on the way."
         phrase = f"of the motions touch something at most, with {best_law}; a real arm would stop"
         facts.append(Fact("", touched[0], phrase=phrase, style="percent"))
-        columns.append(Column("touched", "touches something, at most", style="percent"))
+        columns.append(Header("touched", "touches something, at most", style="percent"))
         rows = [[*row, value] for row, value in zip(rows, touched, strict=True)]
     places = int(first_map.has_configuration.any(axis=1).sum())
     caption = "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals."

@@ -11,7 +11,7 @@ from holdfast.control.convergence.law_comparison import ANY_JOINT, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.formatting import format_count, format_percent
-from holdfast.interface.presentation.presentation import Column, TableSpec
+from holdfast.interface.presentation.presentation import Header, TableSpec
 
 OUTCOME_NAMES = [outcome.name.lower() for outcome in RunOutcome]
 _RUN_COLUMNS = ("path_length", "path_ratio", "excursion", "time")
@@ -21,10 +21,10 @@ def build_outcome_table(comparison: LawComparison) -> TableSpec:
     """Tabulate how the runs of each law ended, with each joint locked."""
     kinds = error_kinds(comparison.laws[0])
     percent_columns = [*OUTCOME_NAMES, "reachable"]
-    columns = [Column("law", "law"), Column("failure", "locked")]
-    columns += [Column(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
-    columns.insert(3, Column("interval", "95 % interval", style="percent"))
-    columns += [Column(f"{kind.key}_astray", f"astray, {kind.unit}", aligned=False) for kind in kinds]
+    columns = [Header("law", "law"), Header("failure", "locked")]
+    columns += [Header(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
+    columns.insert(3, Header("interval", "95 % interval", style="percent"))
+    columns += [Header(f"{kind.key}_astray", f"astray, {kind.unit}", aligned=False) for kind in kinds]
     rows = [
         [
             row["law"],
@@ -43,20 +43,20 @@ def build_detail_table(comparison: LawComparison) -> TableSpec:
     """Tabulate quantiles of the errors, for the page."""
     kinds, levels = error_kinds(comparison.laws[0]), ("50", "75", "95")
     columns = [
-        Column("law", "law"),
-        Column("failure", "locked"),
-        Column("converged_reachable", "converged of those within reach", style="percent"),
-        Column("converged_within_limits", "converged within limits", style="percent"),
-        Column("past_limits", "past a limit", style="percent"),
+        Header("law", "law"),
+        Header("failure", "locked"),
+        Header("converged_reachable", "converged of those within reach", style="percent"),
+        Header("converged_within_limits", "converged within limits", style="percent"),
+        Header("past_limits", "past a limit", style="percent"),
     ]
     columns += [
-        Column(f"{kind.key}_{level}", f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}", aligned=False)
+        Header(f"{kind.key}_{level}", f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}", aligned=False)
         for kind in kinds
         for level in levels
     ]
     columns += [
-        Column("path_ratio", "path length, divided by the straight distance", aligned=False),
-        Column("excursion", "sum of the joint ranges, rad and m", aligned=False),
+        Header("path_ratio", "path length, divided by the straight distance", aligned=False),
+        Header("excursion", "sum of the joint ranges, rad and m", aligned=False),
     ]
     factors = {f"{kind.key}_{level}": kind.factor for kind in kinds for level in levels}
     rows = [[_scale(row[column.key], factors.get(column.key)) for column in columns] for row in comparison.table]
@@ -71,9 +71,9 @@ def _scale(value: Any, factor: float | None) -> Any:
 def build_gain_table(comparison: LawComparison, gains: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the paired differences to the first law, with their intervals."""
     kinds = error_kinds(comparison.laws[0])
-    columns = [Column("law", "law"), Column("failure", "locked"), Column("gain", "converge, percentage points")]
-    columns += [Column("gain_p_value", "p", digits=2, aligned=False)]
-    columns += [Column(kind.key, f"mean {kind.text}, {kind.unit}") for kind in kinds]
+    columns = [Header("law", "law"), Header("failure", "locked"), Header("gain", "converge, percentage points")]
+    columns += [Header("gain_p_value", "p", digits=2, aligned=False)]
+    columns += [Header(kind.key, f"mean {kind.text}, {kind.unit}") for kind in kinds]
     rows = [
         [
             row["law"],
@@ -96,12 +96,12 @@ def _format_difference(row: dict[str, Any], key: str, factor: float) -> str:
 def build_contact_table(comparison: LawComparison) -> TableSpec:
     """Tabulate the runs with a contact, the converged runs without one, and the objects touched first."""
     columns = [
-        Column("law", "law"),
-        Column("failure", "locked"),
-        Column("touched", "touch something", style="percent"),
-        Column("interval", "95 % interval", style="percent"),
-        Column("converged_clear", "converge and touch nothing", style="percent"),
-        Column("objects", "touched first"),
+        Header("law", "law"),
+        Header("failure", "locked"),
+        Header("touched", "touch something", style="percent"),
+        Header("interval", "95 % interval", style="percent"),
+        Header("converged_clear", "converge and touch nothing", style="percent"),
+        Header("objects", "touched first"),
     ]
     rows = []
     for row in comparison.table:
@@ -116,14 +116,14 @@ def build_contact_table(comparison: LawComparison) -> TableSpec:
 def build_cost_table(comparison: LawComparison, costs: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the cost of each law for the healthy arm."""
     time_unit = get_time_unit(comparison)
-    columns = [Column("law", "while healthy")]
+    columns = [Header("law", "while healthy")]
     for measure, unit, text in (
         ("deviation", "m", "off the line, m"),
         ("angle", "deg", "angle, deg"),
         ("time", "", f"time, {time_unit}"),
     ):
         suffix = f"_{unit}" if unit else ""
-        columns += [Column(f"{measure}_50{suffix}", f"{text}: median"), Column(f"{measure}_95{suffix}", "95 %")]
+        columns += [Header(f"{measure}_50{suffix}", f"{text}: median"), Header(f"{measure}_95{suffix}", "95 %")]
     rows = [[row[column.key] for column in columns] for row in costs]
     return TableSpec(
         "Distance from the straight line, largest angle to the command, and time of the motions that converge with every law "

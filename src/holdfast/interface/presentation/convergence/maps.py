@@ -16,7 +16,7 @@ from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
 from holdfast.interface.presentation.convergence.shares import format_range
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -174,10 +174,10 @@ def list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
 
 def _tabulate_outcomes(result: ConvergenceMap) -> TableSpec:
     """Tabulate how the motions end with each joint locked."""
-    columns = [Column("locked", "locked"), Column("converged", "converged", style="percent")]
-    columns += [Column(outcome, outcome, style="percent") for outcome in ("stuck", "moving", "undecided")]
-    columns.append(Column("trapped", "not there, in reach", style="percent"))
-    columns += [] if result.touched is None else [Column("touched", "touch something", style="percent")]
+    columns = [Header("locked", "locked"), Header("converged", "converged", style="percent")]
+    columns += [Header(outcome, outcome, style="percent") for outcome in ("stuck", "moving", "undecided")]
+    columns.append(Header("trapped", "not there, in reach", style="percent"))
+    columns += [] if result.touched is None else [Header("touched", "touch something", style="percent")]
     shares = [result.shares(column.key) for column in columns[1:]]
     rows = [(name, shares[0][name], *(share[name].value for share in shares[1:])) for name in result.columns]
     return TableSpec("How the motions end", columns, rows)

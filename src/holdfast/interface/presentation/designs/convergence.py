@@ -19,7 +19,7 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec, format_value
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
 
@@ -79,8 +79,8 @@ def present(designs: ConvergenceDesigns) -> Presentation:
     facts = [] if is_given else [Fact("", best_value, phrase=phrases[1], style="percent")]
     facts.append(Fact("", given_value, phrase=phrases[0], style="percent"))
     facts.append(Fact("designs", len(designs.values), phrase="designs were tried"))
-    columns = [Column("measure", "measure"), Column("given", "given arm", style="percent")]
-    columns += [Column("best", "best design", style="percent"), Column("meaning", "what it is")]
+    columns = [Header("measure", "measure"), Header("given", "given arm", style="percent")]
+    columns += [Header("best", "best design", style="percent"), Header("meaning", "what it is")]
     tables = [tabulate_parameters(designs.space, designs.values[best]), TableSpec("Measured in the search", columns, measures)]
     settings = designs.searched
     measured = (

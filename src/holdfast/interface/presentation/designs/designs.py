@@ -25,7 +25,7 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Notice, Presentation, TableSpec
 from holdfast.studies.designs.designs import (
     SAME_VALUE_TOLERANCE,
     Designs,
@@ -107,7 +107,7 @@ def present(designs: Designs) -> Presentation:
         ("poses reached", *(format_percent(1 - held_out.distribution.unreached_share) for held_out in (given, best))),
         ("reach, m", f"{designs.start_reach:.3f}", f"{designs.reach[designs.best]:.3f}"),
     ]
-    value_columns = [Column("measure", ""), Column("given", "given arm"), Column("best", "best design")]
+    value_columns = [Header("measure", ""), Header("given", "given arm"), Header("best", "best design")]
     search_value = float(designs.guaranteed[designs.best])
     front_reach = f"{designs.reach[designs.front[0]]:.4g} to {designs.reach[designs.front[-1]]:.4g} m"
     figures = {
@@ -223,11 +223,11 @@ def _tabulate_front(designs: Designs) -> TableSpec:
     """Tabulate some designs of the front, for the page."""
     picked = _choose_front_designs(designs.front, designs.best)
     columns = [
-        Column("best", ""),
-        Column("reach", "reach, m"),
-        Column("guaranteed", f"least at {format_level(designs.level)} of the poses"),
-        Column("reached", "poses reached", style="percent"),
-        *(Column(parameter.name, f"{parameter.name}, {parameter.display_unit[1]}") for parameter in designs.space.parameters),
+        Header("best", ""),
+        Header("reach", "reach, m"),
+        Header("guaranteed", f"least at {format_level(designs.level)} of the poses"),
+        Header("reached", "poses reached", style="percent"),
+        *(Header(parameter.name, f"{parameter.name}, {parameter.display_unit[1]}") for parameter in designs.space.parameters),
     ]
     factors = [parameter.display_unit[0] for parameter in designs.space.parameters]
     rows = [

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.presentation import Column, Notice, TableSpec
+from holdfast.interface.presentation.presentation import Header, Notice, TableSpec
 from holdfast.studies.designs.space import DesignParameter, DesignSpace
 
 if TYPE_CHECKING:
@@ -53,12 +53,12 @@ def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
 def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
     """Tabulate the parameters of the given arm and of the best design (k,)."""
     columns = [
-        Column("parameter", "parameter"),
-        Column("description", "what it is"),
-        Column("given", "given arm"),
-        Column("best", "best design"),
-        Column("bounds", "bounds"),
-        Column("remark", ""),
+        Header("parameter", "parameter"),
+        Header("description", "what it is"),
+        Header("given", "given arm"),
+        Header("best", "best design"),
+        Header("bounds", "bounds"),
+        Header("remark", ""),
     ]
     rows = []
     for parameter, before, after in zip(space.parameters, space.start.tolist(), best.tolist(), strict=True):

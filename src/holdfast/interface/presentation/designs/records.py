@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.core.files.output import write_files
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation import renderers
-from holdfast.interface.presentation.presentation import Column, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.record_book.entries import (
     TOTAL_LINK_LENGTH_M,
     DesignRecord,
@@ -94,13 +94,13 @@ def _present_check(check: RecordCheck) -> Presentation:
 
 
 def _tabulate_claims(check: RecordCheck) -> TableSpec:
-    return TableSpec("", [Column("said", "claim"), Column("holds", "holds")], check.claims)
+    return TableSpec("", [Header("said", "claim"), Header("holds", "holds")], check.claims)
 
 
 def tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
     """Tabulate records, a row for each."""
     keys = ("record", "task", "joints", "locked", "value", "bound", "by", "gap")
-    columns = [Column(key, "no arm can beat" if key == "bound" else key) for key in keys]
+    columns = [Header(key, "no arm can beat" if key == "bound" else key) for key in keys]
     rows = []
     for record in records:
         kind, bound = record.data.kind, record.data.proven_bound

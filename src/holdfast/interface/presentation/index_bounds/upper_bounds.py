@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Column, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, UpperBoundTable, count_rows, failure_phrase
 from holdfast.kinematics.index_bounds.theorems import THEOREM_TEXTS
 
@@ -45,15 +45,15 @@ def present(bounds: UpperBound | UpperBoundTable) -> Presentation:
 
 def _tabulate_bounds(bounds: Sequence[UpperBound]) -> TableSpec:
     columns = [
-        Column("joints", "joints"),
-        Column("rows", "rows"),
-        Column("failures", "failures"),
-        Column("bound", "bound", digits=6),
-        Column("bound_by", "by"),
-        Column("best_known", "best known", digits=6),
-        Column("attained", "attained"),
-        Column("closed_form", "in roots"),
-        Column("gap", "gap", style="percent"),
+        Header("joints", "joints"),
+        Header("rows", "rows"),
+        Header("failures", "failures"),
+        Header("bound", "bound", digits=6),
+        Header("bound_by", "by"),
+        Header("best_known", "best known", digits=6),
+        Header("attained", "attained"),
+        Header("closed_form", "in roots"),
+        Header("gap", "gap", style="percent"),
     ]
     rows = [(b.n, b.m, b.k, b.bound, b.bound_by, b.best_known, b.is_attained, b.closed_form or None, b.gap) for b in bounds]
     return TableSpec("", columns, rows)

@@ -1,19 +1,25 @@
-"""Text, figures, and report of a proof of the lock instants after which a path can be finished."""
+"""Presentation of a proof of the lock instants after which a path can be finished."""
 
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, LockSlab
 from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
-from holdfast.interface.presentation.certificates.pages import UNVERIFIED_NOTE, add_legend, bind_percent_sign, fraction_entry
-from holdfast.interface.presentation.certificates.pages import write as write
-from holdfast.interface.presentation.page_content import PageContent
-from holdfast.interface.presentation.printing import TextTable
+from holdfast.interface.presentation.certificates.verification import (
+    add_legend,
+    build_entries,
+    build_fraction_entry,
+    find_proved_fraction,
+    present_proof,
+)
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,35 +35,70 @@ def to_dict(proof: PathProof) -> dict[str, Any]:
     parts: dict[str, Any] = {}
     for part in proof.parts:
         parts[_joint_name(proof, part)] = {
-            **{key: fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")},
+            **{key: build_fraction_entry(getattr(part, key)) for key in ("proved", "refuted", "undecided")},
             "undecided_between_knots": [[begin / SEGMENT_INSTANTS, end / SEGMENT_INSTANTS] for begin, end in proof.gaps(part)],
             "followers": [proof.claim.arm.joint_names[joint] for joint in part.followers],
             **{key: getattr(part, key) for key in ("leaves", "nodes", "finished", "seconds")},
         }
-    return {
-        "claim": proof.document["claim"],
-        **{key: fraction_entry(getattr(proof, key)) for key in ("proved", "refuted", "undecided", "tolerant")},
-        **{key: getattr(proof, key) for key in ("leaves", "nodes", "finished")},
-        "verified": False,
-        "deviation": proof.claim.deviation,
-        "seconds": proof.seconds,
-        "parts": parts,
-    }
+    entries = build_entries(proof, ("proved", "refuted", "undecided", "tolerant"), deviation=proof.claim.deviation)
+    return entries | {"parts": parts}
 
 
 def _joint_name(proof: PathProof, part: LockedPath) -> str:
     return proof.claim.arm.joint_names[part.joint]
 
 
-def tables(proof: PathProof) -> list[TextTable]:
-    """Tabulate the fractions of each lock, then those of all locks."""
-    rows = []
-    for part in proof.parts:
-        shares = [format_percent(part.proved), format_percent(part.refuted), format_percent(part.undecided, up=True)]
-        counts = [_format_undecided_intervals(proof, part), f"{part.leaves:,}", f"{part.seconds:.1f}"]
-        rows.append([_joint_name(proof, part), *shares, *counts])
-    header = ["lock of", "proved, not yet verified", "refuted", "undecided", "undecided between knots", "cells", "s"]
-    return [TextTable(header, rows), key_table(proof)]
+def present(proof: PathProof, check: CertificateCheck | None = None, **options: Any) -> Presentation:
+    """Present the proved fraction, its meaning, and its limits; the options are those of :func:`present_proof`."""
+    claim, fraction = proof.claim, find_proved_fraction(proof, check)
+    tolerance_text = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
+    complete_joints = [_joint_name(proof, part) for part in proof.parts if part.proved == 1]
+    undecided_text = "undecided or refuted" if proof.refuted else "undecided"
+    answer = f"Nothing is proved for all locks: something is {undecided_text} at every instant."
+    if fraction:
+        remainder = "nothing is undecided" if fraction == 1 else "the rest is undecided for some lock"
+        if refuted_joints := [_joint_name(proof, part) for part in proof.parts if part.refuted]:
+            remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
+        answer = (
+            f"Whichever joint locks, at {format_percent(fraction)} of the instants the {claim.task} path{tolerance_text} is "
+            f"proved to be finished; {remainder}."
+        )
+    elif complete_joints:
+        answer = (
+            f"At no instant is it proved for all locks, but at every instant for those of {', '.join(complete_joints)}; "
+            f"for the others something is {undecided_text} at every instant."
+        )
+    caption = (
+        "Blue: after a lock at this instant one continuous motion takes the tool to the end of the path; lines are the "
+        "faces at which cells are glued; darker where these are turned, by a singular configuration. Vermilion: "
+        "refuted: at some later place of the path no configuration within the limits has the tool. Hatched: undecided, "
+        "which does not say that it cannot be done. Nothing is claimed of the path before the lock."
+    )
+    proof_text = (
+        "cells of the path behind intervals of lock instants; in each there is one solution, and on the face "
+        "between two cells it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, "
+        "tool and base"
+    )
+    scope = (
+        "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "
+        "the file's, locks do not slip, and the path is that of straight joint segments"
+    )
+    return present_proof(
+        proof,
+        title=f"What {claim.arm.name} finishes after a lock",
+        answer=answer,
+        fraction_phrase="of the lock instants, whichever joint locks",
+        cell_phrase="cells, glued or empty",
+        facts=[
+            Fact("refuted, of the lock with most", format_percent(proof.refuted)),
+            Fact("straight segments off the motion that was given", 1000 * claim.deviation, "mm", digits=2),
+        ],
+        gaps=[_format_undecided_intervals(proof, part) for part in proof.parts],
+        figures={"slices": FigureSpec(partial(_draw, proof), "When it may lock", caption)},
+        method=[("Proof", proof_text), ("Not said", scope)],
+        check=check,
+        **options,
+    )
 
 
 def _format_undecided_intervals(proof: PathProof, part: LockedPath) -> str:
@@ -67,68 +108,7 @@ def _format_undecided_intervals(proof: PathProof, part: LockedPath) -> str:
     return ", ".join(texts[:2]) + (f" and {len(texts) - 2} more" if len(texts) > 2 else "")
 
 
-def key_table(proof: PathProof) -> TextTable:
-    """Tabulate the fractions of all locks together."""
-    rows = [
-        ["proved at least, whichever joint locks, not yet verified", format_percent(proof.proved)],
-        ["refuted at most, likewise", format_percent(proof.refuted)],
-        ["undecided at most", format_percent(proof.undecided, up=True)],
-        ["proved for all locks at once", format_percent(proof.tolerant)],
-        ["cells proved and glued, or without a configuration", f"{proof.leaves:,}"],
-        ["cells looked at", f"{proof.nodes:,}"],
-        ["straight segments off the motion that was given, mm", f"{1000 * proof.claim.deviation:.2g}"],
-    ]
-    return TextTable(["", ""], rows)
-
-
-def next_steps(proof: PathProof, name: str) -> list[str]:
-    """Suggest the check of the written certificate by independent code."""
-    return [f'hf.check_certificate({name}.write("path.certificate"))  # by other code']
-
-
-def story(proof: PathProof) -> PageContent:
-    """Compose the report: the proved fraction, its meaning, and its limits."""
-    claim, share = proof.claim, bind_percent_sign(format_percent(proof.tolerant))
-    tolerance_text = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
-    complete_joints = [_joint_name(proof, part) for part in proof.parts if part.proved == 1]
-    answer = "Nothing is proved for all locks: something is undecided at every instant."
-    if complete_joints:
-        answer = f"At no instant is it proved for all locks, but at every instant for those of {', '.join(complete_joints)}."
-    if proof.tolerant:
-        remainder = "nothing is undecided" if proof.tolerant == 1 else "the rest is undecided for some lock"
-        refuted_joints = [_joint_name(proof, part) for part in proof.parts if part.refuted]
-        if refuted_joints:
-            remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
-        answer = f"Whichever joint locks, at {share} of the instants the {claim.task} path{tolerance_text} is proved to "
-        answer += f"be finished; {remainder}."
-    undecided = [[_joint_name(proof, path), _format_undecided_intervals(proof, path)] for path in proof.parts]
-    return PageContent(
-        f"What {claim.arm.name} finishes after a lock",
-        f"{answer} {UNVERIFIED_NOTE}",
-        lines=proof.describe()[:1],
-        facts=[(share, "of the lock instants, whichever joint locks"), (f"{proof.leaves:,}", "cells, glued or empty")],
-        tables=[TextTable(["lock of", "undecided between knots"], undecided)],
-        figures={
-            "slices": (
-                "When it may lock",
-                "Blue: after a lock at this instant one continuous motion takes the tool to the end of the path; lines are the "
-                "faces at which cells are glued; darker where these are turned, by a singular configuration. Vermilion: "
-                "refuted: at some later place of the path no configuration within the limits has the tool. Hatched: undecided, "
-                "which does not say that it cannot be done. Nothing is claimed of the path before the lock.",
-            )
-        },
-        method=[
-            ("Proof", "cells of the path behind intervals of lock instants; in each there is one solution, and on the face "
-             "between two cells it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, "
-             "tool and base"),
-            ("Not said", "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "
-             "the file's, locks do not slip, and the path is that of straight joint segments"),
-        ],
-        arm=claim.arm,
-    )  # fmt: skip
-
-
-def figures(proof: PathProof) -> dict[str, Figure]:
+def _draw(proof: PathProof) -> Figure:
     """Draw the lock instants against the path, one panel for each lock."""
     from matplotlib.figure import Figure
 
@@ -151,7 +131,7 @@ def figures(proof: PathProof) -> dict[str, Figure]:
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
         add_legend(figure, {"proved to be finished": SKY, "in turned cells": BLUE, "refuted": ORANGE})
-        return {"slices": settle_layout(figure)}
+        return settle_layout(figure)
 
 
 def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:

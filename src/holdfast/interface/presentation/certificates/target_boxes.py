@@ -1,18 +1,25 @@
-"""Slices through a box of targets that show undecided parts, and the report of the proof."""
+"""Presentation of proofs about boxes of targets, with slices that show undecided parts."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.certificates import documents
+from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.certificates.verifier_parts.tree import Cell
-from holdfast.interface.presentation.certificates.pages import SCOPE_NOTE, UNVERIFIED_NOTE, add_legend, bind_percent_sign
-from holdfast.interface.presentation.certificates.pages import write as write
-from holdfast.interface.presentation.page_content import PageContent
+from holdfast.interface.presentation.certificates.verification import (
+    SCOPE_NOTE,
+    add_legend,
+    build_entries,
+    find_proved_fraction,
+    present_proof,
+)
+from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,15 +30,57 @@ if TYPE_CHECKING:
 _AXIS_LABELS = ("x [m]", "y [m]", "z [m]")
 
 
-def figures(proof: Proof | TolerantProof) -> dict[str, Figure]:
+def to_dict(proof: Proof | TolerantProof) -> dict[str, Any]:
+    """Return fractions as exact rationals and as numbers, cell counts, and seconds; for a failure-tolerant box also
+    its parts.
+    """
+    if isinstance(proof, Proof):
+        return build_entries(proof)
+    parts = {proof.part_label(part): to_dict(part) for part in proof.parts}
+    return build_entries(proof, ("proved", "undecided", "tolerant")) | {"parts": parts}
+
+
+def present(proof: Proof | TolerantProof, check: CertificateCheck | None = None, **options: Any) -> Presentation:
+    """Present the proved fraction, its meaning, and its limits; the options are those of :func:`present_proof`."""
+    arm, place_text, condition, object_text = proof.claim.arm, "within limits", "", "targets"
+    if isinstance(proof, TolerantProof):
+        place_text, condition = "wherever a joint locks, and while healthy", " while healthy and whatever locks"
+    elif proof.claim.locked >= 0:
+        place_text, object_text = "at every locked angle", f"targets and locked angles of {arm.joint_names[proof.claim.locked]}"
+    answer, fraction = "Nothing is proved: all is undecided.", find_proved_fraction(proof, check)
+    if fraction:
+        remainder = "the rest is undecided" if fraction < 1 else "nothing is undecided"
+        answer = f"Of the {object_text}, {format_percent(fraction)} are proved to be reached{condition}; {remainder}."
+    orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
+    caption = (
+        f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
+        "say that it is out of reach. Through the middle of the box, and where most is undecided."
+    )
+    return present_proof(
+        proof,
+        title=f"What is proved of {arm.name}",
+        answer=answer,
+        fraction_phrase=f"of the {object_text}{condition}",
+        cell_phrase="boxes, each with one configuration",
+        figures={"slices": FigureSpec(partial(_draw, proof), "Where it is proved", caption)},
+        method=[
+            ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
+            ("Not said", SCOPE_NOTE.replace("speed", "speed, the way there")),
+        ],
+        check=check,
+        **options,
+    )
+
+
+def _draw(proof: Proof | TolerantProof) -> Figure:
     """Draw slices through the middle and through the most undecided plane, over all locks, lock angles, and orientations."""
     box = proof.claim.box[:3]
     cells = _undecided_cells(proof)
     if len(box) == 2:
-        return {"slices": _draw_slices(box, cells, [(0, 1, None)])}
+        return _draw_slices(box, cells, [(0, 1, None)])
     middle_slices = [(0, 2, (1, float(box[1].mean()))), (1, 2, (0, float(box[0].mean())))]
     worst_height = _find_worst_height(box, cells)
-    return {"slices": _draw_slices(box, cells, [*middle_slices, (0, 1, (2, worst_height))])}
+    return _draw_slices(box, cells, [*middle_slices, (0, 1, (2, worst_height))])
 
 
 def _undecided_cells(proof: Proof | TolerantProof) -> FloatArray:
@@ -95,37 +144,3 @@ def _draw_slice(
     axes.set(xlim=(corner[0] - margin, corner[0] + size[0] + margin), ylim=(corner[1] - margin, corner[1] + size[1] + margin))
     axes.set_aspect("equal")
     axes.grid(visible=False)
-
-
-def story(proof: Proof | TolerantProof) -> PageContent:
-    """Compose the report: the proved fraction, its meaning, and its limits."""
-    arm, place_text, condition = proof.claim.arm, "within limits", ""
-    object_text, fraction = "targets", proof.proved
-    if isinstance(proof, TolerantProof):
-        fraction, condition = proof.tolerant, " while healthy and whatever locks"
-        place_text = "wherever a joint locks, and while healthy"
-    elif proof.claim.locked >= 0:
-        place_text, object_text = "at every locked angle", f"targets and locked angles of {arm.joint_names[proof.claim.locked]}"
-    answer = "Nothing is proved: all is undecided."
-    if fraction:
-        remainder = "the rest is undecided" if fraction < 1 else "nothing is undecided"
-        percent = bind_percent_sign(format_percent(fraction))
-        answer = f"Of the {object_text}, {percent} are proved to be reached{condition}; {remainder}."
-    orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
-    caption = f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
-    caption += "say that it is out of reach. Through the middle of the box, and where most is undecided."
-    return PageContent(
-        f"What is proved of {arm.name}",
-        f"{answer} {UNVERIFIED_NOTE}",
-        lines=proof.describe()[:1],
-        facts=[
-            (bind_percent_sign(format_percent(fraction)), f"of the {object_text}{condition}"),
-            (f"{proof.leaves:,}", "boxes, each with one configuration"),
-        ],
-        figures={"slices": ("Where it is proved", caption)},
-        method=[
-            ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
-            ("Not said", SCOPE_NOTE.replace("speed", "speed, the way there")),
-        ],
-        arm=arm,
-    )

@@ -1,0 +1,249 @@
+"""Figures of the bisection of boxes of configurations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.certificates import verifier
+from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
+from holdfast.certificates.joint_boxes.exclusion import joint_ranges
+from holdfast.certificates.joint_boxes.refutations import Refutation
+from holdfast.certificates.tree import UNDECIDED_TOKEN
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.interface.presentation.certificates.verification import add_legend
+from holdfast.interface.presentation.presentation import Header, TableSpec
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Found = Refutation | ManipulabilityBound
+
+_MAX_DRAWN_HALVINGS = 7  # halvings of an axis that a picture shows
+_HARDEST_ROWS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class LeafBoxes:
+    """Boxes at which the bisection ended.
+
+    Attributes:
+        axis_ranges: (A, 2) of the whole, rad and m.
+        axis_names, is_angle: (A,) of the axes, and which are angles.
+        cell_indices, depth: (N, A), box k of 2^depth along each axis.
+        undecided: (N,).
+    """
+
+    axis_ranges: FloatArray
+    axis_names: list[str]
+    is_angle: NDArray[np.bool_]
+    cell_indices: IndexArray
+    depth: IndexArray
+    undecided: NDArray[np.bool_]
+
+    @classmethod
+    def from_proof(cls, proof: Found) -> LeafBoxes:
+        """Read the leaves of a proof, or those of its largest lemma if that has more boxes than the rest."""
+        arm, document = proof.claim.arm, proof.document
+        names, turns, packed_tree = list(arm.joint_names), ~arm.prismatic, document["tree"]
+        if isinstance(proof, ManipulabilityBound):
+            box, last_token, lock_token = proof.claim.joint_box, 2, verifier.FIRST_LOCK_TOKEN
+        elif lemma := find_largest_lemma(document):
+            behind, last_token, lock_token = slice(lemma["link"], arm.n), 2, 256
+            box, names, turns, packed_tree = joint_ranges(proof.claim)[behind], names[behind], turns[behind], lemma["tree"]
+        else:
+            box, axis_letters = np.vstack([joint_ranges(proof.claim), proof.claim.box]), document["target"]["axes"]
+            last_token, lock_token = 2 + len(document["lemmas"]), 256
+            names += [{"R": "roll", "P": "pitch", "Y": "yaw", "a": "yaw"}.get(axis, axis) for axis in axis_letters]
+            turns = np.append(turns, [axis not in "xyz" for axis in axis_letters])
+        return cls(box, names, turns, *_unpack_leaves(packed_tree, len(box), last_token, lock_token))
+
+    @property
+    def halvings(self) -> IndexArray:
+        """Number of halvings of each box (N,)."""
+        return np.asarray(self.depth.sum(axis=1))
+
+    @property
+    def most_halved_axes(self) -> tuple[int, int]:
+        """The two axes that are halved most often, in their order."""
+        halving_counts = self.depth.sum(axis=0) + 1e-9 * (self.axis_ranges[:, 1] > self.axis_ranges[:, 0])
+        lower_axis, upper_axis = sorted(np.argsort(-halving_counts, kind="stable")[:2].tolist())
+        return lower_axis, upper_axis
+
+    def describe_box(self, box_index: int) -> list[str]:
+        """Return the number of halvings of a box, its middle, and its half widths."""
+        width = (self.axis_ranges[:, 1] - self.axis_ranges[:, 0]) * 0.5 ** self.depth[box_index]
+        middle = self.axis_ranges[:, 0] + width * (self.cell_indices[box_index] + 0.5)
+        scale = display_factors(self.is_angle)
+        texts = [", ".join(f"{value:.4g}" for value in scale * values) for values in (middle, width / 2)]
+        return [str(self.halvings[box_index]), *texts, "undecided" if self.undecided[box_index] else "proved"]
+
+    def tabulate_hardest(self) -> TableSpec:
+        """Tabulate the smallest boxes, or the largest of the undecided ones."""
+        order = np.lexsort((np.where(self.undecided, self.halvings, -self.halvings), ~self.undecided))[:_HARDEST_ROWS]
+        units = "deg and m" if not self.is_angle.all() else "deg"
+        columns = [
+            Header("halvings", "halvings"),
+            Header("middle", f"middle, {units}"),
+            Header("half_widths", f"half widths, {units}"),
+            Header("state", "proved or undecided"),
+        ]
+        return TableSpec("The hardest boxes", columns, [self.describe_box(box_index) for box_index in order])
+
+    def project_onto(self, axes: tuple[int, int]) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Project the boxes onto two axes (2^7, 2^7): the largest number of halvings over the other axes, and the undecided
+        area.
+        """
+        max_halvings = np.zeros((1 << _MAX_DRAWN_HALVINGS,) * 2)
+        undecided_area = max_halvings > 0
+        excess_halvings = np.maximum(self.depth[:, axes] - _MAX_DRAWN_HALVINGS, 0)
+        cell_indices, depth = self.cell_indices[:, axes] >> excess_halvings, self.depth[:, axes] - excess_halvings
+        for depths in np.unique(depth, axis=0):
+            box_rows = np.flatnonzero((depth == depths).all(axis=1))
+            grid_halvings, grid_index = np.zeros((1 << depths).tolist()), tuple(cell_indices[box_rows].T)
+            is_open = grid_halvings > 0
+            np.maximum.at(grid_halvings, grid_index, self.halvings[box_rows])
+            np.logical_or.at(is_open, grid_index, self.undecided[box_rows])
+            pixel_block = np.ones((1 << (_MAX_DRAWN_HALVINGS - depths)).tolist(), dtype=bool)
+            max_halvings = np.maximum(max_halvings, np.kron(grid_halvings, pixel_block))
+            undecided_area |= np.kron(is_open, pixel_block).astype(bool)
+        return max_halvings, undecided_area
+
+
+@lru_cache(maxsize=1)  # a page has a table of them, and a picture
+def _unpack_leaves(
+    packed_tree: str, axes: int, last_token: int, lock_token: int
+) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
+    """Unpack the leaves of a tree: the cell index and the halvings of each axis (N, A), and the undecided ones."""
+    tree, tokens = verifier.decompress_payload(packed_tree, 2 * verifier.MAX_LEAVES, "tree"), list[int]()
+
+    def stream_numbers() -> Any:
+        for token, cell in verifier.iterate_cells(tree, axes, last_token, lock_token):
+            tokens.append(token)
+            yield from chain.from_iterable(cell)
+
+    cell_numbers = np.fromiter(stream_numbers(), dtype=np.int64).reshape(-1, axes, 2)
+    return cell_numbers[:, :, 0], cell_numbers[:, :, 1], np.isin(tokens, (1, UNDECIDED_TOKEN))
+
+
+def display_factors(is_angle: NDArray[np.bool_]) -> FloatArray:
+    """Return the factors for display: angles are shown in degrees, prismatic joints in metres."""
+    return np.where(is_angle, 180 / np.pi, 1.0)
+
+
+def find_largest_lemma(document: dict[str, Any]) -> dict[str, Any] | None:
+    """Return the lemma with the most boxes, if it has more than the main proof."""
+    trees = [*document["lemmas"], document]
+    sizes = [len(verifier.decompress_payload(proof_tree["tree"], 2 * verifier.MAX_LEAVES, "tree")) for proof_tree in trees]
+    largest = trees[int(np.argmax(sizes))]
+    return None if largest is document else largest
+
+
+def draw_witness(proof: Found) -> Figure:
+    """Draw the configuration that refutes a claim: the position of each joint within its range."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
+
+    arm = proof.claim.arm
+    is_bound = isinstance(proof, ManipulabilityBound)
+    spans, q = (proof.claim.joint_box, proof.extreme) if is_bound else (joint_ranges(proof.claim), proof.witness)
+    assert q is not None
+    scale = display_factors(~arm.prismatic)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
+        axes = figure.subplots()
+        rows = np.arange(arm.n)
+        axes.hlines(rows, *(spans * scale[:, None]).T, color=FAINT, linewidth=7)
+        axes.plot(q * scale, rows, "o", color=ORANGE, markersize=7)
+        axes.set(yticks=rows, yticklabels=[format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
+        axes.set_xlabel("deg" if not arm.prismatic.any() else "deg and m")
+        return settle_layout(figure)
+
+
+def draw_value_scale(proof: ManipulabilityBound) -> Figure:
+    """Draw a line of values: those that occur, the extreme, and those that are proved not to occur."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
+
+    claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
+    bound, value = claim.threshold, proof.value
+    axis_end = min(claim.most, 1.6 * max(bound, value))
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 1.9), layout="constrained")
+        axes = figure.subplots()
+        excluded_range = (bound, axis_end) if is_upper_bound else (0.0, bound)
+        if proof.refuted:
+            axes.axvspan(*sorted((bound, value)), color=ORANGE, alpha=0.55, linewidth=0)
+        else:
+            axes.axvspan(*excluded_range, color=SKY, linewidth=0)
+            axes.axvspan(*sorted((bound, value)), facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0)
+        for position, color, label, is_left in (
+            (value, INK, f"{value:.4g} occurs", is_upper_bound != proof.refuted),
+            (bound, BLUE, f"{claim.kind} {bound:.4g}", is_upper_bound == proof.refuted),
+        ):
+            axes.axvline(position, color=color, linewidth=1.6)
+            place = {"xycoords": ("data", "axes fraction"), "ha": "right" if is_left else "left", "va": "bottom"}
+            axes.annotate(label, (position, 1.03), color=color, **place)
+        axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
+        axes.grid(visible=False)
+        return settle_layout(figure)
+
+
+def draw_boxes(proof: Found) -> Figure:
+    """Draw the sizes of the boxes, with the configuration that comes nearest to a bound."""
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
+
+    leaves, marked = LeafBoxes.from_proof(proof), None if isinstance(proof, Refutation) else proof.extreme
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
+        plane, bars = figure.subplots(1, 2)
+        _draw_projection(plane, leaves, marked)
+        proved, undecided = (np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided))
+        bottom, bar_style = np.pad(proved, (0, len(undecided)))[: len(undecided)], {"width": 1.0, "edgecolor": INK}
+        bars.bar(np.arange(len(proved)), proved, facecolor=SKY, linewidth=0.6, **bar_style)
+        hatching = {"facecolor": EMPTY_COLOR, "hatch": "////", "linewidth": 0.3}
+        bars.bar(np.arange(len(undecided)), undecided, bottom=bottom, **hatching, **bar_style)
+        bars.set(xlabel="halvings of the whole", ylabel="boxes", title="How small they are")
+        bars.xaxis.get_major_locator().set_params(integer=True)
+        add_legend(figure, {"proved (darker: smaller boxes)": SKY})
+        return settle_layout(figure)
+
+
+def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:
+    """Draw the boxes over two axes, to scale; the worst box over all other axes counts."""
+    from matplotlib.collections import PatchCollection
+    from matplotlib.colors import LinearSegmentedColormap
+    from matplotlib.patches import Rectangle
+
+    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, SKY, format_label
+
+    shown_axes = leaves.most_halved_axes
+    scale = display_factors(leaves.is_angle)[list(shown_axes)]
+    lower, upper = (leaves.axis_ranges[list(shown_axes)] * scale[:, None]).T
+    max_halvings, undecided_area = leaves.project_onto(shown_axes)
+    colormap = LinearSegmentedColormap.from_list("halvings", [SKY, BLUE])
+    extent = (lower[0], upper[0], lower[1], upper[1])
+    axes.imshow(max_halvings.T, origin="lower", extent=extent, cmap=colormap, aspect="auto", interpolation="nearest")
+    step, rectangles = (upper - lower) / len(undecided_area), []
+    for column_index, column in enumerate(undecided_area):
+        run_ends = np.flatnonzero(np.diff(np.concatenate([[False], column, [False]]).astype(int)))
+        for begin, end in zip(run_ends[::2], run_ends[1::2], strict=True):
+            rectangles.append(Rectangle(tuple(lower + step * [column_index, begin]), step[0], step[1] * (end - begin)))
+    axes.add_collection(PatchCollection(rectangles, facecolor=EMPTY_COLOR, edgecolor="none"))
+    axes.add_collection(PatchCollection(rectangles, facecolor="none", edgecolor=INK, hatch="////", linewidth=0))
+    if marked is not None:
+        position = marked[list(shown_axes)] * scale
+        axes.plot(*position, "o", color=INK, markersize=7, markeredgecolor="white", clip_on=False)
+    labels = [f"{format_label(leaves.axis_names[axis])} [{'deg' if leaves.is_angle[axis] else 'm'}]" for axis in shown_axes]
+    axes.set(xlabel=labels[0], ylabel=labels[1], title="Where they are small")
+    axes.grid(visible=False)
