@@ -6,17 +6,16 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-# The modules that present a class, by the class with its module: first the module of its words and numbers (to_dict, show,
-# tables, key_table, next_steps), which draws nothing, then that of its pictures (figures, write, save). What a module does not
-# define is in `results`. For the inputs of an analysis there are words alone, for notebooks.
-PRESENTER_MODULES: dict[str, str | tuple[str, str]] = {
-    "model.arm.model.Arm": ("arm.console", "arm.view"),
+# The module that presents a class, by the class with its module.
+PRESENTER_MODULES = {
+    "model.arm.model.Arm": "arm.console",
     "model.arm.task.Task": "arm.task",
     "studies.assessment.assessment.Assessment": "assessment.assessment",
     "studies.assessment.comparison.Comparison": "assessment.comparison",
     "kinematics.index_bounds.manipulability_bounds.UpperBound": "index_bounds.upper_bounds",
     "kinematics.index_bounds.manipulability_bounds.UpperBoundTable": "index_bounds.upper_bounds",
     "kinematics.index_bounds.least_singular_values.SingularValueBound": "index_bounds.singular_value_bound",
+    "certificates.proof.BisectionResult": "certificates.bisection",
     "certificates.checks.CertificateCheck": "certificates.certificate_check",
     "certificates.joint_boxes.bounds.ManipulabilityBound": "certificates.joint_boxes",
     "certificates.joint_boxes.refutations.Refutation": "certificates.joint_boxes",
@@ -72,7 +71,6 @@ PRESENTER_MODULES: dict[str, str | tuple[str, str]] = {
     "teleop.analysis.result.Analysis": "teleop.analysis",
     "teleop.bank.selection.TaskChoice": "teleop.task_choice",
 }
-_TEXT_FUNCTIONS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story", "describe"}
 
 
 def find_presenter(presented: type, function: str) -> Callable[..., Any]:
@@ -81,12 +79,8 @@ def find_presenter(presented: type, function: str) -> Callable[..., Any]:
     The module of a class need only have ``present``; :mod:`holdfast.interface.presentation.renderers` derives the rest from it.
     """
     names = [f"{base.__module__}.{base.__name__}".removeprefix("holdfast.") for base in presented.__mro__]
-    modules = next((PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES), ("", ""))
-    if isinstance(modules, str):
-        candidates = [modules, "renderers"]
-    else:
-        candidates = [modules[0] if function in _TEXT_FUNCTIONS else modules[1], "results"]
-    for module in filter(None, candidates):
+    own_modules = [PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES][:1]
+    for module in (*own_modules, "renderers"):
         candidate = getattr(import_module(f"holdfast.interface.presentation.{module}"), function, None)
         if callable(candidate):  # `figures` may be a module that the presenter imports
             return candidate  # type: ignore[no-any-return]
@@ -94,5 +88,5 @@ def find_presenter(presented: type, function: str) -> Callable[..., Any]:
 
 
 def call_presenter(presented: object, function: str, *arguments: Any, **options: Any) -> Any:
-    """Call the function that presents an object, for example ``show`` or ``tables``."""
+    """Call the function that presents an object, for example ``show`` or ``present``."""
     return find_presenter(type(presented), function)(presented, *arguments, **options)

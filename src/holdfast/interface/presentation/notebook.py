@@ -11,9 +11,6 @@ from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from holdfast.core.formatting import insert_nonbreaking_spaces
-from holdfast.core.result import Presentable
-from holdfast.interface.presentation import call_presenter
 from holdfast.interface.presentation.printing import TextTable
 
 if TYPE_CHECKING:
@@ -23,16 +20,6 @@ _MAX_SENTENCES = 3
 _MAX_TABLE_ROWS = 12
 _PIXEL_DENSITY = 1.5  # dots for each of the screen's
 _PIXELS_PER_INCH = 96  # px
-
-
-def build_card(result: Presentable) -> str:
-    """Return the notebook view of a result as HTML without scripts and style sheets, for the end of a cell."""
-    headline, *remarks = call_presenter(result, "sentences")
-    parts = [f"<p><strong>{escape(headline)}</strong></p>"]
-    parts += [f"<p>{escape(remark)}</p>" for remark in remarks[: _MAX_SENTENCES - 1]]
-    parts.append(format_table(call_presenter(result, "key_table")))
-    parts.append(call_presenter(result, "picture", headline))
-    return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
 
 
 def format_table(table: TextTable) -> str:

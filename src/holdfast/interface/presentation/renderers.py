@@ -89,7 +89,7 @@ def _list_facts(presentation: Presentation) -> list[list[str]]:
 
 def in_notebook(thing: Presentable) -> str:
     """Return the answer, the key numbers, and the main figure as HTML without scripts, for the end of a cell."""
-    from holdfast.interface.presentation.notebook import embed_figure, format_table
+    from holdfast.interface.presentation.notebook import format_table
 
     presentation = present(thing)
     answer, *remarks = sentences(thing)
@@ -98,11 +98,16 @@ def in_notebook(thing: Presentable) -> str:
     parts.append(
         format_table(facts if facts.rows or not presentation.tables else next(iter(presentation.list_tables())).texts())
     )
-    parts += [
-        embed_figure((figure.preview or figure.draw)(), f"{name}: {presentation.answer}")
-        for name, figure in list(presentation.figures.items())[:1]
-    ]
+    parts.append(call_presenter(thing, "picture", answer))
     return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
+
+
+def picture(thing: Presentable, about: str) -> str:
+    """Return the main figure as HTML, if there is one."""
+    from holdfast.interface.presentation.notebook import embed_figure
+
+    main_figure = list(present(thing).figures.items())[:1]
+    return "".join(embed_figure((figure.preview or figure.draw)(), f"{name}: {about}") for name, figure in main_figure)
 
 
 # ---- figures -------------------------------------------------------------------------------------------------------------
@@ -207,13 +212,3 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
 def write_json(result: Result, path: Path) -> None:
     """Write the numbers of the result as JSON."""
     replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")
-
-
-def story(result: Result) -> Presentation:  # until every presenter has `present`
-    """Return the presentation of a result."""
-    return present(result)
-
-
-def drawings(result: Result, **options: Any) -> dict[str, Any]:  # until every presenter has `present`
-    """Return the functions that draw the figures of the result."""
-    return {name: figure.draw for name, figure in present(result, **options).figures.items()}

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.labels import TASK_SIZES
-from holdfast.interface.presentation.presentation import Notice
-from holdfast.interface.presentation.printing import TextTable, format_significant
+from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.printing import format_significant
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import check_arm
@@ -19,6 +20,8 @@ from holdfast.studies.assessment.single_points import explain, structures
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+    from holdfast.core.files.html import Html
 
 
 def to_dict(arm: Arm) -> dict[str, Any]:
@@ -57,21 +60,39 @@ def to_dict(arm: Arm) -> dict[str, Any]:
     }
 
 
-def sentences(arm: Arm) -> list[str]:
-    """Return the title, the number of joints, and the source of the arm."""
-    return [f"{arm.title}: {arm.n} joints", *([f"Source: {arm.source}"] if arm.source else [])]
-
-
-def key_table(arm: Arm) -> TextTable:
-    """Tabulate the joints with their types, limits, and link masses."""
-    table_rows = []
+def present(arm: Arm) -> Presentation:
+    """Present the joints with their types, limits, and link masses."""
+    columns = [Header(key, key) for key in ("joint", "type", "lower", "upper")]
+    rows = []
     for joint, link in zip(arm.joints, arm.links, strict=True):
         factor, unit = joint.display_unit
         limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
-        table_rows.append(
-            [joint.name, joint.type, *limits, "not given" if link is None else f"{format_significant(link.mass)} kg"]
-        )
-    return TextTable(["joint", "type", "lower", "upper", "link mass"], table_rows)
+        rows.append((joint.name, joint.type, *limits, "not given" if link is None else f"{format_significant(link.mass)} kg"))
+    table = TableSpec("Joints", [*columns, Header("link_mass", "link mass")], rows)
+    source = [f"Source: {arm.source}"] if arm.source else []
+    return Presentation(arm.name, f"{arm.title}: {arm.n} joints", lines=source, tables=[table])
+
+
+def picture(arm: Arm, about: str) -> str:
+    """Return a still drawing of the arm as SVG that is legible on light and dark ground."""
+    from holdfast.interface.presentation.arm import view
+    from holdfast.interface.report import viewer
+
+    return f'<div style="max-width:30em">{viewer.draw_scene_svg(view.scene(arm, meshes=False), about)}</div>'
+
+
+def save(arm: Arm, file: Path) -> Path:
+    """Write the arm as a URDF file or a DH table."""
+    from holdfast.model.arms.arm_file import write_arm
+
+    return write_arm(arm, file)
+
+
+def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
+    """Build a page of the arm alone, with its joints on sliders where nothing moves."""
+    from holdfast.interface.presentation.arm import view
+
+    return view.page(arm, q, **options)
 
 
 def find_redundant_task(arm: Arm) -> str | None:

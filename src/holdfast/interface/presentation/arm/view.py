@@ -24,13 +24,9 @@ from holdfast.kinematics.regions.region import Region
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.postures import generic_configuration
 from holdfast.model.arm.task import Task, as_task, plane_normal
-from holdfast.model.arms.arm_file import write_arm as save
 from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.failure_modes import Degraded
-
-__all__ = ["page", "picture", "save", "scene"]
-
 
 MAX_VIEW_TRIANGLES = 16_000  # of a view, about 250 kB of its page
 MAX_MOTION_FRAMES = 240  # of a motion: the view draws what lies between
@@ -198,12 +194,6 @@ def build_view_section(
     :func:`scene`.
     """
     return Section(title, [Picture(scene(arm, q, **options).to_html(name, label or caption), caption)])
-
-
-def picture(arm: Arm, about: str, region: Region | None = None) -> str:
-    """Return a still drawing of the arm, with a region, as SVG that is legible on light and dark ground."""
-    drawing = viewer.draw_scene_svg(scene(arm, region=region, meshes=False), about)
-    return f'<div style="max-width:30em">{drawing}</div>'
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:

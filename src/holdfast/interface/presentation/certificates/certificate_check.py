@@ -7,7 +7,7 @@ from typing import Any
 from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.verifier import format_percent, qualify_claim
 from holdfast.interface.presentation.certificates.verification import build_fraction_entry
-from holdfast.interface.presentation.presentation import Header, Fact, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
 
 
 def to_dict(check: CertificateCheck) -> dict[str, Any]:

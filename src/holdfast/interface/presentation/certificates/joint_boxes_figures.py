@@ -152,8 +152,11 @@ def draw_witness(proof: Found) -> Figure:
     from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
 
     arm = proof.claim.arm
-    is_bound = isinstance(proof, ManipulabilityBound)
-    spans, q = (proof.claim.joint_box, proof.extreme) if is_bound else (joint_ranges(proof.claim), proof.witness)
+    q: FloatArray | None
+    if isinstance(proof, ManipulabilityBound):
+        spans, q = proof.claim.joint_box, proof.extreme
+    else:
+        spans, q = joint_ranges(proof.claim), proof.witness
     assert q is not None
     scale = display_factors(~arm.prismatic)
     with style():

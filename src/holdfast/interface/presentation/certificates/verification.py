@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
-from holdfast.certificates.proof import Proof, TolerantProof
+from holdfast.certificates.proof import BisectionResult, Proof, TolerantProof
 from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent, qualify_claim
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -27,7 +27,9 @@ UNVERIFIED_NOTE = "Found by the prover, not yet verified."
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
 
-def build_entries(proof: Found, keys: Sequence[str] = ("proved", "undecided"), **entries: Any) -> dict[str, Any]:
+def build_entries(
+    proof: Found | BisectionResult, keys: Sequence[str] = ("proved", "undecided"), **entries: Any
+) -> dict[str, Any]:
     """Return fractions as exact rationals and as numbers, cell counts, entries of one kind of proof, and seconds."""
     return {
         "claim": _certificate(proof)["claim"],
@@ -44,7 +46,7 @@ def build_fraction_entry(fraction: Fraction) -> dict[str, Any]:
     return {"value": float(fraction), "fraction": f"{fraction.numerator}/{fraction.denominator}"}
 
 
-def _certificate(proof: Found) -> dict[str, Any]:
+def _certificate(proof: Found | BisectionResult) -> dict[str, Any]:
     document: dict[str, Any] = proof.document() if isinstance(proof, TolerantProof) else proof.document
     return document
 

@@ -10,7 +10,7 @@ from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence import maps
 from holdfast.interface.presentation.convergence.shares import format_points, rank_successes
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -16,7 +16,7 @@ from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
 from holdfast.interface.presentation.convergence.shares import format_range
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

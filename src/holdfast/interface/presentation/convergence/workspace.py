@@ -18,7 +18,7 @@ from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.printing import format_significant
 
 _METHOD_TEXTS = {
@@ -295,7 +295,7 @@ def _list_maps(analysis: Workspace | TargetMeasures, place_noun: str) -> dict[st
             f"F of each of the {place_noun}: of the way on which the target stays within reach.",
         ),
     }
-    figures = {}
+    figures: dict[str, FigureSpec] = {}
     for kind, (names, label, explanation, title, caption) in kinds.items():
         if kind == "finish" and not failures:
             continue

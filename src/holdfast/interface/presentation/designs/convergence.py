@@ -19,7 +19,7 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec, format_value
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
 

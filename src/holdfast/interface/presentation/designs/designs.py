@@ -25,7 +25,7 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Header, Fact, FigureSpec, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.designs import (
     SAME_VALUE_TOLERANCE,
     Designs,
