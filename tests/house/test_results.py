@@ -187,15 +187,13 @@ def test_a_result_says_what_it_holds(name):
 
 @pytest.mark.parametrize("name", PRESENTER_MODULES)
 def test_a_presenter_is_there_and_its_class_is_shown(name):
-    modules = PRESENTER_MODULES[name]
-    for module in filter(None, [modules] if isinstance(modules, str) else modules):
-        import_module(f"holdfast.interface.presentation.{module}")
+    import_module(f"holdfast.interface.presentation.{PRESENTER_MODULES[name]}")
     module, _, class_name = name.rpartition(".")
     shown = getattr(import_module(f"holdfast.{module}"), class_name)
     assert issubclass(shown, Presentable)
     for function in (
         "in_notebook",
-        *(("present",) if isinstance(modules, str) else ("key_table",)),
+        "present",
         *("write", "save", "figures", "show") * issubclass(shown, Result),
     ):
         assert inspect.isfunction(find_presenter(shown, function)), function

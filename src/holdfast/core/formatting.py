@@ -6,11 +6,12 @@ import difflib
 import math
 import re
 from collections.abc import Collection, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 _ROUNDED_TO_ZERO = 1e-9
+_ROUNDED_TO_ZERO_IN_TABLES = 1e-12
 _SPACE_BEFORE_UNIT = re.compile(r" (?=(?:%|°|(?:N m|[kcmµ]?m|m?s|min|h|rad|deg|k?N|k?g|k?Hz|W|J|[kMG]?B|px)(?![\w-])))")
 _NUMBER_ENDS = frozenset("0123456789∞–")  # what a number ends with
 _NEGATIVE_EXPONENT = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines behind a hyphen
@@ -47,8 +48,19 @@ def format_seconds(time: float) -> str:
     return f"{time:.4g} s" if abs(time) < 1000 else f"{time:.1f} s"
 
 
-def format_number(x: float) -> str:
-    """Format a number with about three digits; values below 1e-9 are rounding errors and print as 0."""
+def format_number(x: float | np.floating[Any], digits: int | None = None) -> str:
+    """Format a number for people; rounding errors print as 0.
+
+    Args:
+        x: The number.
+        digits: Significant digits, for tables and the console; without them about three digits with a typographic minus sign,
+            for sentences of pages.
+    """
+    x = float(x)
+    if digits is not None:
+        if not math.isfinite(x):
+            return "infinite" if math.isinf(x) else "none"
+        return "0" if abs(x) < _ROUNDED_TO_ZERO_IN_TABLES else f"{x:.{digits}g}"
     if np.isnan(x):
         return "–"
     if np.isinf(x):

@@ -170,4 +170,4 @@ def test_targets_of_a_spatial_arm_are_analyses_of_their_own(spatial, goal):
         np.testing.assert_array_equal(found.target_intervals()[name][0], one.intervals()[name])
         assert np.isnan(found.values[name][1]).all()
         np.testing.assert_array_equal(found.means()[name], one.means()[name])
-    assert set(call_presenter(found, "drawings")) == {"reach-top", "reach-side", "finish-top", "finish-side"}
+    assert set(call_presenter(found, "present").figures) == {"reach-top", "reach-side", "finish-top", "finish-side"}

@@ -213,7 +213,7 @@ def test_a_figure_that_nobody_asks_for_is_not_drawn(name, monkeypatch):
     result, made = MADE[name](), []
     make = Figure.__init__
     monkeypatch.setattr(Figure, "__init__", lambda self, *args, **options: made.append(self) or make(self, *args, **options))
-    names = list(call_presenter(result, "drawings"))
+    names = list(call_presenter(result, "present").figures)
     assert len(names) > 1
     assert made == []
     assert result.plot(names[-1]) in made

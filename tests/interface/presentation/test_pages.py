@@ -177,6 +177,6 @@ def test_where_nothing_is_found_the_answer_says_so():
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip
     for words, result in cases.items():
-        answer = call_presenter(result, "story").answer
+        answer = call_presenter(result, "present").answer
         says_something(answer)
         assert words in answer, answer

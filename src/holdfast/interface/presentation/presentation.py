@@ -17,13 +17,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from holdfast.core.files.output import open_replacement
-from holdfast.core.formatting import Probability, format_interval, format_percent
+from holdfast.core.formatting import Probability, format_interval, format_number, format_percent
 from holdfast.interface.presentation.printing import (
     TextTable,
     format_column,
     format_position,
     format_positions,
-    format_significant,
 )
 
 if TYPE_CHECKING:
@@ -52,7 +51,7 @@ def format_value(value: Any, style: Style = "number", unit: str = "", digits: in
     elif style == "angle":
         return format_position(value, unit, digits)
     else:
-        text = format_significant(value, digits)
+        text = format_number(value, digits)
     return f"{text} {unit}" if unit not in ("", "1") else text
 
 

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import typer
 
+from holdfast.core.formatting import format_number
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -49,19 +51,11 @@ def print_json(data: Any) -> None:
     typer.echo(json.dumps(data, indent=2, allow_nan=False))
 
 
-def format_significant(value: float | np.floating[Any], digits: int = 4) -> str:
-    """Format a value for a table with significant digits; rounding noise about 0 prints as 0."""
-    value = float(value)
-    if not math.isfinite(value):
-        return "infinite" if math.isinf(value) else "none"
-    return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
-
-
 def format_column(values: Iterable[float], units: str | Sequence[str] = "", digits: int = 4) -> list[str]:
     """Format a column of values: values of one unit share one precision, unless their magnitudes differ too much."""
     numbers = np.array([float(value) for value in values])
     units_by_row = np.array([units] * numbers.size if isinstance(units, str) else units)
-    texts = [format_significant(value, digits) for value in numbers]
+    texts = [format_number(value, digits) for value in numbers]
     for unit_name in dict.fromkeys(units_by_row.tolist()):
         magnitudes = np.abs(numbers[has_unit := (units_by_row == unit_name)])
         magnitudes = magnitudes[np.isfinite(magnitudes) & (magnitudes > _ROUNDING_ERROR)]
@@ -78,8 +72,8 @@ def format_column(values: Iterable[float], units: str | Sequence[str] = "", digi
 
 def format_position(value: float, unit: str, digits: int = 4) -> str:
     """Format a joint position, an angle, or another measure with its unit; an angle in rad is also given in degrees."""
-    text = f"{format_significant(value, digits)} {unit}" if unit not in ("", "1") else format_significant(value, digits)
-    return f"{text} ({format_significant(np.degrees(value), digits)} deg)" if unit == "rad" else text
+    text = f"{format_number(value, digits)} {unit}" if unit not in ("", "1") else format_number(value, digits)
+    return f"{text} ({format_number(np.degrees(value), digits)} deg)" if unit == "rad" else text
 
 
 def format_positions(values: Sequence[float] | FloatArray, units: Sequence[str], digits: int = 5) -> list[str]:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.core.formatting import format_number
 from holdfast.core.labels import TASK_SIZES
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import check_arm
@@ -67,7 +67,7 @@ def present(arm: Arm) -> Presentation:
     for joint, link in zip(arm.joints, arm.links, strict=True):
         factor, unit = joint.display_unit
         limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
-        rows.append((joint.name, joint.type, *limits, "not given" if link is None else f"{format_significant(link.mass)} kg"))
+        rows.append((joint.name, joint.type, *limits, "not given" if link is None else f"{format_number(link.mass, 4)} kg"))
     table = TableSpec("Joints", [*columns, Header("link_mass", "link mass")], rows)
     source = [f"Source: {arm.source}"] if arm.source else []
     return Presentation(arm.name, f"{arm.title}: {arm.n} joints", lines=source, tables=[table])
@@ -120,11 +120,11 @@ def show(arm: Arm, out: Console) -> None:
             escape(joint.name),
             joint.type,
             *[f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)],
-            f"{format_significant(joint.velocity)} {joint.unit}/s" if np.isfinite(joint.velocity) else "not given",
-            f"{format_significant(joint.effort)} {'N' if joint.prismatic else 'N m'}"
+            f"{format_number(joint.velocity, 4)} {joint.unit}/s" if np.isfinite(joint.velocity) else "not given",
+            f"{format_number(joint.effort, 4)} {'N' if joint.prismatic else 'N m'}"
             if np.isfinite(joint.effort)
             else "not given",
-            f"{format_significant(link.mass)} kg" if link is not None else "not given",
+            f"{format_number(link.mass, 4)} kg" if link is not None else "not given",
         )
     out.print(table)
     out.print()

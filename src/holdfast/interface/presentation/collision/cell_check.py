@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import format_count, format_percent
+from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from holdfast.model.collision.cell_check import CellCheck, CheckedObject
@@ -90,7 +89,7 @@ def _list_cells(checked: CheckedObject, with_contacts: bool) -> list[Any]:
     noun = "point" if checked.kind == "point cloud" else "triangle"
     kind = f"{checked.kind} of {format_count(checked.parts, noun)}" if checked.parts else checked.kind
     distances = [
-        format_significant(1000 * distance, 3) if checked.width else "exact" for distance in (checked.width, checked.excess)
+        format_number(1000 * distance, 3) if checked.width else "exact" for distance in (checked.width, checked.excess)
     ]
     contact_rate = "none" if np.isnan(checked.touching) else checked.touching
     return [f"{checked.name}: {kind}", checked.margin, *distances, *([contact_rate] if with_contacts else [])]

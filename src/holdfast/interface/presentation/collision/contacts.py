@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.presentation import Header, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.model.collision.contacts import Contact
 
 
@@ -51,4 +51,4 @@ def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec
 
 def _format_exact_time(contact: Contact) -> str:
     exact = contact.exact_time
-    return "" if exact is None else format_significant(exact) if np.isfinite(exact) else "does not touch"
+    return "" if exact is None else format_number(exact, 4) if np.isfinite(exact) else "does not touch"

@@ -13,7 +13,7 @@ from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawCompari
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.files.csv_table import write_rows
-from holdfast.core.formatting import format_count, format_percent
+from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.law_tables import (
     build_contact_table,
@@ -27,7 +27,6 @@ from holdfast.interface.presentation.convergence.law_tables import (
 )
 from holdfast.interface.presentation.convergence.shares import rank_successes
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
-from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -214,7 +213,7 @@ def _describe_gain(comparison: LawComparison, name: str) -> str:
         change = comparison.change(name, kind.name)
         if change.high < 0 or change.low > 0:
             direction = "nearer to" if change.value < 0 else "farther from"
-            parts.append(f"{format_significant(kind.factor * abs(change.value), 3)} {kind.unit} {direction} {kind.whole}")
+            parts.append(f"{format_number(kind.factor * abs(change.value), 3)} {kind.unit} {direction} {kind.whole}")
     return f"{text}{'; on average its runs end ' * bool(parts)}{' and '.join(parts)}."
 
 

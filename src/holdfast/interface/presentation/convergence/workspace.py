@@ -15,11 +15,10 @@ from holdfast.control.convergence.measures import FINISH_NAMES, REACH_NAMES
 from holdfast.control.convergence.start_workspace import Workspace
 from holdfast.control.convergence.targets import TargetMeasures
 from holdfast.core.files.output import replace_file
-from holdfast.core.formatting import format_count, format_percent
+from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 
 _METHOD_TEXTS = {
     "brute": "all failures simulated, from configurations equally far apart along the self-motion",
@@ -222,7 +221,7 @@ def _tabulate_means(analysis: Workspace | TargetMeasures, place_noun: str, with_
 
 def _format_with_interval(value: float, low: float, high: float) -> str:
     """Format a percentage above its interval."""
-    return format_significant(value) if np.isnan(value) else f"{value:.1f}\n{low:.1f} to {high:.1f}"
+    return format_number(value, 4) if np.isnan(value) else f"{value:.1f}\n{low:.1f} to {high:.1f}"
 
 
 def _build_workspace_tables(workspace: Workspace) -> list[TableSpec]:

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec, format_value
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.kinematics.index_bounds.manipulability_bounds import failure_phrase
 from holdfast.studies.designs.arm_comparison import ArmComparison
 
@@ -55,8 +54,7 @@ def present(comparison: ArmComparison) -> Presentation:
     for index, column in enumerate(columns):
         estimates = zip(comparison.values[:, index], comparison.low[:, index], comparison.high[:, index], strict=True)
         cells = [
-            f"{format_significant(value)} ({format_significant(low, 3)} to {format_significant(high, 3)})"
-            for value, low, high in estimates
+            f"{format_number(value, 4)} ({format_number(low, 3)} to {format_number(high, 3)})" for value, low, high in estimates
         ]
         rows.append([column.name, column.unit, column.samples or "exact", *cells])
     title = "Values with their 95 % intervals: larger is better in all"

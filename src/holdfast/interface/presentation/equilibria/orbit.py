@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from holdfast.control.equilibria.limit_cycles import Orbit
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 
 
 def to_dict(orbit: Orbit) -> dict[str, Any]:
@@ -32,7 +31,7 @@ def present(orbit: Orbit) -> Presentation:
         ("angle", orbit.angle_error, 180 / np.pi, "deg"),
     )
     facts = [
-        Fact(f"{name}, largest {format_significant(time)} s after q", (factor * lower, factor * upper), unit)
+        Fact(f"{name}, largest {format_number(time, 4)} s after q", (factor * lower, factor * upper), unit)
         for (name, (lower, upper), factor, unit), time in zip(ranges, orbit.largest_times, strict=True)
         if upper > 0
     ]

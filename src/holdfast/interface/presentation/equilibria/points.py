@@ -11,8 +11,8 @@ from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.stability import REACHED_ERROR, Kind
 from holdfast.control.equilibria.system import idle_joints
 from holdfast.control.simulation.errors import display_errors, error_kinds
+from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.simulation.errors import format_errors
 
 if TYPE_CHECKING:
@@ -204,4 +204,4 @@ def _format_eigenvalues(values: Any) -> str:
 
 
 def _format_complex(value: np.complex128) -> str:
-    return format_significant(value.real) if abs(value.imag) < 1e-9 else f"{format_significant(value.real)}{value.imag:+.3g}i"
+    return format_number(value.real, 4) if abs(value.imag) < 1e-9 else f"{format_number(value.real, 4)}{value.imag:+.3g}i"

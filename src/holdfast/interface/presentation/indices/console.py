@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from holdfast.core.formatting import format_number
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import print_limit_violations
-from holdfast.interface.presentation.printing import format_column, format_positions, format_significant
+from holdfast.interface.presentation.printing import format_column, format_positions
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
@@ -71,12 +72,11 @@ def show_index(index: Index, q: FloatArray, out: Console) -> None:
     results, unit = index_values(index, q), _unit_suffix(index)
     verdict = "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]"
     if not results["singular"]:
-        bound = f"; at most {format_significant(index.bound)} for any configuration" if index.bound is not None else ""
+        bound = f"; at most {format_number(index.bound, 4)} for any configuration" if index.bound is not None else ""
         if index.ceiling is not None:
             bound = f"; {index.ceiling.compare_value(results['value'])}"
         verdict = (
-            f"[bold]{format_significant(results['value'], 6)}{unit}[/], worst when "
-            f"[bold]{escape(results['worst'])}[/] locks{bound}"
+            f"[bold]{format_number(results['value'], 6)}{unit}[/], worst when [bold]{escape(results['worst'])}[/] locks{bound}"
         )
     values = zip(results["by_failure"], format_column(results["by_failure"].values(), digits=6), strict=True)
     rows = [(name, value_text, "[bold]worst[/]" if name == results["worst"] else "") for name, value_text in values]
@@ -90,7 +90,7 @@ def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) ->
     kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
     states = ["" if state == "ok" else state.replace("_", " ") for state in results["joint_status"].values()]
     rows = list(zip(results["by_joint"], format_positions(values, kinds, 6), states, strict=True))
-    verdict = f"[bold]{format_significant(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
+    verdict = f"[bold]{format_number(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
     _show_measure(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
     for state in dict.fromkeys(results["joint_status"].values()):
         if state != "ok":
@@ -128,5 +128,5 @@ def _show_measure(
 def _show_gradient(quantity: str, results: dict[str, Any], out: Console) -> None:
     from rich.markup import escape
 
-    gradient = ", ".join(f"{name} {format_significant(value)}" for name, value in results["gradient"].items())
+    gradient = ", ".join(f"{name} {format_number(value, 4)}" for name, value in results["gradient"].items())
     out.print(f"gradient of the {quantity}, per rad or m: {escape(gradient)}", soft_wrap=True)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.presentation import Fact, Presentation
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
@@ -13,7 +13,7 @@ def present(objective: Objective) -> Presentation:
     """Present the objective with its better direction, bound, and source."""
     facts = [Fact("better", objective.better), Fact("unit", "none" if objective.unit == "1" else objective.unit)]
     if isinstance(objective, Index):
-        bound = "not known" if objective.bound is None else format_significant(objective.bound)
+        bound = "not known" if objective.bound is None else format_number(objective.bound, 4)
         bound += f" ({objective.bound_note})" if objective.bound_note else ""
         facts += [Fact("no configuration can exceed", bound), Fact("failures considered", len(objective.failures))]
     if isinstance(objective, (Index, Susceptibility)):

@@ -11,7 +11,6 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.renderers import write_json
 
 if TYPE_CHECKING:
@@ -190,8 +189,7 @@ def _list_reasons(survival: LockSurvival) -> list[str]:
     if survival.never is not None:
         time, name = survival.never
         lines.append(
-            f"no motion survives all: at {format_significant(time)} s no configuration survives every lock, "
-            f"least of all {name}'s"
+            f"no motion survives all: at {format_number(time, 4)} s no configuration survives every lock, least of all {name}'s"
         )
     lines += _explain_pose_limits(survival)
     if survival.speed > 1 + _PROBABILITY_TOLERANCE:

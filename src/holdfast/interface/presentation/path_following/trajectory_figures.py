@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from holdfast.core.errors import ArmError
-from holdfast.core.formatting import capitalise_first, format_percent
+from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.presentation.collision.shape import describe_shape
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
 from holdfast.kinematics.path_following.trajectory import TRACKING_TOLERANCE, Trajectory, find_susceptibilities
@@ -74,7 +73,7 @@ class TrajectorySections:
         if baseline is None:
             return []
         change = (worst - baseline.worst) / abs(baseline.worst) if baseline.worst else np.inf
-        text = f"{format_significant(baseline.worst)}{self.unit_suffix}"
+        text = f"{format_number(baseline.worst, 4)}{self.unit_suffix}"
         if abs(change) < _NEGLIGIBLE_CHANGE:
             return [Text(f"The worst value is as on the same path without it, with least-norm rates ({text}).")]
         comparison = ""

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.control.physics.execution import format_error
+from holdfast.core.formatting import format_number
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
-from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -85,7 +85,7 @@ def present(run: Execution) -> Presentation:
             )
         },
         sections=partial(_animate_motion, run),
-        method=[("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}")],
+        method=[("Simulated", f"{format_number(run.time[-1], 4)} s, MuJoCo, {run.servos.describe()}")],
         arm=run.arm,
     )
 

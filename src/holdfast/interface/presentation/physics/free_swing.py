@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -126,21 +125,21 @@ def present(swing: FreeSwing) -> Presentation:
 def _compose_answer(swing: FreeSwing) -> str:
     failed = swing.arm.joints[swing.joint]
     factor, unit = failed.display_unit
-    peak, rest = (f"{format_significant(abs(factor * angle))} {unit}" for angle in (swing.peak, swing.rest_angle))
+    peak, rest = (f"{format_number(abs(factor * angle), 4)} {unit}" for angle in (swing.peak, swing.rest_angle))
     if swing.outcome == "balanced":
         return f"{failed.name} does not move when it swings free here: gravity pulls it neither way."
     answer = {
         "rest": f"{failed.name} swings by up to {peak} and hangs still {rest} away",
         "stop": f"{failed.name} falls against its stop, {rest} away",
         "contact": f"{failed.name} falls until {_describe_contact(swing)}, {rest} away",
-        "moving": f"{failed.name} swings by up to {peak} and is still moving after {format_significant(swing.time[-1])} s",
+        "moving": f"{failed.name} swings by up to {peak} and is still moving after {format_number(swing.time[-1], 4)} s",
     }[swing.outcome]
     if swing.drops:
         last_drop = swing.drops[-1]
         direction = "dropped" if last_drop.drop >= 0 else "risen"
         answer += (
             f"; if brakes engage after {last_drop.after_ms:g} ms the tool has {direction} by "
-            f"{format_significant(1000 * abs(last_drop.drop))} mm"
+            f"{format_number(1000 * abs(last_drop.drop), 4)} mm"
         )
     return f"{answer}."
 

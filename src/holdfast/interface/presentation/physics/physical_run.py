@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.control.simulation.errors import error_history, error_kinds
-from holdfast.core.formatting import capitalise_first, format_percent
+from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.simulation import runs as simulation
 from holdfast.interface.presentation.simulation.errors import format_errors
 
@@ -93,7 +92,7 @@ def _compare_endings(run: PhysicalRun) -> list[tuple[str, str, str]]:
             format_errors(law, end.position, end.angle),
             format_errors(law, float(position[-1]), float(angle[-1])),
         ),
-        ("simulated time, s", format_significant(float(run.kinematic.time)), format_significant(run.time[-1])),
+        ("simulated time, s", format_number(float(run.kinematic.time), 4), format_number(run.time[-1], 4)),
     ]
     if run.contacts is not None:
         rows.append(("first contact", _format_first_contact(run.kinematic.contacts), _format_first_contact(run.contacts)))
@@ -101,7 +100,7 @@ def _compare_endings(run: PhysicalRun) -> list[tuple[str, str, str]]:
 
 
 def _format_first_contact(contacts: Sequence[Contact] | None) -> str:
-    return f"{contacts[0].link} & {contacts[0].object}, {format_significant(contacts[0].time)} s" if contacts else "none"
+    return f"{contacts[0].link} & {contacts[0].object}, {format_number(contacts[0].time, 4)} s" if contacts else "none"
 
 
 def _draw_figure(run: PhysicalRun) -> Figure:

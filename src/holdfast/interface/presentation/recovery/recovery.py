@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first, format_count
+from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
 from holdfast.interface.presentation.renderers import sentences, write_json
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
@@ -152,10 +151,10 @@ def _compose_answer(recovery: Recovery) -> str:
         answer += f", given up: {recovery.relaxed}"
     if len(recovery.q) > 1:
         is_shortest = recovery.length <= recovery.lower_bound * (1 + 1e-9)
-        bound = f"at least {format_significant(recovery.lower_bound)} are needed"
+        bound = f"at least {format_number(recovery.lower_bound, 4)} are needed"
         bound = "no route to any configuration found is shorter" if is_shortest else bound
         answer += (
-            f"; the motion has {format_count(len(recovery.q), 'waypoint')} and {format_significant(recovery.length)} "
+            f"; the motion has {format_count(len(recovery.q), 'waypoint')} and {format_number(recovery.length, 4)} "
             f"{recovery.unit}, {bound}"
         )
     elif recovery.ending == RecoveryOutcome.GOAL_REACHED:
@@ -183,11 +182,11 @@ def _list_reasons(recovery: Recovery) -> list[str]:
     if other_options:
         lines.append("other sets of rows that could be given up: " + "; ".join(other_options[:6]))
     for leg in recovery.legs:
-        text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {format_significant(leg.length)} {recovery.unit}"
+        text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {format_number(leg.length, 4)} {recovery.unit}"
         if leg.name != "along the path":
             kind = "a straight line" if leg.straight else "the shortest route found"
             is_shortest = leg.length <= leg.lower_bound * (1 + 1e-9)
-            bound = "no route" if is_shortest else f"lower bound {format_significant(leg.lower_bound)} {recovery.unit}"
+            bound = "no route" if is_shortest else f"lower bound {format_number(leg.lower_bound, 4)} {recovery.unit}"
             text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if is_shortest else ''})"
         lines.append(text)
     lines += [part.describe() for part in (recovery.timed, recovery.rest) if part is not None]
@@ -228,13 +227,13 @@ def _describe_timing(timed_motion: TimedMotion) -> str:
     moving_joints = np.flatnonzero(timed_motion.accelerations)
     limits = ", ".join(
         dict.fromkeys(
-            f"{format_significant(timed_motion.accelerations[joint])} {timed_motion.arm.joints[joint].unit}/s²"
+            f"{format_number(timed_motion.accelerations[joint], 4)} {timed_motion.arm.joints[joint].unit}/s²"
             for joint in moving_joints
         )
     )
     return (
         f"as fast as the speed limits and accelerations of {limits} allow, corners rounded where that is proved, by parabolas; "
-        f"rows every {format_significant(timed_motion.period)} s"
+        f"rows every {format_number(timed_motion.period, 4)} s"
     )
 
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.presentation import Fact, Presentation
-from holdfast.interface.presentation.printing import format_significant
 
 if TYPE_CHECKING:
     from holdfast.response.recovery.waypoints import WaypointCheck
@@ -34,12 +33,12 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
 def present(check: WaypointCheck) -> Presentation:
     """Present the satisfied and the violated constraints."""
     verdict = "keep everything that was asked for" if check.ok else "do NOT keep everything that was asked for"
-    lines = [f"{name} leaves its limits by {format_significant(excess)}" for name, excess in check.beyond_limits.items()]
+    lines = [f"{name} leaves its limits by {format_number(excess, 4)}" for name, excess in check.beyond_limits.items()]
     lines += [
-        f"{name} should be locked and moves {format_significant(excess)} away" for name, excess in check.locks_moved.items()
+        f"{name} should be locked and moves {format_number(excess, 4)} away" for name, excess in check.locks_moved.items()
     ]
-    lines += [f"{name} is too fast: {format_significant(rate)} a second" for name, rate in check.too_fast.items()]
-    lines += [f"{name} accelerates by {format_significant(rate)} a second squared" for name, rate in check.too_hard.items()]
+    lines += [f"{name} is too fast: {format_number(rate, 4)} a second" for name, rate in check.too_fast.items()]
+    lines += [f"{name} accelerates by {format_number(rate, 4)} a second squared" for name, rate in check.too_hard.items()]
     lines += [f"the tool is {violation}" for violation in check.kept if violation]
     if check.kept and not any(check.kept):
         lines.append("what is kept all the way is kept")
@@ -47,7 +46,7 @@ def present(check: WaypointCheck) -> Presentation:
         lines.append("clearance was not looked at")
     else:
         pair_text = f"{check.closest}, " if check.closest else ""
-        clearance, outcome = format_significant(check.least_clearance), "kept" if check.is_collision_free else "NOT KEPT"
+        clearance, outcome = format_number(check.least_clearance, 4), "kept" if check.is_collision_free else "NOT KEPT"
         lines.append(f"least clearance {clearance} m ({pair_text}margin {check.margin:g} m): {outcome}")
     if not check.beyond_limits and not check.locks_moved:
         lines.append("limits and locks are kept")

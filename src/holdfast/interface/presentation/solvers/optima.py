@@ -13,13 +13,13 @@ import numpy as np
 
 from holdfast.core.files.output import open_replacement
 from holdfast.core.files.spreadsheet import escape_formula
-from holdfast.core.formatting import capitalise_first, format_percent
+from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
-from holdfast.interface.presentation.printing import format_significant, to_json_types
+from holdfast.interface.presentation.printing import to_json_types
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
@@ -176,7 +176,7 @@ def _compose_answer(optima: Optima, before: float, after: float) -> str:
         is_larger = optima.objective.better == "larger"
         change_text = f", {format_percent(change)} {'more' if is_larger else 'less'}" * bool(change < _MAX_RELATIVE_CHANGE)
         answer = (
-            f"Moving the arm on the spot {'raises' if is_larger else 'lowers'} {subject} from {format_significant(before)} to "
+            f"Moving the arm on the spot {'raises' if is_larger else 'lowers'} {subject} from {format_number(before, 4)} to "
             f"{after_text}{change_text}; the tool stays where it is"
         )
     return f"{answer}{count_text}."

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.collision.contacts import list_contacts
 from holdfast.interface.presentation.collision.shape import describe_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.response.supervisor.run import OUTCOME_PHRASES
 
 if TYPE_CHECKING:
@@ -102,7 +101,7 @@ def present(run: FaultRun) -> Presentation:
         figures={"chain": FigureSpec(partial(_draw_run, run), "Over time", _TIMELINE_CAPTION)},
         sections=partial(_build_sections, run),
         method=[
-            ("Simulated", f"{format_significant(run.time[-1])} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
+            ("Simulated", f"{format_number(run.time[-1], 4)} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
             ("Clearance", "not looked at" if run.clearance is None else describe_shape(run.clearance, 0.0)),
         ],
         arm=run.arm,

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import format_percent
+from holdfast.core.formatting import format_number, format_percent
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import format_significant
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
 if TYPE_CHECKING:
@@ -103,13 +102,13 @@ def _compose_answer(region: TolerantWorkspace) -> str:
     if not region.within.any():
         return (
             f"{limits} the arm reaches no point even before a joint locks, of "
-            f"{format_significant(region.healthy_size)} {unit} within its own."
+            f"{format_number(region.healthy_size, 4)} {unit} within its own."
         )
     if not region.inside.any():
         loss_text = f"the locks of {names[worst_joint]} alone lose {format_percent(losses[worst_joint])} of the points"
         return f"{limits} no point is kept through every lock: {loss_text}."
     answer = (
-        f"{limits} the arm keeps {format_significant(region.size)} {unit} of {format_significant(region.healthy_size)} {unit}, "
+        f"{limits} the arm keeps {format_number(region.size, 4)} {unit} of {format_number(region.healthy_size, 4)} {unit}, "
         f"{format_percent(region.share)} of its workspace, wherever any single joint locks"
     )
     if losses[worst_joint]:
