@@ -79,8 +79,7 @@ def check_certificate(
 
     Raises:
         HoldfastError: The time limit was reached; nothing is verified.
-        InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra
-            ``certify``).
+        InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra ``certify``).
     """
     file = find_certificate_file(Path(file))
     if workers < 1 or (sample is not None and sample < 1):

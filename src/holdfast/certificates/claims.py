@@ -157,8 +157,7 @@ def tolerant_claim(
         failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
 
     Raises:
-        InputError: A box, joint or range that makes no claim, or a joint without limits that may lock and has no working
-            range.
+        InputError: A box, joint or range that makes no claim, or a joint without limits that may lock and has no working range.
         TaskError: No failure, or one of several joints at once.
 
     Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.

@@ -273,9 +273,8 @@ class ToolExpansion:
         """Loop from a form, a cell and joint margins to the proved part of the cell, in sixteenths of its width.
 
         One test comes after the other, until there is nothing between what passed and what failed. The state is a section box
-        (m,), which grows from 0 in each; the greatest sixteenths that passed; those that are
-        tested now; how many more the next test may have; and the rounds of this one. A test that is the last leaves the box
-        where it ended.
+        (m,), which grows from 0 in each; the greatest sixteenths that passed; those that are tested now; how many more the next
+        test may have; and the rounds of this one. A test that is the last leaves the box where it ended.
         """
         form, cell, section = self._form_symbol, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
         joint_margin = ca.SX.sym("room", self.arm.n)

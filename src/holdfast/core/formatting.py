@@ -69,8 +69,8 @@ def format_number(x: float | np.floating[Any], digits: int | None = None) -> str
     if size < _ROUNDED_TO_ZERO:
         return "0"
     if size < 1e-3 or size >= 1e7:
-        digits, exponent = f"{x:.1e}".split("e")
-        text = f"{digits}e{int(exponent)}"
+        mantissa, exponent = f"{x:.1e}".split("e")
+        text = f"{mantissa}e{int(exponent)}"
     else:
         text = f"{x:.3f}" if size < 10 else f"{x:,.1f}" if size < 1000 else f"{x:,.0f}"
     return text.replace("-", "−")

@@ -238,10 +238,8 @@ class _RunningWork:
 
     def _print_progress(self, elapsed_seconds: float) -> None:
         """Print the progress on stderr, ever more rarely."""
-        named, self.next = (
-            self.next > LONG_WORK_S,
-            min(REPEAT_FACTOR * max(elapsed_seconds, LONG_WORK_S), elapsed_seconds + MAX_SILENCE_S),
-        )
+        named = self.next > LONG_WORK_S
+        self.next = min(REPEAT_FACTOR * max(elapsed_seconds, LONG_WORK_S), elapsed_seconds + MAX_SILENCE_S)
         remaining, count = self._remaining_seconds(), next((c for c in tuple(self.counts) if c.done), None)
         if remaining is not None:
             if remaining >= LONG_WORK_S:

@@ -77,8 +77,7 @@ class Kernel:
         inputs: CasADi ``SX`` symbols.
         outputs: CasADi ``SX`` expressions of them.
         backend: ``"llvm"`` (machine code, SIMD, threads), ``"casadi"`` (virtual machine), ``"cuda"`` (the first NVIDIA GPU) or
-            ``"cuda:1"`` (the second); None: the default, or ``"casadi"`` for an operation that ``"llvm"`` does
-            not have.
+            ``"cuda:1"`` (the second); None: the default, or ``"casadi"`` for an operation that ``"llvm"`` does not have.
 
     Attributes:
         lanes: Rows handled at once.

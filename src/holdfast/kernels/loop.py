@@ -124,10 +124,8 @@ class Loop:
             return LoopResult(state=result[0], residual=result[1], done=result[2], steps=result[3])
         workers = min(thread_count(), -(-rows // _MIN_WORKER_ROWS))
         batch = _RowQueue(state, parameters, tolerance, most_steps)
-        counters, steps = (
-            ProgressCount(f"starts of {self.step.name}", rows),
-            ProgressCount("steps", most_steps * self.times, most=True),
-        )
+        counters = ProgressCount(f"starts of {self.step.name}", rows)
+        steps = ProgressCount("steps", most_steps * self.times, most=True)
         with counters as batch.ended, steps as stepped:
             batch.over = report
             if rows <= _MIN_WORKER_ROWS:  # they begin together, and all may be on their way to the last step

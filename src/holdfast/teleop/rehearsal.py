@@ -120,10 +120,8 @@ def _add_or_read_subjects(records: Records, people: Sequence[Person]) -> list[Su
             return [records.add_subject(kind=SubjectKind.SIMULATED) for _ in people]
     if [s.number for s in subjects] != list(range(len(people))):
         raise StoreError(f"'{records.folder}' has lost or got subjects since it was simulated; give another folder")
-    training, sessions = (
-        len(records.entries(kind=TrialKind.TRAINING)),
-        len({e.subject for e in records.entries(kind=TrialKind.TRIAL)}),
-    )
+    training = len(records.entries(kind=TrialKind.TRAINING))
+    sessions = len({e.subject for e in records.entries(kind=TrialKind.TRIAL)})
     recorded = f"{training} training tasks and the sessions of {sessions} of {len(people)} operators"
     print_warning(f"'{records.folder}' already holds {recorded}")
     return subjects

@@ -4,8 +4,7 @@ Let a_l be the moment of a wrench y about the axis of joint l. Whatever y is, th
 k is at most sqrt(A / (A + a_k^2)), A the sum of the other a_l^2; the best y gives exactly it. In each box y moves with the
 joints, y = y_0 + Y (q - q_c), where Y keeps the a_l as still as it can. Screws are those of axes seen from a link in the middle
 of the arm, so that the first and the last joint count nothing; their first and second derivatives are brackets, exact at the
-centre.
-Everything here may be wrong: the verifier decides.
+centre. Everything here may be wrong: the verifier decides.
 """
 
 from __future__ import annotations

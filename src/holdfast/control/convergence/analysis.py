@@ -48,13 +48,11 @@ class StartConfigurations:
     """Configurations at the starts, computed on request and cached, so that one set serves many targets."""
 
     def __init__(self, law: Law, places: Places, configurations: int, method: Method, seed: int) -> None:
-        self._law, self.places, self._count, self._is_sampled, self._seed = (
-            law,
-            places,
-            configurations,
-            method == "sampled",
-            seed,
-        )
+        self._law = law
+        self.places = places
+        self._count = configurations
+        self._is_sampled = method == "sampled"
+        self._seed = seed
         self._cached_blocks: dict[tuple[int, int], tuple[IndexArray, FloatArray]] = {}
 
     def find_configurations(self, first: int, stop: int) -> tuple[IndexArray, FloatArray]:
@@ -181,14 +179,11 @@ class TargetAnalysis:
         np.add.at(ends, (owner[rows_of_cells], failure_ends), 1)
         reach_values = _REACH_VALUES[failure_ends]
         parts = np.split(reach_values, np.cumsum([len(group[0]) for group in groups])[:-1])
-        shared_fraction = inside_counts[n] / np.maximum(
-            inside_counts[:n], 1
-        )  # (n, R) how much of the part of a joint is inside for all
+        # (n, R) how much of the part of a joint is inside for all.
+        shared_fraction = inside_counts[n] / np.maximum(inside_counts[:n], 1)
         for joint_index in range(n):
-            shared_mean, inside_alone = (
-                mean_by_row(parts[joint_index], shared_cells[0], row_count),
-                mean_by_row(parts[n + joint_index], groups[n + joint_index][0], row_count),
-            )
+            shared_mean = mean_by_row(parts[joint_index], shared_cells[0], row_count)
+            inside_alone = mean_by_row(parts[n + joint_index], groups[n + joint_index][0], row_count)
             shared_mean, inside_alone = (
                 np.where(np.isnan(shared_mean), inside_alone, shared_mean),
                 np.where(np.isnan(inside_alone), shared_mean, inside_alone),

@@ -115,9 +115,8 @@ def _line_deviation(offsets: FloatArray) -> FloatArray:
 def _arrival_times(errors: FloatArray, time: FloatArray, tolerance: float) -> FloatArray:
     """Return (N,) the times at which errors (K, N) fall below ``tolerance`` for good, exponential between samples."""
     inside = errors <= tolerance
-    first_inside = np.where(
-        inside.all(axis=0), 0, len(errors) - np.argmax(~inside[::-1], axis=0)
-    )  # first sample that stays inside
+    # First sample that stays inside.
+    first_inside = np.where(inside.all(axis=0), 0, len(errors) - np.argmax(~inside[::-1], axis=0))
     arrivals = np.full(errors.shape[1], np.nan)
     for motion in np.flatnonzero(first_inside < len(errors)):
         sample = first_inside[motion]

@@ -122,8 +122,7 @@ def point_to_point(
         found_count += len(block)
         sampled_count += _BLOCK_MOTIONS
     q0, target, q_target = (
-        np.concatenate([getattr(motions, field_name) for motions in blocks])[:count]
-        for field_name in ("q0", "target", "q_target")
+        np.concatenate([getattr(motions, name) for motions in blocks])[:count] for name in ("q0", "target", "q_target")
     )
     return PointToPoint(arm, q0, target, q_target=q_target, drawn=sampled_count, constraints=constraint_text)
 

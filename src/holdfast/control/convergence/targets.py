@@ -197,8 +197,7 @@ def workspace(
         over: ``starts`` or ``targets``, the places of the map.
         configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
             of redundancy. 36 on a lattice, else 8, if not given; over targets 8 or 4.
-        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given; over
-            targets 2.
+        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given; over targets 2.
         method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
             failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
         cells: Of the way.
@@ -222,8 +221,7 @@ def workspace(
         StoreError: A folder of another analysis, or one that cannot be written.
 
     Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
-    effector's
-    path: the paper does not define it. Sampling, its intervals, and the measures over targets are ours.
+    effector's path: the paper does not define it. Sampling, its intervals, and the measures over targets are ours.
     """
     if over not in ("starts", "targets"):
         raise InputError(f"over '{over}' is not known; use starts or targets")

@@ -87,10 +87,8 @@ class Linearisation:
         system = self._system
         error, jacobian = system.error_and_jacobian(system.q)
         inputs = [system.q, system.target, system.rotation]
-        rate_jacobian, scaled_error = (
-            self.law.with_slopes(system.q, error, system.q)[1],
-            system.scaled_error_and_jacobian(system.q)[0],
-        )
+        rate_jacobian = self.law.with_slopes(system.q, error, system.q)[1]
+        scaled_error = system.scaled_error_and_jacobian(system.q)[0]
         outputs = [rate_jacobian, jacobian, ca.norm_2(scaled_error)]
         return Kernel("linearisation", inputs, outputs)
 

@@ -40,9 +40,7 @@ def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
     """
     texts = []
     for function_name, function in functions.items():
-        sizes = (
-            {array_name: array.numel() for array_name, array in arrays.items()} for arrays in (function.inputs, function.arrays)
-        )
+        sizes = ({name: array.numel() for name, array in arrays.items()} for arrays in (function.inputs, function.arrays))
         program = Program(function_name, list(function.inputs.values()), list(function.arrays.values()))
         texts.append(write_c_function(program, function_name, *sizes))
     return "\n".join(texts)

@@ -359,9 +359,8 @@ def _refine_minimum(error: _PeakError, cell: Vector, best_point: SX, least_value
         edge_fraction = _EDGE_FRACTION if round_number < rounds - 1 else 0.0  # the last point may lie where it is best
         width, slope_change = b - a, gb - ga
         intersection = _tangent_crossing_offset(a, fa, ga, b, fb, gb)
-        parabola_minimum = (
-            -ga * width / ca.if_else(slope_change > 0, slope_change, _NEVER_VALUE)
-        )  # where the slope of a parabola is 0
+        # Where the slope of a parabola is 0.
+        parabola_minimum = -ga * width / ca.if_else(slope_change > 0, slope_change, _NEVER_VALUE)
         # In a cell so narrow that its values differ by rounding alone, only their slopes still tell where the minimum is.
         is_smooth = ca.logic_or(
             ca.fabs(intersection - width / 2) < _SMOOTH_FRACTION * width, slope_change * width < _ROUNDING_BEND * fa

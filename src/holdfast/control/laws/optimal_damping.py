@@ -26,14 +26,13 @@ from holdfast.model.arm.task import Task, TaskSpec
 class FailureTolerant(Law):
     """Damped inverse whose damping minimises the peak velocity error over all single locked joints.
 
-    At every instant the damping lambda minimises PKE (8) among those with which the *healthy* arm's velocity error stays
-    within ``pre_failure_error`` (9); it depends on the configuration and on the direction of the command, not on its size.
-    PKE may have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0
-    and logarithmic beyond, and a refinement of its best cells, all of fixed length. Measured against the exact
-    optimum from polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3), and against a dense
-    grid on 20,000 each, none was worse by more than 1e-9. Of full poses
-    (m = 6) about 1 in 3,000 was (an iiwa14, by 2e-6; of an earlier 20,000 of a 7R arm the worst missed a narrow minimum, and
-    PKE was 6e-4 of itself too large).
+    At every instant the damping lambda minimises PKE (8) among those with which the *healthy* arm's velocity error stays within
+    ``pre_failure_error`` (9); it depends on the configuration and on the direction of the command, not on its size. PKE may
+    have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0 and
+    logarithmic beyond, and a refinement of its best cells, all of fixed length. Measured against the exact optimum from
+    polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3), and against a dense grid on 20,000
+    each, none was worse by more than 1e-9. Of full poses (m = 6) about 1 in 3,000 was (an iiwa14, by 2e-6; of an earlier 20,000
+    of a 7R arm the worst missed a narrow minimum, and PKE was 6e-4 of itself too large).
 
     Where the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
     meets (9): :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position task). A
@@ -51,8 +50,7 @@ class FailureTolerant(Law):
         TaskError: The task has more rows than the arm has joints.
         InputError: A pre-failure error that is not between 0 and 1.
 
-    Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9), with <= for <, as otherwise there often is no
-    minimum.
+    Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9), with <= for <, as otherwise there often is no minimum.
     """
 
     name, slug = "failure-tolerant inverse", "failure-tolerant"

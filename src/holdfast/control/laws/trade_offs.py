@@ -105,10 +105,8 @@ def trade_off(
         )
     generator = np.random.default_rng(seed)
     default_ranges = np.where(arm.prismatic, 1.0, np.pi)
-    lower, upper = (
-        np.where(np.isfinite(arm.lower), arm.lower, -default_ranges),
-        np.where(np.isfinite(arm.upper), arm.upper, default_ranges),
-    )
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -default_ranges)
+    upper = np.where(np.isfinite(arm.upper), arm.upper, default_ranges)
     q = generator.uniform(lower, upper, (samples, arm.n))
     directions = generator.normal(size=(samples, chosen.m))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)

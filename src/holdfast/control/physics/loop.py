@@ -53,23 +53,21 @@ def simulate_physics(
 
     :func:`holdfast.control.simulation.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at
     every control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor
-    works),
-    and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor does; one
-    that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm starts at
-    rest. Joint limits do not stop it, and there is no sensor noise, dry friction, backlash or flexibility.
+    works), and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor
+    does; one that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm
+    starts at rest. Joint limits do not stop it, and there is no sensor noise, dry friction, backlash or flexibility.
 
     The objects of a cell are in the way: the capsules of the arm's links, which weigh nothing, touch them and slide along them
     (a coefficient of friction of 1), and the motors go on pushing. A mesh is its convex hull here. What touches what, when
     first and how deep the contact gave way, is in ``contacts``; where nothing touches the motion is that without a cell.
 
-    How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
-    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own
-    length), *stuck* if not. *moving*, if the arm is under way at the time limit and repeats its motion: over the whole last
-    period it was within a thousandth of the motion's extent of where it had been one period earlier, and so had the same
-    velocity. *stuck*, and the reason is *contact*, where an object
-    holds an arm that is still told to move. Else *undecided*: time_limit, where the arm is still moving at the time limit;
-    singular, where the law has no answer; or unstable, where the physics left all bounds, as servos that are too stiff for
-    their rate may make it.
+    How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have both
+    been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own length), *stuck* if not.
+    *moving*, if the arm is under way at the time limit and repeats its motion: over the whole last period it was within a
+    thousandth of the motion's extent of where it had been one period earlier, and so had the same velocity. *stuck*, and the
+    reason is *contact*, where an object holds an arm that is still told to move. Else *undecided*: time_limit, where the arm is
+    still moving at the time limit; singular, where the law has no answer; or unstable, where the physics left all bounds, as
+    servos that are too stiff for their rate may make it.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.

@@ -79,11 +79,9 @@ class ServoRobot:
 
     def _set_gains(self) -> None:
         gains, biases = self.model.actuator_gainprm, self.model.actuator_biasprm
-        gains[:, 0], biases[:, 1], biases[:, 2] = (
-            self.stiffness[self.free],
-            -self.stiffness[self.free],
-            -self.damping[self.free],
-        )
+        gains[:, 0] = self.stiffness[self.free]
+        biases[:, 1] = -self.stiffness[self.free]
+        biases[:, 2] = -self.damping[self.free]
 
     def _joint_vector(self, values: FloatArray) -> FloatArray:
         """Return values of the healthy joints as a vector (n,) that is 0 where the joint is locked."""

@@ -91,11 +91,10 @@ def simulate(
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 
-    In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has
-    *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other
-    the end effector moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1
-    m); at the
-    limit it is *undecided*, because a motion in steps returns to no configuration exactly.
+    In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has *converged*
+    when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other the end
+    effector moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1 m); at the limit
+    it is *undecided*, because a motion in steps returns to no configuration exactly.
 
     With a cell each run says what the arm touches on its way, when first and how deep (``contacts``); that changes nothing of
     the run, unless it is to stop there. The distance is a lower bound, so a contact may come a little early, and none is
@@ -107,10 +106,9 @@ def simulate(
         q0: (n,) or (N, n) configurations at the start, rad and m.
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
-        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0;
-            or a :class:`holdfast.Degraded` of locks alone, where ``q0`` has them. Or for each run of its own, as an array: (N,)
-            the index of one joint, -1 for none; or (N, n) the time at which
-            each joint locks, s or cycles, infinite for never.
+        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0; or
+            a :class:`holdfast.Degraded` of locks alone, where ``q0`` has them. Or for each run of its own, as an array: (N,)
+            the index of one joint, -1 for none; or (N, n) the time at which each joint locks, s or cycles, infinite for never.
         cycles: Discrete control cycles in place of continuous time.
         method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
         time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.

@@ -149,10 +149,8 @@ def make_triangles(vertices: ArrayLike, faces: ArrayLike, surface_name: str) -> 
     Raises:
         InputError: They are no triangles, none, or not finite.
     """
-    points, corners = (
-        np.array(require_real_numbers(vertices, f"{surface_name}: vertices")),
-        require_real_numbers(faces, f"{surface_name}: faces"),
-    )
+    points = np.array(require_real_numbers(vertices, f"{surface_name}: vertices"))
+    corners = require_real_numbers(faces, f"{surface_name}: faces")
     if points.ndim != 2 or points.shape[-1] != 3 or corners.ndim != 2 or corners.shape[-1] != 3 or not corners.size:
         raise InputError(f"{surface_name} has no triangles; give vertices (V, 3) and faces (F, 3)")
     if not np.isfinite(points).all():

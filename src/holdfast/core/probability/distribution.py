@@ -303,9 +303,8 @@ class Distribution:
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
     def _weighted_quantile(self, p: FloatArray, size: float, lost: float) -> FloatArray:
-        least = np.maximum(
-            p * (1 - 1e-12), np.finfo(np.float64).tiny
-        )  # sums of weights are rounded; a share of 0 asks for more
+        # Sums of weights are rounded; a share of 0 asks for more.
+        least = np.maximum(p * (1 - 1e-12), np.finfo(np.float64).tiny)
         offset = lost if self.better == "larger" else 0.0
         place = np.searchsorted((offset + self._cumulative_weight[1:]) / size, least, side="left")
         beyond = place == len(self._cumulative_weight) - 1

@@ -68,9 +68,8 @@ class Study(Result):
             study = cls.open(folder)
             if study.digest != _study_digest(data):
                 raise StoreError(
-                    f"'{folder}' holds another study ({study._describe_difference(data)}); give another folder, or the "
-                    f"same study file to "
-                    "resume it"
+                    f"'{folder}' holds another study ({study._describe_difference(data)}); give another folder, or the same "
+                    "study file to resume it"
                 )
             if study._data != data:
                 study._write_study_file(data)
@@ -147,8 +146,7 @@ class Study(Result):
         if other.digest != self.digest:
             raise StoreError(
                 f"'{other.path}' and '{self.path}' are not parts of one study ({self._describe_difference(other._data)}); "
-                f"merge folders of "
-                "one study file"
+                "merge folders of one study file"
             )
 
     def _describe_difference(self, other: Mapping[str, Any]) -> str:

@@ -21,8 +21,7 @@ _GRACE_PERIOD_S = 0.8  # s, to put things in order
 class InterruptHandler:
     """Handler that raises ``KeyboardInterrupt`` at Ctrl-C, and ends the process if it still runs shortly afterwards.
 
-    What puts a handler of its own in place (a study, a server) is left alone, as is a program whose starter has Ctrl-C
-    ignored.
+    What puts a handler of its own in place (a study, a server) is left alone, as is a program whose starter has Ctrl-C ignored.
 
     Attributes:
         was_requested: There was a Ctrl-C.

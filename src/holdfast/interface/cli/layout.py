@@ -52,9 +52,8 @@ class PanelGroup(TyperGroup):
 
 def choose_panel(option: Any, command: Any) -> str | None:
     """Choose the panel of an option by its topic, for commands with many options."""
-    has_panels = (
-        sum(parameter.param_type_name == "option" for parameter in command.params) >= _MIN_OPTIONS_FOR_PANELS
-    )  # and --help
+    # And --help.
+    has_panels = sum(parameter.param_type_name == "option" for parameter in command.params) >= _MIN_OPTIONS_FOR_PANELS
     return _PANEL_BY_OPTION.get(option.opts[0]) if has_panels else None
 
 

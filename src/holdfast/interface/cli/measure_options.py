@@ -9,6 +9,5 @@ from holdfast.core.registry import INDEX_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REG
 IndexOption = Annotated[str, f"{INDEX_REGISTRY.usage}; {OWN_INDEX}."]
 OBJECTIVES_HELP = (
     f"{', '.join(SUSCEPTIBILITY_REGISTRY)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, "
-    f"torque:joint2 for "
-    f"one joint alone), or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}, {OWN_INDEX}"
+    f"torque:joint2 for one joint alone), or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}, {OWN_INDEX}"
 )

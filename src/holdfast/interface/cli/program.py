@@ -137,14 +137,12 @@ def main() -> None:
         if isinstance(stream, TextIOWrapper):  # where an encoding has few characters, as that of files on Windows
             stream.reconfigure(errors="backslashreplace")
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout is sys.__stdout__:
-        original_output, sys.stdout = (
-            sys.stdout,
-            TextIOWrapper(
-                BufferedWriter(_PipeSafeOutput(1, "w", closefd=False)),
-                sys.stdout.encoding,
-                "backslashreplace",
-                line_buffering=sys.stdout.line_buffering,
-            ),
+        original_output = sys.stdout
+        sys.stdout = TextIOWrapper(
+            BufferedWriter(_PipeSafeOutput(1, "w", closefd=False)),
+            sys.stdout.encoding,
+            "backslashreplace",
+            line_buffering=sys.stdout.line_buffering,
         )
         original_output.flush()
     try:

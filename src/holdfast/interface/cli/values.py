@@ -165,9 +165,8 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures:
         match = _SUMMAND_PATTERN.match(text, position)
         if match is None or (summands and not match["sign"]):
             raise InputError(
-                f"{option}: '{text[position:].strip()}' cannot be read; write torque, torque:effort, torque:joint2, or a "
-                f"sum such as "
-                "'0.5*torque:effort + 0.1*acceleration'"
+                f"{option}: '{text[position:].strip()}' cannot be read; write torque, torque:effort, torque:joint2, or a sum "
+                "such as '0.5*torque:effort + 0.1*acceleration'"
             )
         factor = float(match["factor"] or 1) * (-1 if match["sign"] == "-" else 1)
         summands.append((factor, _make_objective_term(arm, option, match["name"], match["weights"], task, failures)))

@@ -40,9 +40,7 @@ class BandedTable(Table):
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         """Yield lines of the available width."""
-        columns = [
-            [_render_cell(console, cell_value) for cell_value in (column.header, *column.cells)] for column in self.columns
-        ]
+        columns = [[_render_cell(console, value) for value in (column.header, *column.cells)] for column in self.columns]
         are_numeric = [self.show_header and _contain_numbers([text.plain for text in texts[1:]]) for texts in columns]
         for column, is_numeric in zip(self.columns, are_numeric, strict=True):
             column.justify = "right" if is_numeric else "left"
@@ -52,9 +50,8 @@ class BandedTable(Table):
             max(map(_text_width, texts[1:]), default=0) if is_number_column else 0
             for is_number_column, texts in zip(are_numeric, columns, strict=True)
         ]
-        min_widths = [
-            max(pair) for pair in zip(word_widths, number_widths, strict=True)
-        ]  # numbers stay on one line if they can
+        # Numbers stay on one line if they can.
+        min_widths = [max(pair) for pair in zip(word_widths, number_widths, strict=True)]
         available = options.max_width - _COLUMN_GAP * (len(columns) - 1)
         if sum(full_widths) <= available:
             yield from super().__rich_console__(console, options)

@@ -167,10 +167,8 @@ def basin_map_figure(
         ]
         unnamed = sorted({kind for kind, _, _, name in points if name not in names})
         handles += [
-            Line2D(
-                [], [], marker=KIND_STYLES[point_kind][3], color=KIND_STYLES[point_kind][0], linestyle="none", label=point_kind
-            )
-            for point_kind in unnamed
+            Line2D([], [], marker=KIND_STYLES[kind][3], color=KIND_STYLES[kind][0], linestyle="none", label=kind)
+            for kind in unnamed
         ]
         if lines:
             handles.append(Line2D([], [], color=INK, linewidth=0.9, label="into a saddle"))

@@ -117,9 +117,8 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     text = re.sub(r"<style type=\"text/css\">.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
     old_ids = re.findall(r'\bid="([^"]+)"', text)
-    new_ids = {
-        old_id: f"{name}-{number}" for number, old_id in reversed(list(enumerate(old_ids)))
-    }  # equal ids have equal content: refer to the first
+    # Equal ids have equal content: refer to the first.
+    new_ids = {old_id: f"{name}-{number}" for number, old_id in reversed(list(enumerate(old_ids)))}
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
     text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new_ids.get(m[2], m[2]), text)

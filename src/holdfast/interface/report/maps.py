@@ -50,9 +50,7 @@ def map_figure(
     has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
     scale = replace(Scale.from_values(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
     with style():
-        aspect = max(
-            float(view_height / view_width) for view_width, view_height in (view.project(upper - lower) for view in views)
-        )
+        aspect = max(float(height / view_width) for view_width, height in (view.project(upper - lower) for view in views))
         height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
         figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else 6.2, height * len(samples)))
         panels = figure.subplots(len(samples), len(views), squeeze=False)
@@ -146,10 +144,7 @@ def _average_cells(
     else:
         weight_groups = np.split(weights[has_value][order], ends)
         average = np.array(
-            [
-                _weighted_average(group, group_weights, median)
-                for group, group_weights in zip(groups, weight_groups, strict=True)
-            ]
+            [_weighted_average(group, weights, median) for group, weights in zip(groups, weight_groups, strict=True)]
         )
     shape = (count[1], count[0])
     return x_edges, y_edges, average.reshape(shape), value_counts.reshape(shape), point_counts.reshape(shape)

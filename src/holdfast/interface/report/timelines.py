@@ -117,9 +117,7 @@ def draw_small_multiples(time: FloatArray, panels: Sequence[Timeline], about: st
     ]
     columns = [range(panel_index, len(panels), column_count) for panel_index in range(column_count)]
     left_margins = [
-        10
-        + max(layouts[panel_index].tick_label_width for panel_index in column)
-        + (18 if any(units[panel_index] for panel_index in column) else 0)
+        10 + max(layouts[index].tick_label_width for index in column) + (18 if any(units[index] for index in column) else 0)
         for column in columns
     ]
     axes_width = (_PAGE_WIDTH_PX - sum(left_margins) - 14 * column_count) / column_count

@@ -59,15 +59,9 @@ class ViewerScene:
         labels = [arm["label"] for arm in self.data["arms"]]
         swatch = '<i style="background:{}"></i>{}'
         colors = ["#8b96a1", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
-        legend = (
-            [swatch.format(colors[arm_index % 5], escape(text_part)) for arm_index, text_part in enumerate(labels)]
-            if len(labels) > 1
-            else []
-        )
+        legend = [swatch.format(colors[k % 5], escape(part)) for k, part in enumerate(labels)] if len(labels) > 1 else []
         locked_names = [
-            joint["name"]
-            for joint, locked_value in zip(self.data["joints"], self.data["locked"], strict=True)
-            if locked_value is not None
+            joint["name"] for joint, value in zip(self.data["joints"], self.data["locked"], strict=True) if value is not None
         ]
         free_names = [self.data["joints"][arm_index]["name"] for arm_index in self.data["free"]]
         joint_notes = [

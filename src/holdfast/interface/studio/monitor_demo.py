@@ -199,9 +199,8 @@ def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
 def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
     """Draw the residuals up to the current time, each in units of its threshold, and the findings of the monitor so far."""
     end = float(demo.time[-1])
-    current = (
-        current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
-    )  # or the page would be sent thirty times a second
+    # Or the page would be sent thirty times a second.
+    current = current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
     panels = [
         _draw_panel(quantity, demo, values, current, names)
         for quantity, values in demo.residuals.items()

@@ -34,13 +34,11 @@ class SelfMotionSlider:
         current_state: Callable[[], tuple[FloatArray, Sequence[int]]],
         set_configuration: Callable[[FloatArray], None],
     ) -> None:
-        self._machine, self._panel, self._clock, self._current_state, self._set_configuration = (
-            machine,
-            panel,
-            clock,
-            current_state,
-            set_configuration,
-        )
+        self._machine = machine
+        self._panel = panel
+        self._clock = clock
+        self._current_state = current_state
+        self._set_configuration = set_configuration
         self._rate, self._direction_number = 0.0, 0
         self._direction = np.zeros(machine.arm.n)
 

@@ -89,9 +89,8 @@ class Studio:
 
         machine, state, parts, note = read_uploaded_arm(name, content)
         q = np.array(state.q)
-        machine.evaluate_live_reading(
-            q, (), state.index, state.susceptibility
-        )  # nothing is given up for an arm that cannot be shown
+        # Nothing is given up for an arm that cannot be shown.
+        machine.evaluate_live_reading(q, (), state.index, state.susceptibility)
         self._close_window(client.client_id)
         client.gui.reset()
         client.scene.reset()

@@ -151,9 +151,8 @@ def emit_sine_and_cosine(e: Arithmetic, x: str) -> tuple[str, str]:
     """
     x = e.select(e.compare_less(e.mul(x, x), e.constant(_LARGEST_ANGLE_RAD**2)), x, e.constant(float("nan")))
     rounding_shift = e.constant(ROUNDING_SHIFT)
-    turns = e.sub(
-        e.fma(x, e.constant(0.31830988618379067154), rounding_shift), rounding_shift
-    )  # nearest whole number of x / pi
+    # Nearest whole number of x / pi.
+    turns = e.sub(e.fma(x, e.constant(0.31830988618379067154), rounding_shift), rounding_shift)
     reduced = x
     for part in _PI_PARTS:
         reduced = e.fma(turns, e.constant(-part), reduced)

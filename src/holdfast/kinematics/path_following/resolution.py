@@ -9,10 +9,9 @@ A distance that must not shrink too fast is one more limit, a row ``g' qd >= b``
 self-motion is changed along ``(I - J_A^+ J) g``, by as little as that takes. Of two rows both are kept where the
 self-motion can.
 
-Where limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to
-the first is gone as the limits allow. Only if it too passes a bound the end effector is slowed. (Taking out joints is
-greedy: now and
-then, less than once in 100 crowded configurations, a linear program still finds rates that keep the end effector's speed.)
+Where limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to the
+first is gone as the limits allow. Only if it too passes a bound the end effector is slowed. (Taking out joints is greedy: now
+and then, less than once in 100 crowded configurations, a linear program still finds rates that keep the end effector's speed.)
 
 Sources: Liegeois 1977 for gradient projection; Baillieul 1985 for the extended Jacobian; English and Maciejewski 1998,
 sections II and VI-B, for their use before a free-swinging failure and for the cap (Fig. 8). Joints at limits are taken out

@@ -75,9 +75,8 @@ class Region(Presentable):
     """Distribution of poses (a box, a cone, a list, a function) or of configurations (a box in joint space).
 
     Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its
-    own seed,
-    so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have weights
-    where the robot works more; statistics are then of the weights.
+    own seed, so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have
+    weights where the robot works more; statistics are then of the weights.
 
     Attributes:
         kind: ``box``, ``cone``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
@@ -124,10 +123,9 @@ class Region(Presentable):
                 leave +-90 degrees.
             name: For reports.
             weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, then the
-                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it.
-                Or points by coordinate, which
-                it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond them; several
-                coordinates are multiplied.
+                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it. Or
+                points by coordinate, which it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant
+                beyond them; several coordinates are multiplied.
             order: Convention of roll, pitch, yaw: ``urdf``, or ``abdi`` for ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of
                 Abdi et al. 2012, which swaps the names of the first and the last angle.
 

@@ -3,11 +3,10 @@
 Of each :class:`ToolConstraint` two vectors of the tool's pose are looked at: ``v`` across its line or plane, and of the
 orientation the part of the tool's axis across its direction (as long as the sine of their angle), or the difference of both
 rotation matrices (``2 sqrt(2) sin(angle / 2)`` long). Each must be no longer than a bound. Along a straight piece of joint
-space, passed through in time 1, none of them is longer than at the longer end and ``|v''| / 8``, as a straight line between
-the ends is convex. With ``d`` the joints' motion, ``|v''|`` is at most ``sum_kl r_max(k,l) |d_k| |d_l|`` for the place,
-``r_l`` the farthest that the tool can be from axis l, since ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l`` (zero for
-a slide k, and without ``r_l`` for a slide l); and at most ``(sum |d_k|)^2`` for an axis of the tool, ``sqrt(2)`` times that
-for the matrix.
+space, passed through in time 1, none of them is longer than at the longer end and ``|v''| / 8``, as a straight line between the
+ends is convex. With ``d`` the joints' motion, ``|v''|`` is at most ``sum_kl r_max(k,l) |d_k| |d_l|`` for the place, ``r_l`` the
+farthest that the tool can be from axis l, since ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l`` (zero for a slide k, and
+without ``r_l`` for a slide l); and at most ``(sum |d_k|)^2`` for an axis of the tool, ``sqrt(2)`` times that for the matrix.
 """
 
 from __future__ import annotations

@@ -156,9 +156,8 @@ def tolerant_workspace(
         task: What must be met at each point; with angular rows the tool has the ``rotation`` given.
         limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs; the arm's own, or a
             whole turn, for joints that are not given.
-        optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is
-            exact, else by coordinate ascent on a sample of its own of at most 250 points. Nothing proves that they are the
-            best.
+        optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is exact,
+            else by coordinate ascent on a sample of its own of at most 250 points. Nothing proves that they are the best.
         rotation: (3, 3) of the end effector, for tasks with angular rows; the identity if not given.
         points: In the sample.
         angles: Per joint; also the grid of limits that are tried.

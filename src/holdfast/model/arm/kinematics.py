@@ -46,9 +46,8 @@ def kinematic_chain(arm: ArmData, q: SX, frame: int | None = None, steps: list[F
     Args:
         arm: The arm.
         q: (n,) joint variables.
-        frame: None: the world. k from 0 to n: the frame that moves with joint k - 1 (0: the arm's base), in which the
-            axes near joint k are simple. The choice does not change what any invariant index is, only how long its
-            code gets.
+        frame: None: the world. k from 0 to n: the frame that moves with joint k - 1 (0: the arm's base), in which the axes near
+            joint k are simple. The choice does not change what any invariant index is, only how long its code gets.
         steps: :func:`joint_transforms` of the same q, where several chains are made.
     """
     body_frames, joint_frames = body_and_joint_frames(arm, joint_transforms(arm, q) if steps is None else steps, frame)

@@ -2,8 +2,7 @@
 
 The arm is covered by spheres (:mod:`holdfast.model.collision.sphere_cover`), so what is said to be clear is clear. Objects are
 taken in blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are
-looked
-up in their grids (:mod:`holdfast.model.collision.objects.gridded`).
+looked up in their grids (:mod:`holdfast.model.collision.objects.gridded`).
 """
 
 from __future__ import annotations

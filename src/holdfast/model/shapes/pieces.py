@@ -29,9 +29,8 @@ class Piece:
         owner: Name of the link in the file.
         kind: What it is.
         name: What to call it: the name of its mesh in the file, or its kind.
-        size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the
-            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half
-            space below its z: nothing.
+        size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the centres
+            of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half space below its z: nothing.
         pose: (4, 4) in the frame that moves with the joint; for the base, in the base frame.
         vertices: (V, 3) m, of a mesh in its own frame, scaled; (0, 3) otherwise.
         faces: (F, 3) indices.

@@ -89,6 +89,4 @@ def _residuals_per_time_constant(
     segment_residuals = [
         residuals_of(segment.q, segment.tau, settling=segment.settling)[0] for segment in segments if segment.tau is not None
     ]
-    return np.concatenate(
-        [segment_residual[:: max(1, round(rate / OBSERVER_GAIN_PER_S))] for segment_residual in segment_residuals]
-    )
+    return np.concatenate([residual[:: max(1, round(rate / OBSERVER_GAIN_PER_S))] for residual in segment_residuals])

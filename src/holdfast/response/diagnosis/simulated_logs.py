@@ -223,11 +223,9 @@ def _simulate_robots(robots: SimulatedRobots, recordings: Sequence[_Recording]) 
     noise = np.stack([recording.rng.normal(0, recording.body.joint, shape) for recording in recordings], axis=1)
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _CYCLE_S
     rates[-1] = rates[max(-2, -cycle_count)]  # the motion goes on after the record
-    measured, commands, q = (
-        np.empty_like(reference),
-        np.empty_like(reference),
-        np.empty((cycle_count + 1, *reference.shape[1:])),
-    )
+    measured = np.empty_like(reference)
+    commands = np.empty_like(reference)
+    q = np.empty((cycle_count + 1, *reference.shape[1:]))
     for cycle in track("control cycles", range(cycle_count), every=1000):
         measured[cycle] = robots.measure(cycle * _CYCLE_S, reference[cycle], noise[cycle])
         q[cycle] = robots.q

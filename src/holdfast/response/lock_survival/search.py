@@ -93,10 +93,9 @@ def plan_motion(
         margin: m; from an object beyond what the cell keeps from it.
         keep: What the tool keeps at every sample, before the lock and after it:
             :func:`holdfast.kinematics.tool_constraints.upright`, :func:`holdfast.kinematics.tool_constraints.rail`,
-            :func:`holdfast.kinematics.tool_constraints.plane`, a label
-            (``"upright:10deg"``), or several. Rows that the task prescribes are those of the path, and it is checked that they
-            keep it. Of the others a cone limits what the
-            arm may do; an axis kept exactly along a path of positions becomes two rows of the task.
+            :func:`holdfast.kinematics.tool_constraints.plane`, a label (``"upright:10deg"``), or several. Rows that the task
+            prescribes are those of the path, and it is checked that they keep it. Of the others a cone limits what the arm may
+            do; an axis kept exactly along a path of positions becomes two rows of the task.
         compare: Motions along the same path that the result is to be compared with: ``least-norm``, and for every index or
             susceptibility the motion by gradient projection and the best continuous one at every pose (:func:`holdfast.follow`
             with ``best``).

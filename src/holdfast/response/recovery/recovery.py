@@ -40,8 +40,7 @@ class RecoveryVerdict:
     Attributes:
         answer: ``is_solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to
             floating point. ``argued infeasible``: every configuration that the search found is blocked, or none was found,
-            which
-            proves nothing. ``undecided``: the search was spent, or what it found was not verified.
+            which proves nothing. ``undecided``: the search was spent, or what it found was not verified.
         why: The proof, what was searched, or at which level the search was spent; empty if solved.
         kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
             of the path``, ``rows kept`` (all the way, which the goal itself breaks), ``disconnected`` (the goal from the

@@ -56,12 +56,11 @@ def find_route(
 ) -> Route | None:
     """Return the shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be valid.
 
-    Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
-    trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
-    what is found is cut short. Where rows are kept, every line is a walk along them (:meth:`FreeSpace.extend_paths`), as in
-    CBiRRT (Berenson, Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get
-    to, twice, :attr:`FreeSpace.closed_in` says which. No more is tried once ``max_failures`` searches found nothing, if that is
-    said.
+    Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by trees
+    that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and what is found is cut
+    short. Where rows are kept, every line is a walk along them (:meth:`FreeSpace.extend_paths`), as in CBiRRT (Berenson,
+    Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get to, twice,
+    :attr:`FreeSpace.closed_in` says which. No more is tried once ``max_failures`` searches found nothing, if that is said.
     """
     goals = start + space.shortest_difference(goals, start)
     direct_lengths = metric.measure_length(goals - start)

@@ -98,8 +98,7 @@ def recover(
         margin: m, smallest clearance; from an object beyond what the cell keeps from it.
         keep: What the tool keeps along the whole motion: :func:`holdfast.kinematics.tool_constraints.upright`,
             :func:`holdfast.kinematics.tool_constraints.rail`, :func:`holdfast.kinematics.tool_constraints.plane`, a label of
-            one (``"upright:10deg"``, see
-            :func:`holdfast.kinematics.tool_constraints.by_label`), or several.
+            one (``"upright:10deg"``, see :func:`holdfast.kinematics.tool_constraints.by_label`), or several.
         metric: Of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
             velocity limits).
         weights: (n,) of the joints in ``travel``; 1 if not given.

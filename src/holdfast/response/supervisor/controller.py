@@ -50,8 +50,7 @@ class Controller:
         brakes: Brakes of the joints, which the fault injector of the simulation has.
         monitor: Fault monitor; None without one.
         react: Response, as for :func:`holdfast.simulate_faults`.
-        plan: True if a route may be planned where the masked law would miss the target and no intermediate configuration
-            helps.
+        plan: True if a route may be planned where the masked law would miss the target and no intermediate configuration helps.
 
     Attributes:
         motion: State machine that decides where the rates come from.

@@ -56,12 +56,10 @@ def evaluate_block(plan: AssessmentPlan, samples: FloatArray, number: int) -> Ro
     worst, status = np.full(count, -1, dtype=np.int16), solutions.status.copy()
     if solved.size:
         result = plan.index.evaluate(solutions.q[solved])
-        value[solved], by_failure[solved], worst[solved], status[solved] = (
-            result.value,
-            result.by_failure,
-            _find_worst_failures(result),
-            result.status,
-        )
+        value[solved] = result.value
+        by_failure[solved] = result.by_failure
+        worst[solved] = _find_worst_failures(result)
+        status[solved] = result.status
     rows: Rows = {
         "position": poses[:, :3, 3],
         "quaternion": Rotation.from_matrix(poses[:, :3, :3]).as_quat(),

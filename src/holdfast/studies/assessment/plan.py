@@ -275,9 +275,7 @@ class AssessmentPlan:
             (bool(self.locks), "survives", "int8", (lock,), "1", survives_text),
             (bool(self.locks), "lock_angle", "float64", (lock,), "rad or m", "where each joint locked; NaN where none did"),
         ]
-        return [
-            Column(name, kind, dims, units=unit, about=about) for is_kept, name, kind, dims, unit, about in table if is_kept
-        ]
+        return [Column(name, kind, dims, units=unit, about=about) for kept, name, kind, dims, unit, about in table if kept]
 
 
 def make_plan(

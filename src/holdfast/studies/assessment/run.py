@@ -83,9 +83,8 @@ def assess(
         after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
         locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
             at another pose if ``after_lock``, and are left out if not.
-        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
-            of an assumed radius along the links (:meth:`holdfast.Capsules.along_links`); False: the arm may collide with
-            itself.
+        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules of
+            an assumed radius along the links (:meth:`holdfast.Capsules.along_links`); False: the arm may collide with itself.
             Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
         cell: Objects around the arm, or their file. Configurations that touch them are counted, the best ones keep clear of
             them, and so do those that reach a pose after a lock. The arm's own links are then looked at as well, but for an
@@ -107,9 +106,8 @@ def assess(
         index_task, requested_task = index.task, as_task(arm, task)
         if not index_task.same_rows(requested_task) or (isinstance(task, Task) and index_task.length != requested_task.length):
             raise InputError(
-                f"the index is for task {index_task.describe()}, asked for is {requested_task.describe()}; make it with "
-                f"the task to assess, or "
-                "leave task out"
+                f"the index is for task {index_task.describe()}, asked for is {requested_task.describe()}; make it with the "
+                "task to assess, or leave task out"
             )
     region = default_region(arm) if region is None else region
     plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin, cell)

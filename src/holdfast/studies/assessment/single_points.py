@@ -211,15 +211,13 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
     sentences = []
     if found.fatal:
         sentences.append(
-            f"Single point of failure by structure: once {_name_joints(arm, found.fatal)} locks, '{arm.name}' is "
-            f"singular for task "
-            f"'{found.task}' in every configuration, however well it is chosen."
+            f"Single point of failure by structure: once {_name_joints(arm, found.fatal)} locks, '{arm.name}' is singular for "
+            f"task '{found.task}' in every configuration, however well it is chosen."
         )
     for joint, fraction in found.nearly:
         sentences.append(
-            f"All but a single point of failure by structure: once {_name_joints(arm, [joint])} locks, '{arm.name}' "
-            f"has at most "
-            f"{format_number(fraction)} of its manipulability for task '{found.task}' left, at each of "
+            f"All but a single point of failure by structure: once {_name_joints(arm, [joint])} locks, '{arm.name}' has at "
+            f"most {format_number(fraction)} of its manipulability for task '{found.task}' left, at each of "
             f"{_SAMPLE_CONFIGURATIONS} random configurations."
         )
     return " ".join(sentences) + instead
@@ -228,11 +226,9 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
 def _describe_weak(arm: Arm, task_structure: Structure, weak: WeakJoint) -> str:
     sentence = (
         f"No joint of '{arm.name}' is exactly a single point of failure for task '{task_structure.task}', but "
-        f"{_name_joints(arm, [weak.joint])} nearly is: its lock leaves at most {format_percent(weak.manipulability_left)} "
-        f"of the best "
-        f"manipulability, and at {_SAMPLE_CONFIGURATIONS} random configurations the best relative manipulability after "
-        f"the worst lock is "
-        f"{format_number(weak.best)} of at most {format_number(weak.bound)}."
+        f"{_name_joints(arm, [weak.joint])} nearly is: its lock leaves at most {format_percent(weak.manipulability_left)} of "
+        f"the best manipulability, and at {_SAMPLE_CONFIGURATIONS} random configurations the best relative manipulability "
+        f"after the worst lock is {format_number(weak.best)} of at most {format_number(weak.bound)}."
     )
     if weak.axis_distance is not None:
         sentence += (

@@ -199,8 +199,7 @@ def compare_arms(
             most_failures = max(most_failures, *map(len, index.failures))
             entries = [(measure, *cell) for measure in chosen for cell in methods[measure](index)]
             columns = [
-                ArmMeasures(measure=measure, name=name, unit=unit, samples=sample_count)
-                for measure, name, unit, sample_count, _ in entries
+                ArmMeasures(measure=measure, name=name, unit=unit, samples=count) for measure, name, unit, count, _ in entries
             ]
             cells.append([interval for *_, interval in entries])
             advance(1)

@@ -193,7 +193,6 @@ def describe_farther_design(guaranteed: FloatArray, reach: FloatArray, best: int
     design = int(np.flatnonzero(is_candidate)[reach[is_candidate].argmax()])
     loss_text = format_percent(1 - guaranteed[design] / guaranteed[best])
     return (
-        f"For {loss_text} less, {format_number(float(guaranteed[design]))} on the poses of the search, another design "
-        f"reaches {reach[design]:.3f} m, "
-        f"{format_percent(reach[design] / reach[best] - 1)} farther."
+        f"For {loss_text} less, {format_number(float(guaranteed[design]))} on the poses of the search, another design reaches "
+        f"{reach[design]:.3f} m, {format_percent(reach[design] / reach[best] - 1)} farther."
     )

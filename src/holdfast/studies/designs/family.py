@@ -77,11 +77,9 @@ def make_symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
         lower_limit, upper_limit = (open_symbols.get((index, kind), getattr(row, kind)) for kind in ("lower", "upper"))
         lower.append(-np.inf if lower_limit is None else lower_limit)
         upper.append(np.inf if upper_limit is None else upper_limit)
-        theta_rotation, offset_shift, link_transform = (
-            _rotation_about(2, theta),
-            _translation(0, 0, d),
-            _translation(a, 0, 0) @ _rotation_about(0, alpha),
-        )
+        theta_rotation = _rotation_about(2, theta)
+        offset_shift = _translation(0, 0, d)
+        link_transform = _translation(a, 0, 0) @ _rotation_about(0, alpha)
         is_prismatic = row.type == "prismatic"
         origin = pending @ theta_rotation @ offset_shift if is_prismatic else pending @ theta_rotation
         pending = link_transform if is_prismatic else offset_shift @ link_transform
@@ -116,12 +114,10 @@ def _rotation_about(axis: int, angle: float | SX) -> SX:
         cosine, sine = snap_rounding_noise(np.array([np.cos(angle), np.sin(angle)])).tolist()
     second, third = (axis + 1) % 3, (axis + 2) % 3
     transform = ca.SX.eye(4)
-    transform[second, second], transform[third, third], transform[third, second], transform[second, third] = (
-        cosine,
-        cosine,
-        sine,
-        -sine,
-    )
+    transform[second, second] = cosine
+    transform[third, third] = cosine
+    transform[third, second] = sine
+    transform[second, third] = -sine
     return ca.sparsify(transform)
 
 

@@ -188,14 +188,12 @@ class _OptimumConditions:
         lower: FloatArray,
         upper: FloatArray,
     ) -> None:
-        self._family, self._position, self._rotation, self._design_values, self._lower, self._upper = (
-            evaluator.family,
-            position,
-            rotation,
-            design_values,
-            lower,
-            upper,
-        )
+        self._family = evaluator.family
+        self._position = position
+        self._rotation = rotation
+        self._design_values = design_values
+        self._lower = lower
+        self._upper = upper
         self._n, self._m = evaluator.family.arm.n, evaluator.family.task.m
 
     def _evaluate_conditions(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

@@ -353,10 +353,8 @@ class _RestShapes:
         step = (np.diff(cell_position, axis=-1) + cells / 2) % cells - cells / 2
         both = has_sink[..., :-1] & has_sink[..., 1:] & (np.abs(step) < cells / 8)
         start = np.where(step < 0, cell_position[..., :-1] + step, cell_position[..., :-1]) + 2 * cells
-        first, last = (
-            np.floor(np.where(both, start, 0)).astype(int),
-            np.floor(np.where(both, start + np.abs(step), 0)).astype(int),
-        )
+        first = np.floor(np.where(both, start, 0)).astype(int)
+        last = np.floor(np.where(both, start + np.abs(step), 0)).astype(int)
         edges = np.zeros((len(offsets), 5 * cells))
         design = np.broadcast_to(np.arange(len(offsets))[:, None, None, None], both.shape)
         np.add.at(edges, (design[both], first[both]), 1)

@@ -378,9 +378,8 @@ class _DesignSearch:
             ),
             (
                 "Climbs",
-                f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, "
-                f"with exact "
-                "gradients; half of them for the greatest value, half for the greatest beyond a given reach",
+                f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
+                "exact gradients; half of them for the greatest value, half for the greatest beyond a given reach",
             ),
             (
                 "Poses that are not reached",

@@ -135,9 +135,8 @@ class DesignSpace:
         joint = self.arm.joints[parameter.row]
         if not np.isfinite(getattr(joint, parameter.kind)):
             raise InputError(
-                f"{parameter.name}: joint '{joint.name}' of '{self.arm.name}' has no {parameter.kind} limit; give it one "
-                f"in the arm's file "
-                "before it can be varied"
+                f"{parameter.name}: joint '{joint.name}' of '{self.arm.name}' has no {parameter.kind} limit; give it one in "
+                "the arm's file before it can be varied"
             )
         return replace(parameter, unit="m" if joint.prismatic else "rad")
 
@@ -155,9 +154,8 @@ class DesignSpace:
                 factor, unit = self.arm.joints[joint].display_unit
                 raise InputError(
                     f"the limits of joint '{self.arm.joints[joint].name}' can cross: lower{joint + 1} may be as high as "
-                    f"{lower[joint] * factor:.6g} {unit} and upper{joint + 1} as low as {upper[joint] * factor:.6g} "
-                    f"{unit}; keep the bounds "
-                    "apart"
+                    f"{lower[joint] * factor:.6g} {unit} and upper{joint + 1} as low as {upper[joint] * factor:.6g} {unit}; "
+                    "keep the bounds apart"
                 )
 
     # ---- designs -----------------------------------------------------------------------------------------------

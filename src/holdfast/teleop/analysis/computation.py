@@ -113,9 +113,8 @@ def analyse(
             break
         if missing == "refuse":
             raise InputError(
-                f"the ANOVA needs every subject in every cell, and {describe_empty_cells(lacking_cells)}; "
-                f"missing='complete' leaves these "
-                "subjects out, missing='mixed' fits a mixed model"
+                f"the ANOVA needs every subject in every cell, and {describe_empty_cells(lacking_cells)}; missing='complete' "
+                "leaves these subjects out, missing='mixed' fits a mixed model"
             )
         complete = np.asarray((cells.tasks > 0).all(axis=(1, 2)))
         left_out += tuple(subject for subject, is_complete in zip(observed.subjects, complete, strict=True) if not is_complete)

@@ -261,9 +261,8 @@ def _check_table(table: DataFrame, table_name: str) -> None:
         if invalid.any():
             subject, task, c = table.loc[invalid, ["subject", "task", "scenario"]].iloc[0]
             raise InputError(
-                f"the {table_name} has {measure} = {values[invalid][0]:g} for subject {subject}, task {task}, scenario "
-                f"{c}; a measure of a trial "
-                "that reached the target is a number of 0 or more"
+                f"the {table_name} has {measure} = {values[invalid][0]:g} for subject {subject}, task {task}, scenario {c}; a "
+                "measure of a trial that reached the target is a number of 0 or more"
             )
 
 

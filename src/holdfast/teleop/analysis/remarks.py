@@ -34,17 +34,15 @@ def compose_analysis_notes(
         )
         yield (
             f"{format_count(int(without_cpm.sum()), 'trial')} of {without_cpm.size:,} "
-            f"{'has' if without_cpm.sum() == 1 else 'have'} no CPM "
-            f"({by_scenario}). Means are over the "
-            "trials that reached the target, which flatters a law under which the hardest ones do not."
+            f"{'has' if without_cpm.sum() == 1 else 'have'} no CPM ({by_scenario}). Means are over the trials that reached the "
+            "target, which flatters a law under which the hardest ones do not."
         )
     incomplete = cells.tasks < grouped.sizes
     if incomplete.any():
         fewest = int((grouped.sizes - cells.tasks).max())
         yield (
             f"{int(incomplete.sum())} of {incomplete.size} cell means are over fewer tasks than their group has, at most "
-            f"{fewest} fewer; "
-            "the table of cells counts the tasks of each."
+            f"{fewest} fewer; the table of cells counts the tasks of each."
         )
     unknown = [observed.tasks[task] for task in np.flatnonzero(~np.isfinite(grouped.difficulty))]
     if unknown:
@@ -54,10 +52,9 @@ def compose_analysis_notes(
         )
     if grouped.by == "operators":
         yield (
-            "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is "
-            "therefore built "
-            "in, and so is a part of the interaction: a task that went badly there by chance looks as if another law helped. "
-            "Grouping by the computer's CPM does not have this."
+            "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is therefore "
+            "built in, and so is a part of the interaction: a task that went badly there by chance looks as if another law "
+            "helped. Grouping by the computer's CPM does not have this."
         )
     if len(set(grouped.sizes.tolist())) > 1:
         yield f"The groups have {', '.join(map(str, grouped.sizes))} tasks: those left over went to the easiest groups."

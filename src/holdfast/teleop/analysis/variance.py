@@ -242,9 +242,8 @@ def _check_values(
 ) -> None:
     if y.ndim != 3 or y.shape[0] < 2 or min(y.shape[1:]) < 2:
         raise InputError(
-            f"the values have shape {y.shape}; an ANOVA needs (subjects, levels of {factors[0]}, levels of "
-            f"{factors[1]}), at least "
-            "2 of each"
+            f"the values have shape {y.shape}; an ANOVA needs (subjects, levels of {factors[0]}, levels of {factors[1]}), at "
+            "least 2 of each"
         )
     n, a, b = y.shape
     if not np.isfinite(y).all():

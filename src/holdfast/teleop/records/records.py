@@ -341,10 +341,7 @@ class Records:
         if not (np.isfinite(velocity).all() and np.isfinite(q).all() and np.isfinite(time).all()):
             raise InputError("a cycle holds NaN or infinity; nothing was recorded")
         # SQLite knows no -0.0.
-        rows = [
-            (trial, first + index, float(time[index]) + 0.0, pack_array(velocity[index]), pack_array(q[index]))
-            for index in range(len(time))
-        ]
+        rows = [(trial, first + k, float(time[k]) + 0.0, pack_array(velocity[k]), pack_array(q[k])) for k in range(len(time))]
         with self.transaction():
             trial_row = self._db.execute("SELECT end FROM trials WHERE id = ?", (trial,)).fetchone()
             if trial_row is None or trial_row[0] is not None:

@@ -109,9 +109,8 @@ def make_app(options: ServerOptions, ready: Callable[[], None] | None = None) ->
     answers = _load_page_handlers(options.static)
     # It has its route, which asks for the key.
     experimenter_page = answers.pop("/experimenter.html", None)
-    protocol = open_or_create(
-        options.folder, options.protocol
-    )  # after all that may fail: a server that cannot run begins nothing
+    # After all that may fail: a server that cannot run begins nothing.
+    protocol = open_or_create(options.folder, options.protocol)
     answers["/experiment.json"] = _make_file_handler(
         json.dumps(describe_experiment(protocol, texts, options.tlx)).encode(), ".json"
     )

@@ -69,8 +69,7 @@ class RecordsThread:
     def submit_job(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
         """Submit a job; ``answer`` is called in the event loop with its result, or with its exception.
 
-        A job that fails must leave nothing half done: jobs of several changes use
-        :meth:`holdfast.teleop.Records.transaction`.
+        A job that fails must leave nothing half done: jobs of several changes use :meth:`holdfast.teleop.Records.transaction`.
         """
         self._jobs.put((job, answer))
 

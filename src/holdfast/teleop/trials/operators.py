@@ -85,8 +85,7 @@ def sample_people(count: int, seed: int = 0, middle: Person | None = None) -> li
     generator = np.random.default_rng(seed)
     factors = {name: np.exp(generator.normal(0.0, spread, count)) for name, spread in _PARAMETER_SPREAD.items()}
     return [
-        Person(**{name: float(getattr(typical, name) * factor[index]) for name, factor in factors.items()})
-        for index in range(count)
+        Person(**{name: float(getattr(typical, name) * factor[k]) for name, factor in factors.items()}) for k in range(count)
     ]
 
 
@@ -128,19 +127,16 @@ class SimulatedPeople(Operator):
         self._detour_until, self._detours = np.full(count, -1.0), np.zeros(count, dtype=np.int64)
         self._calm_until = np.zeros(count)
         self._side = np.where(self._generator.random(count) < 0.5, -1.0, 1.0)
-        self._seen_positions = np.zeros(
-            (3 + int(np.ceil((self._delay + self._look_back).max())), count, m)
-        )  # of the last cycles
+        # Of the last cycles.
+        self._seen_positions = np.zeros((3 + int(np.ceil((self._delay + self._look_back).max())), count, m))
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.command_velocity`."""
         self._seen_positions[cycle % len(self._seen_positions), rows] = x
         self._update_correlated_noise()
         seen_cycle = cycle - self._delay[rows]
-        seen, earlier = (
-            self._interpolate_seen_positions(rows, seen_cycle),
-            self._interpolate_seen_positions(rows, seen_cycle - self._look_back[rows]),
-        )
+        seen = self._interpolate_seen_positions(rows, seen_cycle)
+        earlier = self._interpolate_seen_positions(rows, seen_cycle - self._look_back[rows])
         target_offset = target - seen
         distance = np.linalg.norm(target_offset, axis=1)
         retreat = distance - np.linalg.norm(target - earlier, axis=1)

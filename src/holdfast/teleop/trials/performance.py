@@ -96,10 +96,8 @@ def compute_measures(trials: Trials) -> FloatArray:
 
     x, x_after = trials.x, shift_by_cycle(trials.x, trials.x_end)
     start, target = trials.start(), trials.target
-    deviation, deviation_end = (
-        _distance_to_segment(x, start[trial_of_cycle], target[trial_of_cycle]),
-        _distance_to_segment(trials.x_end, start, target),
-    )
+    deviation = _distance_to_segment(x, start[trial_of_cycle], target[trial_of_cycle])
+    deviation_end = _distance_to_segment(trials.x_end, start, target)
     distance_change = np.linalg.norm(x_after - target[trial_of_cycle], axis=1) - np.linalg.norm(
         x - target[trial_of_cycle], axis=1
     )
@@ -118,10 +116,8 @@ def compute_measures(trials: Trials) -> FloatArray:
         error = np.where(commanded, np.linalg.norm(v - a, axis=1) / speed, 0.0)
         direction, actual_direction = v / speed[:, None], a / actual_speed[:, None]
         # Exact also for small angles and for those close to pi, unlike the arc cosine.
-        difference_norm, sum_norm = (
-            np.linalg.norm(direction - actual_direction, axis=1),
-            np.linalg.norm(direction + actual_direction, axis=1),
-        )
+        difference_norm = np.linalg.norm(direction - actual_direction, axis=1)
+        sum_norm = np.linalg.norm(direction + actual_direction, axis=1)
         angle = np.where(has_moved, 2 * np.arctan2(difference_norm, sum_norm), 0.0)
     result[:, 6] = sum_by_trial(error) / np.maximum(sum_by_trial(commanded.astype(float)), 1)
     result[:, 7] = max_by_trial(error)

@@ -230,9 +230,7 @@ def stop_on_signal(notice: str = "stopping after the chunks in hand; again to st
         if notice:
             typer.echo(notice, err=True)
 
-    previous_handlers = {
-        signal_number: signal.signal(signal_number, request_stop) for signal_number in (signal.SIGINT, signal.SIGTERM)
-    }
+    previous_handlers = {number: signal.signal(number, request_stop) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield lambda: is_requested
     finally:

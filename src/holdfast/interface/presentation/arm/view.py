@@ -113,9 +113,7 @@ def scene(
     lost_directions = (
         []
         if moving or not lost
-        else _find_lost_directions(
-            arm, motions[0, 0], [index for index, lock_time in enumerate(lock_times) if lock_time is not None], task
-        )
+        else _find_lost_directions(arm, motions[0, 0], [k for k, time in enumerate(lock_times) if time is not None], task)
     )
     visible_points = [
         frames[..., :3, 3].reshape(-1, 3),
@@ -130,9 +128,7 @@ def scene(
         for sign in (-1, 1)
     ]
     visible_points += [
-        _swept_corners(mesh_part, frames[:, :: max(len(frame_indices) // 8, 1), mesh_part.frame])
-        for mesh_part in body_parts
-        if mesh_part.frame
+        _swept_corners(part, frames[:, :: max(len(frame_indices) // 8, 1), part.frame]) for part in body_parts if part.frame
     ]
     objects = [] if cell is None else bodies.build_cell_parts(cell, arm.base, size)
     object_vertices = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
@@ -297,9 +293,7 @@ def _encode_parts(arm: Arm, size: float, body: Sequence[MeshPart]) -> tuple[list
         encoded.append(_encode_part(part, max_triangles))
     # Meshes hide the joints: those that are locked are shown through them.
     hidden = {mesh_part.joint for mesh_part in sticks if mesh_part.joint is not None} - {mesh_part.joint for mesh_part in parts}
-    return encoded + [
-        _encode_part(mesh_part, MAX_VIEW_TRIANGLES) | {"mark": True} for mesh_part in sticks if mesh_part.joint in hidden
-    ], notes
+    return encoded + [_encode_part(part, MAX_VIEW_TRIANGLES) | {"mark": True} for part in sticks if part.joint in hidden], notes
 
 
 def _encode_part(part: MeshPart, max_triangles: int) -> dict[str, Any]:

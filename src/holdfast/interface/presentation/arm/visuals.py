@@ -43,9 +43,7 @@ def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPar
         missing_by_reason = [
             (reason, [item.what for item in lacking if item.is_present is present]) for reason, present in groups
         ]
-        counts = [
-            f"{len(file_names)} {reason}, such as {file_names[0]}" for reason, file_names in missing_by_reason if file_names
-        ]
+        counts = [f"{len(names)} {reason}, such as {names[0]}" for reason, names in missing_by_reason if names]
         return shapes, f"of the file's meshes {' and '.join(counts)}; such links are drawn as sticks"
     return shapes, ""
 

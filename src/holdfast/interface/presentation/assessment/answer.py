@@ -118,9 +118,8 @@ class ThresholdAnswer:
             return "Nothing has been computed yet."
         if not distribution.reached:
             return (
-                f"No configuration within the joint limits was found for any of the {distribution.samples:,} poses of "
-                f"the region: "
-                "move the region, widen the joint limits or give more restarts."
+                f"No configuration within the joint limits was found for any of the {distribution.samples:,} poses of the "
+                "region: move the region, widen the joint limits or give more restarts."
             )
         lost_text = (
             f"; for {format_percent(distribution.unreached_share)} of poses no configuration within the joint limits was found"
@@ -216,10 +215,8 @@ class ThresholdAnswer:
         """Explanation of the effect of weights on the numbers."""
         return (
             f"poses count by weight: {format_percent(1 - self.distribution.unreached_share)} of the weight is reached. "
-            f"Effective sample size "
-            f"{format_number(self.distribution.effective())} of {self.distribution.samples:,} (total weight over the largest "
-            f"weight): intervals and bands are "
-            "those of so many equal poses"
+            f"Effective sample size {format_number(self.distribution.effective())} of {self.distribution.samples:,} (total "
+            "weight over the largest weight): intervals and bands are those of so many equal poses"
         )
 
     @property

@@ -77,11 +77,9 @@ class AssessmentFacts(ThresholdAnswer):
             if len(chosen) > _MAX_DOTS:
                 chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MAX_DOTS, replace=False))
             is_reached = poses.reached[chosen]
-            points, values, missing = (
-                poses.position[chosen[is_reached]],
-                poses.value[chosen[is_reached]],
-                poses.position[chosen[~is_reached]],
-            )
+            points = poses.position[chosen[is_reached]]
+            values = poses.value[chosen[is_reached]]
+            missing = poses.position[chosen[~is_reached]]
             drawn_count = len(chosen)
         box = None
         if assessment.region.kind == "box":

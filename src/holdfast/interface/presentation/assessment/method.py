@@ -47,9 +47,8 @@ def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
             ),
             (
                 "Not found",
-                f"none of {assessment.restarts:,} starts led to a configuration within the joint limits; this does not "
-                f"prove that there "
-                f"is none. Such a pose counts as {missing_value} unless 'reached only' is said",
+                f"none of {assessment.restarts:,} starts led to a configuration within the joint limits; this does not prove "
+                f"that there is none. Such a pose counts as {missing_value} unless 'reached only' is said",
             ),
         ]
         if index.task.m < 6:

@@ -75,9 +75,8 @@ def present(proof: PathProof, check: CertificateCheck | None = None, **options: 
         "which does not say that it cannot be done. Nothing is claimed of the path before the lock."
     )
     proof_text = (
-        "cells of the path behind intervals of lock instants; in each there is one solution, and on the face "
-        "between two cells it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, "
-        "tool and base"
+        "cells of the path behind intervals of lock instants; in each there is one solution, and on the face between two cells "
+        "it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, tool and base"
     )
     scope = (
         "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "

@@ -39,9 +39,8 @@ def present(working_ranges: WorkingRanges) -> Presentation:
     span = f"{factor * ranges[limiting, 0]:.4g} to {factor * ranges[limiting, 1]:.4g} {unit}"
     if working_ranges.ok:
         answer = (
-            f"Found working ranges: the healthy arm reaches all of {targets} sampled targets within them, and so does "
-            f"the arm with one joint locked at any of {working_ranges.values} sampled values of its range. "
-            "A sample proves nothing."
+            f"Found working ranges: the healthy arm reaches all of {targets} sampled targets within them, and so does the arm "
+            f"with one joint locked at any of {working_ranges.values} sampled values of its range. A sample proves nothing."
         )
         lines = [
             f"The limiting joint is {arm.joint_names[limiting]}: its range of {span} is "

@@ -39,8 +39,7 @@ def prepare_place_maps(
 
     ``percentages`` are by title, (P, C) percentages, NaN where there are none; ``column_titles`` (C,) titles;
     ``colorbar_label`` is of the colour bar; ``target`` (3,) a target to show. Places in a plane that do not form a lattice are
-    averaged in square
-    cells if ``average_cells``, as those of spatial arms always are; else each is a dot.
+    averaged in square cells if ``average_cells``, as those of spatial arms always are; else each is a dot.
     """
     from holdfast.interface.report.places import Plane, bin_positions, place_maps
     from holdfast.interface.report.views import View

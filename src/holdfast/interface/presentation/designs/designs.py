@@ -163,17 +163,14 @@ def _compose_answer(designs: Designs) -> str:
     index_name, level_text = designs.index.name, format_level(designs.level)
     if not best.guaranteed.value > 0 and not baseline.guaranteed.value > 0:
         return (
-            f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too "
-            f"many poses "
-            "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
-            "level."
+            f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too many poses "
+            "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
         )
     farther_text = describe_farther_design(designs.guaranteed, designs.reach, designs.best)
     if designs.best_is_start:
         answer = (
             f"No design was found that keeps more than the given arm: at {level_text} of the poses of the region its "
-            f"{index_name} "
-            f"is at least {baseline_text}, {_describe_failures(designs)}."
+            f"{index_name} is at least {baseline_text}, {_describe_failures(designs)}."
         )
         return f"{answer} {farther_text}".rstrip()
     if designs.guaranteed[designs.best] <= (1 + SAME_VALUE_TOLERANCE) * designs.start_guaranteed:
@@ -184,16 +181,14 @@ def _compose_answer(designs: Designs) -> str:
         ).rstrip()
     if best.guaranteed.value <= baseline.guaranteed.value:
         return (
-            f"No gain that lasts was found: on the {format_count(designs.poses, 'pose')} of the search the best design "
-            f"keeps a {index_name} of {format_number(float(designs.guaranteed[designs.best]))}, but on fresh ones "
-            f"{best_text}, and the given "
-            f"arm {baseline_text}. Search with more poses."
+            f"No gain that lasts was found: on the {format_count(designs.poses, 'pose')} of the search the best design keeps a "
+            f"{index_name} of {format_number(float(designs.guaranteed[designs.best]))}, but on fresh ones {best_text}, and the "
+            f"given arm {baseline_text}. Search with more poses."
         )
     reaches = f"The reach goes from {designs.start_reach:.3f} m to {designs.reach[designs.best]:.3f} m."
     return (
-        f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} "
-        f"{index_name} of at least "
-        f"{best_text}, {_describe_failures(designs)}; the given arm {baseline_text}. {reaches} {farther_text}"
+        f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} {index_name} of "
+        f"at least {best_text}, {_describe_failures(designs)}; the given arm {baseline_text}. {reaches} {farther_text}"
     ).rstrip()
 
 

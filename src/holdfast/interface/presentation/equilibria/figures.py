@@ -27,9 +27,7 @@ def draw_curves(curves: Curves) -> Figure:
     Where the target can be reached is shaded, found by inverse kinematics in steps of a degree (or a 360th of the range).
     """
     arm, joint, system = curves.law.arm, curves.joint, curves._system
-    other_joints = [
-        index for index in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MAX_SHOWN_JOINTS
-    ]
+    other_joints = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MAX_SHOWN_JOINTS]
     labels = [
         *(f"{kind.text}, {kind.unit}" for kind in error_kinds(curves.law)),
         *(_axis_label(arm, index) for index in other_joints),

@@ -156,10 +156,7 @@ def _tabulate_points(points: StationaryPoints) -> TableSpec:
 def describe_locks(points: StationaryPoints) -> str:
     """Describe the locked joints and their values, for example ``joint2 locked at 140 deg``."""
     joints = points.law.arm.joints
-    locks = [
-        (joints[joint_index], joints[joint_index].display_unit, value)
-        for joint_index, value in zip(points.locked, points.at, strict=True)
-    ]
+    locks = [(joints[index], joints[index].display_unit, value) for index, value in zip(points.locked, points.at, strict=True)]
     return ", ".join(f"{joint.name} locked at {factor * value:.4g} {unit}" for joint, (factor, unit), value in locks)
 
 

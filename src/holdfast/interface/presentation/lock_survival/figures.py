@@ -69,10 +69,7 @@ def draw_map(survival: LockSurvival) -> Figure:
     path[1:][np.abs(np.diff(path)) > (upper - lower) / 2] = np.nan  # round by way of pi
     panels = [
         _StripPanel(values[0], "all locks"),
-        *(
-            _StripPanel(panel, f"lock of {joint_name}")
-            for panel, joint_name in zip(values[1:], survival.arm.joint_names, strict=True)
-        ),
+        *(_StripPanel(panel, f"lock of {name}") for panel, name in zip(values[1:], survival.arm.joint_names, strict=True)),
     ]
     label, ylabel = "survivable, %", f"{survival.arm.joint_names[joint]}, {unit}"
     return _draw_strips(survival.time, edges, panels, path, scale=Scale(0.0, 100.0), label=label, ylabel=ylabel)

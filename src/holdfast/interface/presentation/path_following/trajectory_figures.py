@@ -243,12 +243,10 @@ class TrajectorySections:
         return [
             Picture(
                 image,
-                f"Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
-                f"motion takes "
-                f"{', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} s, drawn "
-                f"over the time of the first; "
-                "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. "
-                "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
+                "Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
+                f"motion takes {', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} "
+                "s, drawn over the time of the first; dashed: at rest. The susceptibilities assume that these hardly differ. "
+                "English and Maciejewski 1998, eq. (5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
             )
         ]
 
@@ -293,8 +291,7 @@ class TrajectorySections:
             lines = [TimelineLine(1000 * trajectory.rotation_error, "off", "first")]
             panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * TRACKING_TOLERANCE:g} mm or "
-            f"mrad the end "
-            f"effector is off."
+            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * TRACKING_TOLERANCE:g} mm or mrad "
+            "the end effector is off."
         )
         return [self._stack_panels(panels, "Error of the end effector over time", caption)]

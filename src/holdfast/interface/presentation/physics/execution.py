@@ -172,10 +172,7 @@ def _draw_figure(run: Execution) -> Figure:
     locks = run.lock_time[np.isfinite(run.lock_time) & (run.lock_time > 0)]
 
     def make_panel(values: FloatArray, label: str, title: str, level: tuple[float, str] | None = None) -> TimePanel:
-        moments = tuple(
-            (float(lock_instant), float(np.interp(lock_instant, run.time, values)), "a joint locks")
-            for lock_instant in locks[:1]
-        )
+        moments = tuple((float(instant), float(np.interp(instant, run.time, values)), "a joint locks") for instant in locks[:1])
         return TimePanel(run.time, values, label, title, level, moments)
 
     panels = []

@@ -154,11 +154,7 @@ def _draw_figure(run: PhysicalRun) -> Figure:
         path_axes.set_aspect("equal", adjustable="datalim")
         for axes, panel in zip(panel_axes, panels, strict=True):
             draw_panel(axes, panel, "time, s")
-        locked = [
-            name
-            for name, lock_instant in zip(arm.joint_names, run.kinematic.lock_time, strict=True)
-            if np.isfinite(lock_instant)
-        ]
+        locked = [name for name, instant in zip(arm.joint_names, run.kinematic.lock_time, strict=True) if np.isfinite(instant)]
         caption = (
             f"{arm.name}, {run.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
             f"Kinematic: {run.kinematic.outcome}; in MuJoCo, {run.servos.describe()}: {run.ending}"

@@ -35,10 +35,8 @@ def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, f
     distance, angle = history.largest_position, history.largest_angle
     time_notes = [f", at {format_number(largest.time)} {unit}" for largest in (distance, angle)]
     if law.task.rows[:, :3].any():
-        text, label = (
-            f"{format_number(1000 * distance.position)} mm{time_notes[0]}",
-            f"largest distance from the target {event}",
-        )
+        text = f"{format_number(1000 * distance.position)} mm{time_notes[0]}"
+        label = f"largest distance from the target {event}"
         facts.append(Fact(label, text, phrase=label if distance.position > REACHED_ERROR else ""))
     if law.task.angular:
         text = f"{format_number(np.rad2deg(angle.angle))}°{time_notes[1]}"

@@ -40,8 +40,7 @@ def _compare_arms(rankings: Sequence[ArmRanking]) -> str:
             f"{success_rate} for {name_leader(top)} under {top.law}."
             if top.is_uninformative
             else f"With a locked joint that nobody has noticed, {name_leader(top)} reaches its target most often, under "
-            f"{top.law}: "
-            f"{success_rate} of the motions."
+            f"{top.law}: {success_rate} of the motions."
         )
     return " ".join(parts)
 

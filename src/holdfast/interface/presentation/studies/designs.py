@@ -34,11 +34,9 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
     baseline = None if swept.start is None else (float(swept.reach[swept.start]), float(swept.guaranteed[swept.start]))
     figure = draw_pareto_front(swept.reach, swept.guaranteed, front.tolist(), best, baseline, label, _find_index_bound(swept))
     explanation = (
-        f"Guaranteed: the worst-case {format_index_name(swept)} that {format_level(swept)} of {swept.plan['poses']:,} "
-        f"poses of the region "
-        f"({swept.labels['region']}) have at least, each at its best configuration; a pose that is not reached counts "
-        f"as 0. Reach: "
-        "the largest distance of the tool point from the base within the joint limits."
+        f"Guaranteed: the worst-case {format_index_name(swept)} that {format_level(swept)} of {swept.plan['poses']:,} poses of "
+        f"the region ({swept.labels['region']}) have at least, each at its best configuration; a pose that is not reached "
+        "counts as 0. Reach: the largest distance of the tool point from the base within the joint limits."
     )
     by_parameter = draw_parameters(
         parameter_labels,
@@ -81,9 +79,8 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         ],
     )
     optimism_text = (
-        "The best of many looks better than it is on the poses on which it was chosen: 'holdfast design' searches further "
-        "and checks "
-        "what it finds on fresh poses."
+        "The best of many looks better than it is on the poses on which it was chosen: 'holdfast design' searches further and "
+        "checks what it finds on fresh poses."
     )
     return [
         Picture(figures.svg(figure, f"front{place}", "Guaranteed index against reach of all designs"), explanation),

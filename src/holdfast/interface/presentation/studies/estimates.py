@@ -51,11 +51,10 @@ def show_estimates(estimates: Sequence[CellEstimate], out: Console) -> None:
     print_table(out, TextTable(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), table_rows))
     seconds = total["thread_seconds"]
     out.print(
-        f"{format_count(len(estimates), 'cell')}, {total['chunks']:,} chunks: about {format_duration(seconds)} of "
-        f"processor time, "
-        f"{format_duration(seconds / threads)} with the {threads} of this machine; at most {_format_size(total['bytes'])} "
-        f"on the disk "
-        f"(estimated from up to {max(estimate.tried for estimate in estimates)} rows of each cell)",
+        f"{format_count(len(estimates), 'cell')}, {total['chunks']:,} chunks: about {format_duration(seconds)} of processor "
+        f"time, {format_duration(seconds / threads)} with the {threads} of this machine; at most "
+        f"{_format_size(total['bytes'])} on the disk (estimated from up to {max(estimate.tried for estimate in estimates)} "
+        "rows of each cell)",
         soft_wrap=True,
     )
 

@@ -115,14 +115,10 @@ def build_structure_blocks(fatal_structures: dict[Ended, tuple[AssessmentPlan, S
 
 def _build_table_blocks(assessed: Sequence[AssessedCell], laws: Sequence[DrivenCell], limits: dict[Key, float]) -> list[Block]:
     row_keys = list(
-        dict.fromkeys(
-            [*(_get_row_key(entry.labels) for entry in assessed)] or [_get_row_key(law_result.labels) for law_result in laws]
-        )
+        dict.fromkeys([*(_get_row_key(entry.labels) for entry in assessed)] or [_get_row_key(result.labels) for result in laws])
     )
-    keys, law_keys = (
-        list(limits),
-        list(dict.fromkeys((law_result.labels["law"], law_result.labels["task"]) for law_result in laws)),
-    )
+    keys = list(limits)
+    law_keys = list(dict.fromkeys((law_result.labels["law"], law_result.labels["task"]) for law_result in laws))
     if not row_keys or not (keys or law_keys):
         return []
     regions = len({other_key[1:] for other_key in row_keys if other_key[0] == row_keys[0][0]}) > 1
@@ -153,9 +149,8 @@ def _build_table_blocks(assessed: Sequence[AssessedCell], laws: Sequence[DrivenC
     caption = ""
     if keys:
         caption += (
-            "Fraction of the poses of the region whose index meets the threshold whatever single failure happens, with "
-            "its 95 % "
-            "interval; optimised: at the best configuration of each pose. Thresholds are one for all arms. "
+            "Fraction of the poses of the region whose index meets the threshold whatever single failure happens, with its 95 "
+            "% interval; optimised: at the best configuration of each pose. Thresholds are one for all arms. "
         )
         if any(entry.labels["region"] == "default region" for entry in assessed):
             caption += "Default regions are around the home of each arm, sized by its reach, or the paper's. "
@@ -275,9 +270,8 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
             f"{motion_count} random motions of each arm, between places of the end effector at random configurations, each "
-            f"with every joint "
-            "locked in turn from the start. Not every target is in reach with a joint locked; undecided: at the time limit, or "
-            "next to a singular configuration.",
+            "with every joint locked in turn from the start. Not every target is in reach with a joint locked; undecided: at "
+            "the time limit, or next to a singular configuration.",
         )
     ]
     rows: list[list[Any]] = []

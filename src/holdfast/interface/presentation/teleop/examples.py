@@ -50,9 +50,8 @@ def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | Non
         computer_values = [computer_measures[:, measure] for measure in range(len(MEASURE_NAMES))]
     note = "" if protocol is None or task > len(protocol.notes) else protocol.notes[task - 1]
     caption = (
-        f"{operator_note}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of "
-        f"{analysis.subject_phrase} in each scenario, of "
-        f"the trials that reached the target. Circles: the computer."
+        f"{operator_note}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of {analysis.subject_phrase} "
+        "in each scenario, of the trials that reached the target. Circles: the computer."
     )
     figure = figures.measures_figure(values, computer_values, [condition.scenario for condition in observed.conditions])
     return [*blocks, Picture(svg(figure, f"task-{task}-measures", caption), caption)]
@@ -96,8 +95,7 @@ def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths
     operator_text = "" if median_subject is None else f" of the median operator, {observed.subjects[median_subject]},"
     caption = (
         f"{operator_note}Motions{operator_text} and of the computer in task {task}{joint}: from light to dark, from the dot to "
-        f"the target circle, with "
-        "the straight way dashed."
+        "the target circle, with the straight way dashed."
     )
     if healthy_ring is not None:
         caption += " Circle: what the healthy arm reaches; grey: what the failure takes away (not shown to operators)."

@@ -161,10 +161,7 @@ def draw_cell_means(analysis: Analysis) -> Figure:
             )
         axes.set_xticks(
             positions,
-            [
-                f"{format_label(group_name)}\n({size} tasks)"
-                for group_name, size in zip(names, analysis.groups.sizes, strict=True)
-            ],
+            [f"{format_label(name)}\n({size} tasks)" for name, size in zip(names, analysis.groups.sizes, strict=True)],
         )
         axes.set(ylabel="mean CPM of a subject, failed arm", ylim=(0, None))
         axes.grid(axis="x", visible=False)

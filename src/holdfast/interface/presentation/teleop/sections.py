@@ -125,10 +125,9 @@ def _build_healthy_blocks(analysis: Analysis) -> list[Block]:
             comparison = "longer" if change > 0 else "shorter"
             blocks.append(
                 Text(
-                    f"With the healthy arm, tasks take {format_percent(abs(change))} {comparison} under "
-                    f"{record['second']} than "
-                    f"under {record['first']} "
-                    f"({format_number(record['second_mean'])} against {format_number(record['first_mean'])} cycles)."
+                    f"With the healthy arm, tasks take {format_percent(abs(change))} {comparison} under {record['second']} "
+                    f"than under {record['first']} ({format_number(record['second_mean'])} against "
+                    f"{format_number(record['first_mean'])} cycles)."
                 )
             )
     table_block = build_table_block(_tabulate_measures(analysis, "healthy", "The laws with the healthy arm").texts())
@@ -216,9 +215,8 @@ def _build_distribution_blocks(analysis: Analysis) -> list[Block]:
     observed = analysis.observed
     caption = (
         f"CPM and all measures over {observed.cpm.size:,} trials in {len(observed.tasks)} tasks, without those that did not "
-        f"reach the target. Scenarios: {'; '.join(condition.label for condition in observed.conditions)}. "
-        "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
-        "say otherwise."
+        f"reach the target. Scenarios: {'; '.join(condition.label for condition in observed.conditions)}. Circles: the "
+        "computer's median over tasks. CPM of operators and computer have different normalisers unless the notes say otherwise."
     )
     return [_draw_with_caption(analysis, "measures", caption)]
 

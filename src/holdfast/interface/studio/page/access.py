@@ -21,9 +21,8 @@ from typing import Any
 from holdfast.core.errors import HoldfastError
 from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 
-MAX_MESSAGE_BYTES = (
-    8 << 20
-)  # bytes of one message of a browser: a picture of the scene has less, and so has a part of an upload
+# Bytes of one message of a browser: a picture of the scene has less, and so has a part of an upload.
+MAX_MESSAGE_BYTES = 8 << 20
 _VISER_TITLE_HTML = "<title>Viser</title>"
 _HEAD_END_HTML = "</head>"
 _PATCH_LOCK = threading.Lock()
@@ -78,9 +77,8 @@ class AccessFilter:
 
         def serve_filtered(*positional: Any, process_request: Any = None, **options: Any) -> Any:
             if not getattr(process_request, "__module__", "").startswith("viser."):
-                return original_serve(
-                    *positional, process_request=process_request, **options
-                )  # somebody else's, at the same time
+                # Somebody else's, at the same time.
+                return original_serve(*positional, process_request=process_request, **options)
 
             def process_filtered(connection: Any, request: Any) -> Any:
                 response = self._filter_response(request)

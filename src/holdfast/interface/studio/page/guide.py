@@ -60,9 +60,8 @@ def _explain_bars(context: GuideContext) -> str:
 
 def _explain_lock(context: GuideContext) -> str:
     return (
-        f"{context.worst} is locked: {context.remaining} of the manipulability is left. The blue wire is how fast the "
-        f"tool could go, "
-        "the orange body how fast it still can. The orange line and ring are the motion that loses most."
+        f"{context.worst} is locked: {context.remaining} of the manipulability is left. The blue wire is how fast the tool "
+        "could go, the orange body how fast it still can. The orange line and ring are the motion that loses most."
     )
 
 
@@ -75,8 +74,7 @@ def _explain_optimisation(context: GuideContext) -> str:
 def _explain_comparison(context: GuideContext) -> str:
     return (
         f"The arm took the green configuration without moving the tool, and {context.worst} is locked again: "
-        f"{context.remaining} of the "
-        f"manipulability is left, where it was {context.remaining_before}."
+        f"{context.remaining} of the manipulability is left, where it was {context.remaining_before}."
     )
 
 

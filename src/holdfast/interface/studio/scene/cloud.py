@@ -79,12 +79,10 @@ def make_cloud(assessment: Assessment, label: str) -> RegionCloud:
     if "position" in columns:
         points = np.asarray(columns["position"][:], dtype=np.float64)[selected]
     elif not has_configuration.all():
-        points, q, values, has_configuration = (
-            points[has_configuration],
-            q[has_configuration],
-            values[has_configuration],
-            has_configuration[has_configuration],
-        )
+        points = points[has_configuration]
+        q = q[has_configuration]
+        values = values[has_configuration]
+        has_configuration = has_configuration[has_configuration]
     scale = Scale.from_values(values[has_configuration], smaller_is_better=assessment.index.better == "smaller")
     colors = np.full((len(q), 3), 150, dtype=np.uint8)
     if has_configuration.any():

@@ -14,9 +14,8 @@ from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.arm.task import Task, as_task
 from holdfast.response.diagnosis.sensors import Sensors
 
-LOG_LIKELIHOOD_THRESHOLD = float(
-    np.log(1e4)
-)  # one explanation against another: a wrong one leads by so much once in 10,000 times
+# One explanation against another: a wrong one leads by so much once in 10,000 times.
+LOG_LIKELIHOOD_THRESHOLD = float(np.log(1e4))
 # Samples that share one systematic error, and that, m and rad: measured poses are not independent for long.
 _CORRELATED_SAMPLES = 25
 _SYSTEMATIC_DEVIATIONS = (0.5e-3, 1e-3)

@@ -73,25 +73,21 @@ def new_record(
         jacobian = compute_jacobian(
             [(row.a, row.alpha, row.d, row.theta) for row in parameters.rows], parameters.tool[:3, 3], configuration
         )
-        class_prefix, arm_text, tolerance = (
-            "",
-            f"arm:\n{indent(format_dh_file(parameters, name or arm.name), '  ')}",
-            _EXACT_TOLERANCE,
-        )
+        class_prefix = ""
+        arm_text = f"arm:\n{indent(format_dh_file(parameters, name or arm.name), '  ')}"
+        tolerance = _EXACT_TOLERANCE
     if np.linalg.svd(jacobian[: bound.m], compute_uv=False)[-1] < _SINGULAR_VALUE_TOLERANCE:
         raise InputError(f"'{arm.name}' is singular for task {task} at that configuration; give another one")
     name = name or (f"{arm.name}-{task}" if is_built_in else f"{task}-{arm.n}R") + f"-k{failures}-new"
     record_text = (
-        f"id: {name}\n"
-        f"class: {{{class_prefix}task: {task}, rows: {bound.m}, joints: {arm.n}, failures: {failures}, "
-        "quantity: relative-manipulability, "
-        f"conditions: [{'within its limits' if is_built_in else 'revolute'}, one configuration]}}\n"
-        f"value: {compute_worst_manipulability(compute_null_space(jacobian[: bound.m]), failures)!r}\n"
-        f"proven_bound: {{value: {bound.bound!r}, by: {bound.bound_by}}}\n"
-        f"found: {{by: {json.dumps(by)}, date: {json.dumps(date.today().isoformat())}, how: {json.dumps(how)}}}\n"
-        f"{arm_text}at: {'home' if q is None else configuration.tolist()}\n"
-        f"check: {{command: holdfast record-designs check {name}, tolerance: {tolerance}}}\n"
-        "licence: CC0-1.0\n"
+        f"id: {name}\nclass: {{{class_prefix}task: {task}, rows: {bound.m}, joints: {arm.n}, failures: {failures}, quantity: "
+        f"relative-manipulability, conditions: [{'within its limits' if is_built_in else 'revolute'}, one "
+        "configuration]}\nvalue: "
+        f"{compute_worst_manipulability(compute_null_space(jacobian[: bound.m]), failures)!r}\nproven_bound: {{value: "
+        f"{bound.bound!r}, by: {bound.bound_by}}}\nfound: {{by: {json.dumps(by)}, date: "
+        f"{json.dumps(date.today().isoformat())}, how: {json.dumps(how)}}}\n{arm_text}at: "
+        f"{'home' if q is None else configuration.tolist()}\ncheck: {{command: holdfast record-designs check {name}, "
+        f"tolerance: {tolerance}}}\nlicence: CC0-1.0\n"
     )
     record_text += f"digest: {digest_record_text(record_text)}\n"
     return parse_record(yaml.parse_yaml(record_text, ""), record_text, name)

@@ -32,9 +32,9 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         blocks.append(
             Picture(
                 figures.svg(figure, "gain", "Distribution of the index before and after choosing configurations"),
-                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses in the "
-                f"order of the index before; "
-                "what a pose gains is the height of its dot above the line." + _describe_blocked_poses(facts),
+                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses in "
+                "the order of the index before; what a pose gains is the height of its dot above the line."
+                + _describe_blocked_poses(facts),
             )
         )
     return blocks

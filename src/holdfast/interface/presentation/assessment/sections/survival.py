@@ -47,9 +47,8 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     blocks: list[Block] = [
         Text(
             f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
-            f"{'the weight of ' if facts.distribution.has_weights else ''}the "
-            f"{facts.distribution.samples:,} poses{_describe_collision_free_fraction(facts)}. "
-            f"The lock that costs most is that of {worst}, {worst_position}: "
+            f"{'the weight of ' if facts.distribution.has_weights else ''}the {facts.distribution.samples:,} "
+            f"poses{_describe_collision_free_fraction(facts)}. The lock that costs most is that of {worst}, {worst_position}: "
             f"{format_interval(fractions[worst])} of the poses are left."
         ),
         Picture(
