@@ -295,7 +295,7 @@ def _list_maps(analysis: Workspace | TargetMeasures, place_noun: str) -> dict[st
             f"F of each of the {place_noun}: of the way on which the target stays within reach.",
         ),
     }
-    figures = {}
+    figures: dict[str, FigureSpec] = {}
     for kind, (names, label, explanation, title, caption) in kinds.items():
         if kind == "finish" and not failures:
             continue
