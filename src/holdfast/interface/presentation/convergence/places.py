@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from holdfast.model.arm.task import Task
 
 _BIN_COUNT = 12  # cells along the longer edge
-VIEW_AXES = {"-top": (0, 1), "-side": (0, 2)}
+_VIEW_AXES = {"-top": (0, 1), "-side": (0, 2)}
 
 
 def prepare_place_maps(
@@ -41,12 +41,13 @@ def prepare_place_maps(
     ``colorbar_label`` is of the colour bar; ``target`` (3,) a target to show. Places in a plane that do not form a lattice are
     averaged in square cells if ``average_cells``, as those of spatial arms always are; else each is a dot.
     """
-    from holdfast.interface.report.places import Plane, bin_positions, place_maps
-    from holdfast.interface.report.views import View
+    views = {"": None} if is_planar_position(task) else _VIEW_AXES
 
-    functions: dict[str, Callable[[], Figure]] = {}
-    views = {"": None} if is_planar_position(task) else VIEW_AXES
-    for name, axes in views.items():
+    def draw(name: str) -> Figure:
+        from holdfast.interface.report.places import Plane, bin_positions, place_maps
+        from holdfast.interface.report.views import View
+
+        axes = views[name]
         right_axis, up_axis = task.rows[:2, :3] if axes is None else np.eye(3)[list(axes)]
         view = View(right_axis, up_axis, name)
         target_point = None if target is None else tuple(view.project(target).tolist())
@@ -60,10 +61,9 @@ def prepare_place_maps(
             plane = replace(first_plane, labels=view.names, mark=target_point, mark_label="target")
             shown_values = {title: values for title, (_, values) in binned_values.items()}
             remark = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        functions[name] = partial(
-            place_maps, plane, shown_values, column_titles, label=colorbar_label, caption=caption + remark
-        )
-    return functions
+        return place_maps(plane, shown_values, column_titles, label=colorbar_label, caption=caption + remark)
+
+    return {name: partial(draw, name) for name in views}
 
 
 def write_place_table(path: Path, places: Places, columns: Sequence[str], values: Sequence[ArrayLike]) -> None:

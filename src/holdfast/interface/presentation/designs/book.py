@@ -2,46 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from holdfast.interface.presentation.designs.records import tabulate_records
+from holdfast.interface.presentation.presentation import TableSpec
 from holdfast.interface.report import figures as drawing
 from holdfast.interface.report.page import Picture, Section, Table, Text
 from holdfast.interface.report.palette import BLUE, INK, ORANGE
 from holdfast.studies.designs.record_book.entries import DesignRecord, RecordBook
 
+Tabulate = Callable[[Sequence[DesignRecord]], TableSpec]
 _AXIS_LENGTH_FRACTION = 0.09  # length of a joint's axis that is drawn, of the picture's width
 _COLUMN_COUNT = 4
 _PICTURE_CAPTION = "Each arm at its configuration: links in blue, joint axes in orange, the tool as a dot."
 _TITLES_BY_TASK = {"planar": "Planar arms", "position": "Arms for positions", "pose": "Arms for poses"}
 
 
-def build_sections(book: RecordBook) -> list[Section]:
-    """Build a section for each task, one for arms that are sold, and one for null spaces."""
+def build_sections(book: RecordBook, tabulate: Tabulate) -> list[Section]:
+    """Build a section for each task, one for arms that are sold, and one for null spaces; ``tabulate`` makes their tables."""
     sections, arm_records = [], [record for record in book.values() if record.arm is not None]
     for task, title in _TITLES_BY_TASK.items():
         records = [record for record in arm_records if record.data.kind.of is None and record.data.kind.task == task]
         with drawing.style():
             picture = drawing.svg(draw_stick_figures(records), task, f"Stick figures of {len(records)} arms")
-        sections.append(Section(title, [_build_table(records), Picture(picture, _PICTURE_CAPTION)]))
+        sections.append(Section(title, [_build_table(records, tabulate), Picture(picture, _PICTURE_CAPTION)]))
     commercial_text = Text(
         "The best configuration found of each, within its limits, next to what no arm of that number of joints can beat."
     )
     commercial_records = [record for record in arm_records if record.data.kind.of is not None]
-    sections.append(Section("Arms that are sold", [commercial_text, _build_table(commercial_records)]))
+    sections.append(Section("Arms that are sold", [commercial_text, _build_table(commercial_records, tabulate)]))
     null_space_text = Text("A null space belongs to arms of every kind: only the number of joints and of rows counts.")
     null_spaces = [record for record in book.values() if record.arm is None]
-    return [*sections, Section("Null spaces alone", [null_space_text, _build_table(null_spaces)])]
+    return [*sections, Section("Null spaces alone", [null_space_text, _build_table(null_spaces, tabulate)])]
 
 
-def _build_table(records: Sequence[DesignRecord]) -> Table:
+def _build_table(records: Sequence[DesignRecord], tabulate: Tabulate) -> Table:
     """Build the table of records with links to their files."""
-    texts = tabulate_records(records).texts()
+    texts = tabulate(records).texts()
     rows = []
     for record, cells in zip(records, texts.rows, strict=True):
         links = Markup(" ").join(

@@ -15,7 +15,7 @@ from holdfast.core.probability.intervals import Difference, Interval
 from holdfast.interface.presentation.convergence.shares import format_points
 from holdfast.interface.presentation.designs.parameters import (
     ARM_FILE,
-    build_file_section,
+    build_arm_section,
     list_bound_notices,
     tabulate_parameters,
 )
@@ -162,7 +162,8 @@ def _draw_parameters(designs: ConvergenceDesigns) -> Figure:
 
 
 def _build_sections(designs: ConvergenceDesigns) -> list[Section]:
-    return [build_file_section(designs.arm_file(), "It has no masses: a table of Denavit-Hartenberg rows holds none.")]
+    remark = "It has no masses: a table of Denavit-Hartenberg rows holds none."
+    return [build_arm_section(designs.space, designs.values[designs.best], designs.arm_file(), remark)]
 
 
 def _build_rerun_blocks(designs: ConvergenceDesigns) -> list[Block]:

@@ -51,7 +51,7 @@ def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
 
 
 def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
-    """Tabulate the parameters of the given arm and of the best design (k,)."""
+    """Tabulate the parameters of the given arm and of the best design (k,); a section of the page shows them."""
     columns = [
         Header("parameter", "parameter"),
         Header("description", "what it is"),
@@ -68,15 +68,19 @@ def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
         bounds = f"{parameter.text(parameter.lower)} to {parameter.text(parameter.upper)}"
         remark = f"at the {bound_name} bound" if bound_name else ""
         rows.append([parameter.name, description, parameter.text(before), parameter.text(after), bounds, remark])
-    title = "What to build; rows and joints are numbered from the base, in the Denavit-Hartenberg table of the arm"
-    return TableSpec(title, columns, rows)
+    title = "Rows and joints are numbered from the base, in the Denavit-Hartenberg table of the arm"
+    return TableSpec(title, columns, rows, on_page=False)
 
 
-def build_file_section(arm_file: str, remark: str, further_blocks: Sequence[Block] = ()) -> Section:
-    """Build the section with the best arm as a file that every command takes."""
+def build_arm_section(
+    space: DesignSpace, best: FloatArray, arm_file: str, remark: str, further_blocks: Sequence[Block] = ()
+) -> Section:
+    """Build the section with the parameters of the best design (k,), and its arm as a file that every command takes."""
     from markupsafe import Markup
 
+    from holdfast.interface.presentation.renderers import build_table_block
     from holdfast.interface.report.page import Code, Section, Text
 
-    label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
-    return Section("The best arm as a file", [Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])
+    table = build_table_block(tabulate_parameters(space, best).texts())
+    label = Markup("The best arm as a file, <code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
+    return Section("What to build", [table, Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])

@@ -40,7 +40,7 @@ def present(result: RecordBook | DesignRecord | RecordCheck) -> Presentation:
     if isinstance(result, RecordCheck):
         return _present_check(result)
     if isinstance(result, DesignRecord):
-        return Presentation(f"Record {result.id}", _describe_record(result), tables=[tabulate_records([result])])
+        return Presentation(f"Record {result.id}", _describe_record(result), tables=[_tabulate_records([result])])
     null_spaces = [record for record in result.values() if record.arm is None]
     open_count = sum(record.gap > _ZERO_GAP for record in null_spaces)
     answer = (
@@ -51,7 +51,7 @@ def present(result: RecordBook | DesignRecord | RecordCheck) -> Presentation:
         "Record book",
         answer,
         about="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
-        tables=[tabulate_records(result.values(), on_page=False)],
+        tables=[_tabulate_records(result.values(), on_page=False)],
         sections=partial(_build_sections, result),
         method=[("Checks", "Each record is one file and is checked by independent code: holdfast record-designs check.")],
     )
@@ -97,7 +97,7 @@ def _tabulate_claims(check: RecordCheck) -> TableSpec:
     return TableSpec("", [Header("said", "claim"), Header("holds", "holds")], check.claims)
 
 
-def tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
+def _tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
     """Tabulate records, a row for each."""
     keys = ("record", "task", "joints", "locked", "value", "bound", "by", "gap")
     columns = [Header(key, "no arm can beat" if key == "bound" else key) for key in keys]
@@ -117,7 +117,7 @@ def _format_gap(record: DesignRecord) -> str:
 def _build_sections(book: RecordBook) -> list[Section]:
     from holdfast.interface.presentation.designs.book import build_sections
 
-    return build_sections(book)
+    return build_sections(book, _tabulate_records)
 
 
 def save(result: RecordBook | DesignRecord | RecordCheck, folder: Path, command: str = "") -> list[Path]:

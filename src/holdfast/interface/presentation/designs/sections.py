@@ -14,7 +14,7 @@ from holdfast.interface.presentation.commands import (
     format_task_option,
     wrap_command,
 )
-from holdfast.interface.presentation.designs.parameters import ARM_FILE, build_file_section
+from holdfast.interface.presentation.designs.parameters import ARM_FILE, build_arm_section
 from holdfast.interface.report import figures as drawing
 from holdfast.interface.report.page import Block, Code, Picture, Section, Text
 from holdfast.model import arms
@@ -24,18 +24,18 @@ from holdfast.studies.designs.designs import Designs, HeldOutResult, format_leve
 
 
 def build_sections(designs: Designs) -> list[Section]:
-    """Build the distribution of the index before and after, and the best arm as a file."""
+    """Build the best arm, and the distribution of the index before and after."""
     assess_command = (
         f"holdfast assess {ARM_FILE} --region region.yaml --task {_format_task_option(designs)} --optimise --out check"
     )
-    return [
-        Section("How the index is distributed, before and after", _build_distribution_blocks(designs)),
-        build_file_section(
-            format_arm_file(designs),
-            "It has no masses: those of links of other lengths are not known.",
-            [Code(assess_command, "Its own report over the same region:")],
-        ),
-    ]
+    arm_section = build_arm_section(
+        designs.space,
+        designs.values[designs.best],
+        format_arm_file(designs),
+        "It has no masses: those of links of other lengths are not known.",
+        [Code(assess_command, "Its own report over the same region:")],
+    )
+    return [arm_section, Section("How the index is distributed, before and after", _build_distribution_blocks(designs))]
 
 
 def _build_distribution_blocks(designs: Designs) -> list[Block]:
