@@ -23,14 +23,11 @@ from holdfast.interface.presentation.printing import (
     print_json,
     print_table,
     print_written_files,
-    to_json_types,
 )
-
-_MAX_NARROW_COLUMNS = 5  # columns
-_HARD_SPACE = "\N{NO-BREAK SPACE}"
+from holdfast.interface.presentation.renderers import as_json as as_json
+from holdfast.interface.presentation.renderers import build_table_block, render_svg
 
 if TYPE_CHECKING:
-    from markupsafe import Markup
     from matplotlib.figure import Figure
     from rich.console import Console
 
@@ -75,12 +72,6 @@ def write_outputs(result: Result, plot: Path | None, out: Path | None = None) ->
 
         files.append(save_png(next(iter(result.figures().values())), plot))
     return files if out is None else [*files, *result.save(out, command=current_command())]
-
-
-def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
-    """Return the numbers of the result in JSON types."""
-    data: dict[str, Any] = to_json_types(call_presenter(result, "to_dict", *args, **options))
-    return data
 
 
 def show(result: Result, out: Console) -> None:
@@ -141,7 +132,7 @@ def write(
             continue
         title, caption = captions
         description = f"{content.title}: {title.lower()}"
-        figure_blocks.setdefault(title, []).append(page.Picture(_render_svg(figure, name, description), caption))
+        figure_blocks.setdefault(title, []).append(page.Picture(render_svg(figure, name, description), caption))
     tables = call_presenter(result, "tables") if content.tables is None else content.tables
     return page.write(
         page.Page(
@@ -159,33 +150,6 @@ def write(
         ),
         path,
     )
-
-
-def build_table_block(table: TextTable) -> Any:
-    """Convert a table to a block of a page; columns of words are left-aligned."""
-    from holdfast.interface.report.page import Table
-
-    rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
-    is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
-    word_columns = {
-        column
-        for row in table.rows
-        for column, cell in enumerate(row)
-        if cell[:1].isalpha() and cell not in ("none", "infinite")
-    }
-    return Table(rows, table.head, frozenset(range(1, len(table.head))) - word_columns, caption=table.title, wide=is_wide)
-
-
-def _flatten_cell(cell: str) -> str:
-    """Return a two-line cell as one line: the second line (an interval) follows in parentheses."""
-    value, _, second_line = cell.partition("\n")
-    return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
-
-
-def _render_svg(figure: Figure, name: str, description: str) -> Markup:
-    from holdfast.interface.report.figures import svg
-
-    return svg(figure, name, description)
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:

@@ -149,4 +149,4 @@ def _list_tables(proof: Found) -> list[TableSpec]:
 def _draw(proof: Found, name: str) -> Figure:
     from holdfast.interface.presentation.certificates import joint_boxes_figures
 
-    return getattr(joint_boxes_figures, f"draw_{name}")(proof)  # type: ignore[no-any-return]
+    return getattr(joint_boxes_figures, f"draw_{name}")(proof)
