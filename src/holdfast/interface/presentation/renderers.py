@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     from holdfast.interface.report.page import Block, Section
 
+_MAX_NARROW_COLUMNS = 5  # columns
+_HARD_SPACE = "\N{NO-BREAK SPACE}"
 _TONE_COLORS = {"bad": "red", "warn": "yellow", "good": "green", "note": "default"}
 
 
@@ -149,7 +151,7 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
     for name, figure in presentation.figures.items():
         if figure.on_page:
             drawn_figure = drawn[name] if drawn and name in drawn else figure.draw()
-            image = _render_svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
+            image = render_svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
     is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
     facts = list(zip(presentation.facts, is_at_top, strict=True))
@@ -181,12 +183,28 @@ def _is_uninformative(text: str) -> bool:
 
 def build_table_block(table: TextTable) -> Any:
     """Convert a table to a block of a page; columns of words are left-aligned."""
-    from holdfast.interface.presentation.results import build_table_block as build_block
+    from holdfast.interface.report.page import Table
 
-    return build_block(table if any(table.head) else table._replace(head=()))
+    head = table.head if any(table.head) else ()
+    rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
+    is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
+    word_columns = {
+        column
+        for row in table.rows
+        for column, cell in enumerate(row)
+        if cell[:1].isalpha() and cell not in ("none", "infinite")
+    }
+    return Table(rows, head, frozenset(range(1, len(head))) - word_columns, caption=table.title, wide=is_wide)
 
 
-def _render_svg(figure: Figure, name: str, description: str) -> Any:
+def _flatten_cell(cell: str) -> str:
+    """Return a two-line cell as one line: the second line (an interval) follows in parentheses."""
+    value, _, second_line = cell.partition("\n")
+    return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
+
+
+def render_svg(figure: Figure, name: str, description: str) -> Any:
+    """Render a figure for a page."""
     from holdfast.interface.report.figures import svg
 
     return svg(figure, name, description)

@@ -11,14 +11,10 @@ from typing import TYPE_CHECKING, Any
 from holdfast.core.result import Result
 from holdfast.interface.presentation import call_presenter
 from holdfast.interface.presentation.printing import (
-    TextTable,
     make_console,
     print_json,
     print_written_files,
 )
-
-_MAX_NARROW_COLUMNS = 5  # columns
-_HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -64,24 +60,3 @@ def write_outputs(result: Result, plot: Path | None, out: Path | None = None) ->
 
         files.append(save_png(next(iter(result.figures().values())), plot))
     return files if out is None else [*files, *result.save(out, command=current_command())]
-
-
-def build_table_block(table: TextTable) -> Any:
-    """Convert a table to a block of a page; columns of words are left-aligned."""
-    from holdfast.interface.report.page import Table
-
-    rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
-    is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
-    word_columns = {
-        column
-        for row in table.rows
-        for column, cell in enumerate(row)
-        if cell[:1].isalpha() and cell not in ("none", "infinite")
-    }
-    return Table(rows, table.head, frozenset(range(1, len(table.head))) - word_columns, caption=table.title, wide=is_wide)
-
-
-def _flatten_cell(cell: str) -> str:
-    """Return a two-line cell as one line: the second line (an interval) follows in parentheses."""
-    value, _, second_line = cell.partition("\n")
-    return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value

@@ -152,12 +152,11 @@ def draw_witness(proof: Found) -> Figure:
     from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
 
     arm = proof.claim.arm
-    q: FloatArray | None
     if isinstance(proof, ManipulabilityBound):
         spans, q = proof.claim.joint_box, proof.extreme
     else:
+        assert proof.witness is not None
         spans, q = joint_ranges(proof.claim), proof.witness
-    assert q is not None
     scale = display_factors(~arm.prismatic)
     with style():
         figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
