@@ -9,7 +9,7 @@ import holdfast
 
 HERE = Path(__file__).parent
 os.environ["HOLDFAST_NOTICES"] = "off"  # pages do not depend on how long something takes
-sys.path.insert(0, str(HERE / "_ext"))
+sys.path[:0] = [str(HERE / "_ext"), str(HERE / "_figures")]
 gc.set_threshold(100_000, 50, 100)  # of 700: in the trees of all pages there is little to find
 
 project = "holdfast"
@@ -33,7 +33,7 @@ extensions = [
     "wholes",
     "verifier_archive",
 ]
-exclude_patterns = ["_build", "_ext", "examples"]
+exclude_patterns = ["_build", "_ext", "_figures", "examples"]
 nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
