@@ -113,6 +113,31 @@ moved = {
         "experiments",
     )
 }
+moved |= {
+    "indices": "theory/indices",
+    "certificates": "theory/certificates",
+    "ceilings": "theory/upper-bounds",
+    "bounds": "theory/bounds",
+    "proofs": "theory/proofs",
+    "fault-controller": "theory/fault-controller",
+    "claims": "evidence/claims",
+    "intervals": "evidence/intervals",
+    "fail-active": "evidence/finished-tasks",
+    "faults-measured": "evidence/faults",
+    "reproducibility": "evidence/reproducibility",
+    "limits": "evidence/limits",
+    "stability": "project/stability",
+    "platforms": "project/platforms",
+    "extending": "project/extending",
+    "how-it-flows": "project/how-it-flows",
+    "files": "reference/files",
+    "conventions": "reference/conventions",
+    "glossary": "reference/glossary",
+    "references": "reference/bibliography",
+    "reference": "reference/index",
+    "explanation": "theory/index",
+    "what-is-here": "which-command",
+}
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},
     "dark_css_variables": {"color-brand-primary": "#6bb8e8", "color-brand-content": "#6bb8e8"},

@@ -1,4 +1,4 @@
-"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows what is new."""
+"""The walks of docs/project/extending.md, carried out in a copy: two files and a line each, and everything knows what is new."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/project/extending.md").read_text(encoding="utf-8")
 TABLE = re.compile(r"(\S+), in \w+(?:\[(\".+\")\]|, after (\".+\"))")
 INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
 LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]

@@ -1,4 +1,4 @@
-"""Which package has a wheel for which system and Python: asked of pip, written into ``docs/platforms.md``.
+"""Which package has a wheel for which system and Python: asked of pip, written into ``docs/project/platforms.md``.
 
 ``python -m tools.wheels`` asks for every package of ``requirements.lock`` and, of the extras, for those that pyproject.toml
 names, at the locked versions. It needs the network and takes minutes, and belongs to ``make lock``:
@@ -19,7 +19,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "platforms.md"
+PAGE = ROOT / "docs" / "project" / "platforms.md"
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 # What pip is to take a system for. Older wheels of the same system do, too: pip knows so of macOS, and is told of Linux.
 SYSTEMS = {

@@ -38,6 +38,7 @@ from typing import Any, ClassVar
 from docutils import nodes
 from docutils.parsers.rst import directives
 from forked import Program
+from pygments.lexers.special import TextLexer
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
@@ -307,6 +308,7 @@ class Cite(SphinxRole):
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("live_run", True, "env", bool)
+    app.add_lexer("mermaid", TextLexer)  # CONTRIBUTING has a diagram, which GitHub draws
     app.add_directive("run", Run)
     app.add_directive("drawing", Drawing)
     app.add_directive("shell", Shell)
