@@ -34,7 +34,7 @@ def draw_self_motion() -> Figure:
             joints.plot(np.arange(len(angles)), angles[:, joint], ".", ms=2, color=color, label=name)
         joints.set(xlabel=f"point of the self-motion, {len(angles)} points", ylabel="joint angle, deg", ylim=(-180, 180))
         joints.set_title("The same configurations in joint space")
-        joints.legend(loc="lower left", ncols=3)
+        joints.legend(loc="lower left", ncols=3, markerscale=5)
         return settle_layout(figure)
 
 
