@@ -9,7 +9,7 @@ import holdfast
 
 HERE = Path(__file__).parent
 os.environ["HOLDFAST_NOTICES"] = "off"  # pages do not depend on how long something takes
-sys.path.insert(0, str(HERE / "_ext"))
+sys.path[:0] = [str(HERE / "_ext"), str(HERE / "_figures")]
 gc.set_threshold(100_000, 50, 100)  # of 700: in the trees of all pages there is little to find
 
 project = "holdfast"
@@ -33,7 +33,7 @@ extensions = [
     "wholes",
     "verifier_archive",
 ]
-exclude_patterns = ["_build", "_ext", "examples"]
+exclude_patterns = ["_build", "_ext", "_figures", "examples"]
 nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
@@ -113,6 +113,31 @@ moved = {
         "large-studies",
         "experiments",
     )
+}
+moved |= {
+    "indices": "theory/indices",
+    "certificates": "theory/certificates",
+    "ceilings": "theory/upper-bounds",
+    "bounds": "theory/bounds",
+    "proofs": "theory/proofs",
+    "fault-controller": "theory/fault-controller",
+    "claims": "evidence/claims",
+    "intervals": "evidence/intervals",
+    "fail-active": "evidence/finished-tasks",
+    "faults-measured": "evidence/faults",
+    "reproducibility": "evidence/reproducibility",
+    "limits": "evidence/limits",
+    "stability": "project/stability",
+    "platforms": "project/platforms",
+    "extending": "project/extending",
+    "how-it-flows": "project/how-it-flows",
+    "files": "reference/files",
+    "conventions": "reference/conventions",
+    "glossary": "reference/glossary",
+    "references": "reference/bibliography",
+    "reference": "reference/index",
+    "explanation": "theory/index",
+    "what-is-here": "which-command",
 }
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},

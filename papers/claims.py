@@ -1,6 +1,6 @@
 """A paper's statements beside ours, and the page of the docs that gathers them.
 
-``python -m papers.claims`` writes ``docs/claims.md`` from the tables of statements in every ``papers/*/RESULTS.md`` and in
+``python -m papers.claims`` writes ``docs/evidence/claims.md`` from the tables of statements in every ``papers/*/RESULTS.md`` and in
 ``measurements/certificates/RESULTS.md``, which the papers' own runs write; nothing is computed again.
 """
 
@@ -12,7 +12,7 @@ from enum import StrEnum
 from pathlib import Path
 
 HERE = Path(__file__).parent
-PAGE = HERE.parent / "docs" / "claims.md"
+PAGE = HERE.parent / "docs" / "evidence" / "claims.md"
 
 
 class Verdict(StrEnum):
@@ -77,7 +77,7 @@ table again and writes it, with the figures, into a file `RESULTS.md`.
 These papers are the ground of holdfast, and most of what they say holds. Where a statement does not hold *as it
 is written*, the row says how it can be read so that it does. Scans and lost displays make some places hard to read;
 where a number depends on our reading, the row says so. The last section has popular beliefs beside the papers' statements:
-there each word in bold is proved by a [certificate](certificates.md), where a sample can only say that it found no exception.
+there each word in bold is proved by a [certificate](../theory/certificates.md), where a sample can only say that it found no exception.
 
 | verdict | it means |
 |---|---|
@@ -100,7 +100,7 @@ def stored(name: str) -> list[Claim]:
 
 
 def page() -> str:
-    """The text of ``docs/claims.md``."""
+    """The text of ``docs/evidence/claims.md``."""
     claims = {name: [c for c in stored(name) if c.verdict] for name in PAPERS}
     every = [c.verdict for of_one in claims.values() for c in of_one]
     counts = ", ".join(f"{v} {every.count(v)}" for v in Verdict if v)

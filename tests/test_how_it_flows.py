@@ -1,4 +1,4 @@
-"""The steps of docs/how-it-flows.md: each function exists in the named file, and the calls happen in that order."""
+"""The steps of docs/project/how-it-flows.md: each function exists in the named file, and the calls happen in that order."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs/how-it-flows.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/project/how-it-flows.md").read_text(encoding="utf-8")
 STEP = re.compile(r"^\d+\. `(holdfast\.[\w.]+)`\s+\(`(src/holdfast/[\w/]+\.py)`\)", re.MULTILINE)
 WALKS = dict(part.split("\n", 1) for part in PAGE.split("\n## ")[1:])
 SETUP = """

@@ -1,4 +1,4 @@
-"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows what is new."""
+"""The steps of docs/project/add-*.md, carried out in a copy: two files and a line each, and everything knows what is new."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+PAGE = "\n".join(page.read_text(encoding="utf-8") for page in sorted((ROOT / "docs/project").glob("add-*.md")))
 TABLE = re.compile(r"(\S+), in \w+(?:\[(\".+\")\]|, after (\".+\"))")
 INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
 LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]
@@ -30,7 +30,7 @@ WALKS = {
 
 def steps(anchor):
     """What the page says to write, by where, in its order."""
-    section = PAGE.split(f"({anchor})=")[1].split("\n(")[0].split("\n## Kernels")[0]
+    section = PAGE.split(f"({anchor})=")[1].split("\n(")[0]
     blocks = re.findall(r"^```python\n# ([^\n]+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
     assert len(blocks) == 3, "two files and a line"
     return blocks
@@ -113,7 +113,7 @@ def test_all_walks_in_one_copy(run, tmp_path):
         assert name in run("holdfast", words[0], "--help")[1]
     code, told = run("holdfast", "assess", "panda", "--task", "position", "--poses", "9", "--out", "results")
     assert code == 0, told
-    assert "How near the joints are to their limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")
+    assert "Distance from the joint limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")
     code, told = run("holdfast", "price", "planar-3r", "--error", "0.2")
     assert code == 0, told
     assert "pseudoinverse" in told
@@ -142,20 +142,22 @@ def test_walk_of_a_fault_kind(run, tmp_path):
 
 def claim_kind_steps():
     """Return where the page says to write the parts of a claim kind, and what."""
-    section = PAGE.split("(add-a-claim-kind)=")[1].split("\n(")[0].split("\n## Kernels")[0]
+    section = PAGE.split("(add-a-claim-kind)=")[1].split("\n(")[0]
     return re.findall(r"^```python\n# ([^\n]+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
 
 
 def insert_after(folder, where, text):
-    """Insert text after the line that the page quotes; without a quoted line, write it as in the other walks."""
-    file, marker, line = where.partition(", after the line ")
+    """Insert text after the import that the page names; without one, write it as in the other walks."""
+    file, marker, module = where.partition(", after the import from ")
     if not marker:
         write(folder, where, text)
         return
-    path, line = folder / file, line.strip('"') + "\n"
-    source = path.read_text(encoding="utf-8")
-    assert source.count(line) == 1
-    path.write_text(source.replace(line, line + text), encoding="utf-8")
+    path = folder / file
+    source, insertions = re.subn(
+        rf"^from {re.escape(module)} import .*\n", lambda line: line[0] + text, path.read_text(encoding="utf-8"), flags=re.M
+    )
+    assert insertions == 1
+    path.write_text(source, encoding="utf-8")
 
 
 def test_the_walk_of_a_claim_kind(run, tmp_path):

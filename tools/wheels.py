@@ -1,4 +1,4 @@
-"""Which package has a wheel for which system and Python: asked of pip, written into ``docs/platforms.md``.
+"""Which package has a wheel for which system and Python: asked of pip, written into ``docs/project/platforms.md``.
 
 ``python -m tools.wheels`` asks for every package of ``requirements.lock`` and, of the extras, for those that pyproject.toml
 names, at the locked versions. It needs the network and takes minutes, and belongs to ``make lock``:
@@ -19,7 +19,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "platforms.md"
+PAGE = ROOT / "docs" / "project" / "platforms.md"
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 # What pip is to take a system for. Older wheels of the same system do, too: pip knows so of macOS, and is told of Linux.
 SYSTEMS = {
@@ -56,24 +56,25 @@ orphan: true
 
 # Systems and wheels
 
-Which of the packages that holdfast needs can be installed without a compiler, asked of pip on {day} for the versions in
-`requirements.lock` and Python {first} to {last}. Linux means glibc 2.28 or later, macOS 14 or later. *yes*: there is a wheel
-for all these versions of Python; otherwise those for which there is one. A wheel does not mean that holdfast has run there:
-[What this version does not do](limits.md) says where it has.
+This page shows on which systems you can install holdfast without a compiler. It lists the packages for which pip found a
+wheel on {day}, for the versions in `requirements.lock` and Python {first} to {last}. Linux means glibc 2.28 or later, and
+macOS means 14 or later. In the tables, *yes* means a wheel for all these Python versions. Otherwise the cell lists the
+Python versions with a wheel. A wheel does not mean that holdfast has run there.
+[Limits](../evidence/limits.md) lists the systems on which it has run.
 
 {summary}
 
-## What every command needs
+## Packages for every command
 
 {needed}
 
-`hatchling`, `editables`, `pathspec`, `pluggy`, `tomlkit` and `trove-classifiers` only build holdfast itself. A version in
-parentheses is what that system gets instead.
+`hatchling`, `editables`, `pathspec`, `pluggy`, `tomlkit`, and `trove-classifiers` are needed only to build holdfast. A
+version in parentheses is the one that this system gets instead.
 
-## What the extras add
+## Packages of the extras
 
-The packages that the extras name, at the versions of `requirements-test.lock`; what these need in turn was not asked for,
-nor for PyTorch, JAX and cuda-bindings, which no test of every change needs.
+The table contains the packages that the extras name, at the versions of `requirements-test.lock`. It does not contain the
+dependencies of these packages, nor PyTorch, JAX, and cuda-bindings, because the tests of every change do not need them.
 
 {more}
 """
@@ -155,7 +156,7 @@ def table(packages: Packages, wheels: Wheels) -> list[str]:
 
 def summary(wheels: Wheels) -> list[str]:
     """The rows of a table: for which Pythons everything that a system needs has a wheel, and what has not."""
-    rows = ["| system | everything has a wheel for Python | what has not |", "|---|---|---|"]
+    rows = ["| system | Python versions with all wheels | packages without a wheel for some version |", "|---|---|---|"]
     for system, found in wheels.items():
         complete = [python for python in PYTHONS if all(python in pythons for pythons in found.values())]
         lacking = [name for name, pythons in found.items() if pythons != list(PYTHONS)]

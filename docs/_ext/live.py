@@ -6,6 +6,7 @@ Every page has one Python session and one temporary folder, shared by its direct
     for people who cannot see it what it shows.
 ``shell``: command lines (``$ ...``) and what they print; ``:exit:`` is the exit code expected (0), ``:head:`` the number
     of lines shown of each output.
+``drawing``: a figure that ``docs/_figures`` draws, with its caption.
 ``file``: text that is shown and saved under the name given.
 ``module-example``: the example in a module's docstring.
 ``casadi-operations``: the CasADi operations that the compiled backend translates, found by trying.
@@ -37,6 +38,7 @@ from typing import Any, ClassVar
 from docutils import nodes
 from docutils.parsers.rst import directives
 from forked import Program
+from pygments.lexers.special import TextLexer
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
@@ -153,6 +155,26 @@ class Run(_Live):
         number = self.env.temp_data["live-figures"] = self.env.temp_data.get("live-figures", 0) + 1
         picture = nodes.raw("", svg(figure, f"figure-{number}", self.options["about"]), format="html")
         return nodes.container("", picture, classes=["live-figure"])
+
+
+class Drawing(SphinxDirective):
+    """A figure of ``docs/_figures``: ``{drawing} MODULE.FUNCTION`` with its caption as the content."""
+
+    required_arguments = 1
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        from holdfast.interface.report import svg
+
+        module, _, function = self.arguments[0].partition(".")
+        caption = " ".join(self.content)
+        picture: list[nodes.Node] = []
+        if self.config.live_run:
+            figure = getattr(importlib.import_module(module), function)()
+            picture.append(nodes.raw("", svg(figure, self.arguments[0].replace(".", "-"), caption), format="html"))
+        parsed, messages = self.parse_inline(caption)
+        text = nodes.paragraph("", "", *parsed, classes=["drawing-caption"])
+        return [nodes.container("", *picture, text, classes=["live-figure"]), *messages]
 
 
 class Shell(_Live):
@@ -286,7 +308,9 @@ class Cite(SphinxRole):
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("live_run", True, "env", bool)
+    app.add_lexer("mermaid", TextLexer)  # CONTRIBUTING has a diagram, which GitHub draws
     app.add_directive("run", Run)
+    app.add_directive("drawing", Drawing)
     app.add_directive("shell", Shell)
     app.add_directive("file", File)
     app.add_directive("module-example", ModuleExample)

@@ -69,7 +69,7 @@ class ValueGraph:
             elif row.op not in operations:
                 raise KernelError(
                     f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which {language} does "
-                    "not have; write the expression with operations listed in docs/extending"
+                    "not have; write the expression with operations listed in docs/project/own-index"
                 )
             elif k in divisors:
                 shared = self._add_node(GraphNode(ca.OP_INV, args[-1:]))

@@ -16,7 +16,7 @@ from holdfast.response.diagnosis import FaultVerdict
 from holdfast.response.supervisor import replanning, states
 from holdfast.response.supervisor.controller import Controller
 
-PAGE = Path(__file__).parents[3] / "docs/fault-controller.md"
+PAGE = Path(__file__).parents[3] / "docs/theory/fault-controller.md"
 ARM = hf.arms.load("panda")
 BOUNDS = SimpleNamespace(tracking=np.full(7, 1e-3), speed=np.full(7, 0.5))
 KINDS = ("locked", "limp", "weak", "friction", "sluggish", "sensor", "unknown", "contact")

@@ -162,7 +162,7 @@ class Distribution:
         these: weights that are rare and heavier than any of these make error bars too narrow.
 
         Source: Martino, Elvira, Louzada 2017; ``(sum w)^2 / sum w^2`` of Kish is larger, and
-        its intervals need not cover (:doc:`/intervals`).
+        its intervals need not cover (:doc:`/evidence/intervals`).
         """
         size = self._total_size(reachable_only)
         if self._found is None or self._lost is None:

@@ -130,7 +130,7 @@ class Difference:
         """Mean of differences (N,), two or more, with the interval and the test of Student's t.
 
         For quantities without bounds, such as errors in m. It covers as it says for normal differences, and for many; of few
-        skewed ones it may cover far less (:doc:`/intervals`), and nothing that knows no bounds can do better.
+        skewed ones it may cover far less (:doc:`/evidence/intervals`), and nothing that knows no bounds can do better.
         """
         from scipy import stats
 
@@ -208,7 +208,7 @@ class WeightSums:
         of so many equal samples are wide enough (a weighted share scatters by at most ``p (1 - p)`` over this), those of
         ``(sum w)^2 / sum w^2``, which is larger, need not be. What no sample can tell: a rare, heavier weight not yet seen.
 
-        Source: Martino, Elvira, Louzada 2017 for this size; that intervals of it cover is measured (:doc:`/intervals`).
+        Source: Martino, Elvira, Louzada 2017 for this size; that intervals of it cover is measured (:doc:`/evidence/intervals`).
         """
         return self.weight / self.largest
 

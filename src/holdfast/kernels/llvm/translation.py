@@ -182,7 +182,7 @@ ret void
         if one is None:
             raise UnsupportedOperationError(
                 f"kernel '{self.program.name}': instruction {k} is CasADi operation {OP_NAMES[op]}, which the llvm "
-                "backend does not have; write the expression with operations listed in docs/extending"
+                "backend does not have; write the expression with operations listed in docs/project/own-index"
             )
         return one(self, a, b)
 
