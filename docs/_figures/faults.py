@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 import holdfast as hf
 from holdfast.interface.report.figures import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
 
-EPISODES = 8
+EPISODES = 12
 HORIZON_S = 10.0
 KIND_COLORS = {"locked": ORANGE, "weak": BLUE, "sensor_drift": GREEN}
 TWO_JOINTS = """
@@ -35,7 +35,7 @@ def draw_events() -> Figure:
     ]
     faults = hf.faults.FaultModel(entries, seed=7)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.4))
+        figure = Figure(figsize=(WIDTH_IN, 4.2))
         axes = figure.subplots()
         for episode in range(EPISODES):
             events = faults.draw(arm, episode=episode, horizon=HORIZON_S)
@@ -70,7 +70,7 @@ def draw_injected() -> Figure:
             time, angles = _run_two_joints(events)
             axes.plot(time, np.degrees(angles), color=color, label=name)
         axes.axvline(ONSET_S, color=SOFT, linestyle=(0, (4, 2)))
-        axes.set(xlabel="time, s", ylabel="joint 1, deg", xlim=(0, 3))
+        axes.set(xlabel="time, s", ylabel="joint 1, deg", xlim=(0, 3), ylim=(-40, 165))
         axes.legend(ncols=4, loc="upper left")
         return settle_layout(figure)
 
