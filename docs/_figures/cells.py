@@ -7,9 +7,7 @@ from concepts import WIDTH_IN
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, ORANGE, SOFT, settle_layout, style
-
-MARGIN_M = 0.01
+from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, settle_layout, style
 
 
 def bench() -> hf.Cell:
@@ -28,11 +26,12 @@ def draw_clearance() -> Figure:
     """Draw the bound of the clearance and the exact clearance along a motion, with the nearest object."""
     arm = hf.arms.load("panda")
     clear = hf.Clearance(arm, cell=bench())
-    start, end = np.array([-1.1, 0.1, 0.0, -2.0, 0.0, 2.1, 0.8]), np.array([1.1, -0.1, 0.0, -1.7, 0.0, 2.1, 0.8])
+    start, end = np.array([-0.4, 0.0, 0.0, -1.9, 0.0, 2.1, 0.8]), np.array([0.34, 0.0, 0.0, -1.75, 0.0, 2.1, 0.8])
     steps = np.linspace(0, 1, 61)
     q = start + steps[:, None] * (end - start)
     bound, nearest = clear(q), clear.closest_pair(q)
-    names = [clear.pair_names[int(pair)] for pair in nearest]
+    names = [clear.pair_names[int(pair)].split(" & ")[-1] for pair in nearest]
+    names = ["the arm itself" if name.startswith("panda") else name for name in names]
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.4))
         axes = figure.subplots()
@@ -41,14 +40,15 @@ def draw_clearance() -> Figure:
         except hf.HoldfastError:
             pass
         axes.plot(steps, 100 * bound, color=BLUE, label="lower bound")
-        axes.axhline(0, color=SOFT, lw=0.8)
         begin = 0
         for index in range(1, len(names) + 1):
             if index == len(names) or names[index] != names[begin]:
                 if index - begin > 3:
                     middle = (begin + index - 1) // 2
-                    axes.text(steps[middle], 100 * bound[middle] - 2.5, names[begin], ha="center", va="top", fontsize=8)
+                    axes.text(steps[middle], 1.0, names[begin], ha="center", color=INK)
+                if index < len(names):
+                    axes.axvline((steps[index - 1] + steps[index]) / 2, color=SOFT, lw=0.6, linestyle=(0, (2, 2)))
                 begin = index
-        axes.set(xlabel="fraction of the motion", ylabel="clearance, cm", xlim=(0, 1))
-        axes.legend()
+        axes.set(xlabel="fraction of the motion", ylabel="clearance, cm", xlim=(0, 1), ylim=(0, None))
+        axes.legend(loc="upper right")
         return settle_layout(figure)
