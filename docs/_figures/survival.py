@@ -18,7 +18,7 @@ def draw_survival() -> Figure:
     joints = [hf.DH(a=1.0, alpha=0.0, lower=low, upper=high) for low, high in LIMITS_RAD]
     arm = hf.Arm.from_dh(joints, name="narrow")
     line = hf.paths.line([1.6, -0.9, 0.0], [1.1, 1.3, 0.0])
-    path = hf.paths.TimedPath(line, hf.paths.Constant(2.0))
+    path = hf.paths.TimedPath(line, hf.paths.Trapezoid(2.0))
     best = hf.plan_motion(arm, path, samples=SAMPLES, compare=["least-norm"])
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.2))
