@@ -33,7 +33,9 @@ def draw_residuals() -> Figure:
         time = 1e3 * (log.t[shown] - LOCK_TIME_S)
         for joint in range(arm.n):
             color, label = (ORANGE, "joint 3") if joint == LOCKED_JOINT else (SOFT, "other joints" if joint == 0 else None)
-            residuals.plot(time, found.scaled.torque[shown, joint], color=color, lw=1.6 if label == "joint 3" else 0.9, label=label)
+            residuals.plot(
+                time, found.scaled.torque[shown, joint], color=color, lw=1.6 if label == "joint 3" else 0.9, label=label
+            )
         residuals.axhline(1, color=INK, lw=0.8, linestyle=(0, (4, 2)))
         residuals.set(ylabel="residual / threshold", ylim=(0, 4))
         residuals.legend(loc="upper left")
@@ -47,7 +49,9 @@ def draw_residuals() -> Figure:
             axes.axvline(alarm + 1e3 * ISOLATION_TIME_S, color=GREEN)
         excess.annotate(f"alarm after {alarm:.0f} ms", (alarm, 24), (alarm + 1, 24), color=BLUE, va="center")
         isolation = alarm + 1e3 * ISOLATION_TIME_S
-        excess.annotate(f"joint isolated after {isolation:.0f} ms", (isolation, 24), (isolation + 1, 24), color=GREEN, va="center")
+        excess.annotate(
+            f"joint isolated after {isolation:.0f} ms", (isolation, 24), (isolation + 1, 24), color=GREEN, va="center"
+        )
         return settle_layout(figure)
 
 
@@ -71,7 +75,9 @@ def draw_controller() -> Figure:
         axes = figure.subplots()
         for name, (x, y, color) in boxes.items():
             half = 0.85 if "robot" in name or name == "monitor" else 0.75
-            axes.add_patch(FancyBboxPatch((x - half, y - 0.3), 2 * half, 0.6, boxstyle="round,pad=0.02", fc="white", ec=color, lw=1.8))
+            axes.add_patch(
+                FancyBboxPatch((x - half, y - 0.3), 2 * half, 0.6, boxstyle="round,pad=0.02", fc="white", ec=color, lw=1.8)
+            )
             axes.text(x, y, name, ha="center", va="center")
         for begin, end, text in arrows:
             axes.annotate("", end, begin, arrowprops={"arrowstyle": "->", "color": INK, "lw": 1.2})

@@ -47,7 +47,9 @@ def draw_events() -> Figure:
                 axes.plot(event.onset, height, "o", color=color, ms=5)
                 if math.isinf(event.end):
                     axes.plot(end, height, ">", color=color, ms=6, clip_on=False)
-                axes.text(event.onset - 0.08, height, event.joint.removeprefix("panda_joint"), ha="right", va="center", fontsize=8)
+                axes.text(
+                    event.onset - 0.08, height, event.joint.removeprefix("panda_joint"), ha="right", va="center", fontsize=8
+                )
         axes.set(xlim=(-0.3, HORIZON_S), ylim=(EPISODES - 0.5, -0.5), xlabel="time, s", ylabel="episode")
         axes.set_title("Drawn faults; the number in front is the joint, and an arrow marks a permanent fault")
         handles = [Line2D([], [], color=color, lw=4, label=kind) for kind, color in KIND_COLORS.items()]

@@ -26,7 +26,10 @@ def draw_survival() -> Figure:
         axes.plot(best.time, 100 * best.curve(), color=BLUE, label=f"planned motion: {100 * best.survival:.0f} % on average")
         for other in best.comparisons:
             axes.plot(
-                best.time, 100 * np.asarray(other.curve), color=ORANGE, label=f"{other.name}: {100 * other.survival:.0f} % on average"
+                best.time,
+                100 * np.asarray(other.curve),
+                color=ORANGE,
+                label=f"{other.name}: {100 * other.survival:.0f} % on average",
             )
         axes.set(xlabel="time of the lock, s", ylabel="survived, % of the joints", xlim=(0, 2), ylim=(-3, 105))
         axes.legend(loc="lower right")
