@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 from concepts import WIDTH_IN
 from matplotlib.figure import Figure
@@ -35,10 +37,8 @@ def draw_clearance() -> Figure:
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.4))
         axes = figure.subplots()
-        try:
+        with contextlib.suppress(hf.HoldfastError):  # without a library for exact distances
             axes.plot(steps, 100 * clear.exact(q), color=ORANGE, label=f"exact ({clear.exact_by.split(',')[0]})")
-        except hf.HoldfastError:
-            pass
         axes.plot(steps, 100 * bound, color=BLUE, label="lower bound")
         begin = 0
         for index in range(1, len(names) + 1):

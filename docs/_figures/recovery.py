@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from concepts import WIDTH_IN, draw_arm, frame_plane
 from matplotlib.colors import ListedColormap
@@ -90,7 +92,7 @@ def draw_tilt() -> Figure:
             options = {} if keep is None else {"keep": keep}
             q = hf.recover(arm, ["panda_joint3"], at, goal=goal, clearance=False, samples=0, **options).q
             steps = np.linspace(0, 1, 41)[:, None]
-            motion = np.vstack([a + steps * (b - a) for a, b in zip(q[:-1], q[1:], strict=True)])
+            motion = np.vstack([a + steps * (b - a) for a, b in pairwise(q)])
             travel = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(motion, axis=0), axis=1))])
             tilt = np.rad2deg(np.arccos(np.clip(-arm.forward_kinematics(motion)[:, 2, 2], -1, 1)))
             axes.plot(travel, tilt, color=color, label=name)
