@@ -44,6 +44,23 @@ def draw_relative_manipulability() -> Figure:
         return settle_layout(figure)
 
 
+def draw_singular_limit() -> Figure:
+    """Draw the index on lines that approach a singular configuration from several directions."""
+    arm = hf.arms.load("planar-3r")
+    index = hf.indices.relative_manipulability(arm, task="planar")
+    distance = np.linspace(1e-3, 0.8, 200)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 3.0))
+        axes = figure.subplots()
+        for direction in np.linspace(0, np.pi, 8, endpoint=False):
+            bend = distance[:, None] * np.array([0.0, np.cos(direction), np.sin(direction)])
+            axes.plot(distance, index(bend), color=BLUE, lw=1.3)
+            axes.plot(0, index(bend[:1])[0], "o", mfc="white", mec=BLUE, ms=5, clip_on=False, zorder=4)
+        axes.set(xlabel="distance from the stretched configuration, rad", ylabel="worst case", xlim=(0, 0.8), ylim=(0, 0.6))
+        axes.set_title("Planar arm with three joints")
+        return settle_layout(figure)
+
+
 def draw_susceptibilities() -> Figure:
     """Draw the vectors of the definitions, and a simulated free swing next to two of the formulas."""
     with style():
