@@ -111,6 +111,28 @@ def _draw_definition_of_swing(axes: Axes) -> None:
     axes.set_title("Seen along the axis of joint i")
 
 
+def draw_susceptibility_choice() -> Figure:
+    """Draw the relative holding torques of two configurations of one pose, with the smallest and largest susceptibility."""
+    arm = hf.arms.load("panda")
+    pose = arm.forward_kinematics(np.array(hf.arms.about("panda").home))
+    torque = hf.susceptibility.torque(arm, "effort")
+    effort = np.array([joint.effort for joint in arm.joints])
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        axes = figure.subplots()
+        for shift, color, name, objective in (
+            (-0.19, BLUE, "best configuration", torque),
+            (0.19, ORANGE, "worst configuration", torque.reversed()),
+        ):
+            q = hf.optimise(arm, pose, objective, seed=1).q
+            axes.bar(np.arange(arm.n) + shift, 100 * np.abs(torque.by_joint(q)) / effort, width=0.36, color=color, label=name)
+        axes.set(xticks=range(arm.n), xticklabels=[f"joint {joint + 1}" for joint in range(arm.n)])
+        axes.set(ylabel="holding torque, % of the largest")
+        axes.set_title("Panda, one tool pose")
+        axes.legend()
+        return settle_layout(figure)
+
+
 def draw_failure_tolerant_inverse() -> Figure:
     """Draw the errors of one command over the damping, and the velocities of both laws after a lock."""
     arm = hf.arms.load("planar-3r")
