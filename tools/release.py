@@ -30,7 +30,7 @@ VERSIONS = {
     "src/holdfast/__init__.py": r'^__version__ = "(.+)"$',
     "CITATION.cff": r"^version: (.+)$",
     "conda/recipe.yaml": r"^  version: ([^$\s]+)$",
-    "CHANGELOG.md": rf"\A# [\s\S]*?^## (\S+)(?: - {_DATE})?$",
+    "CHANGELOG.md": rf"\A# [\s\S]*?^## (\S+)(?: - {_DATE}| \(unreleased\))?$",
 }
 
 
