@@ -44,7 +44,7 @@ def draw_transition(axes: Axes, source: str, target: str) -> None:
     (column, begin), (_, end) = PLACES[source], PLACES[target]
     distance = round(abs(end - begin))
     bend = (-0.15, -0.55, -0.5)[distance - 1]
-    side = (0.08, 0.17, 0.17)[distance - 1] * (1 if end > begin else -1)
+    side = (0.08, 0.13, 0.13)[distance - 1] * (1 if end > begin else -1)
     axes.annotate(
         "", (column + side, -end), (column + side, -begin),
         arrowprops={"arrowstyle": "-|>", "color": SOFT, "lw": 1.2, "shrinkA": 13, "shrinkB": 13,
