@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from concepts import draw_arm
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
@@ -52,7 +52,9 @@ def draw_brouwer() -> Figure:
             joints = CENTRE_CONFIGURATION + (np.asarray(deviation) + outline) @ inverse.T
             error = planar_tool(joints) - centre - deviation
             sections.fill(*(outline - error).T, fc=SKY, ec=BLUE, lw=1.4, alpha=0.75)
-        sections.set(xlim=(-0.03, 0.03), ylim=(-0.03, 0.03), aspect="equal", xlabel="section $s_1$, m", ylabel="section $s_2$, m")
+        sections.set(
+            xlim=(-0.03, 0.03), ylim=(-0.03, 0.03), aspect="equal", xlabel="section $s_1$, m", ylabel="section $s_2$, m"
+        )
         sections.set_title("Section box and its images")
         sections.legend(
             handles=[Patch(fc="#eceff2", ec=SOFT, label="box $S$"), Patch(fc=SKY, ec=BLUE, label="images of $S$")],
@@ -79,7 +81,10 @@ def solve(target: np.ndarray) -> np.ndarray:
     return np.array([np.arctan2(target[1], target[0]) - elbow / 2, elbow])
 
 
-def draw_planar(axes, q: np.ndarray, color: str, width: float) -> None:
+def draw_planar(axes: Axes, q: np.ndarray, color: str, width: float) -> None:
     """Draw the arm at a configuration."""
-    draw_arm(axes, None, q, color=color, width=width)
-    axes.plot(*planar_tool(q), ".", color=INK, ms=4, zorder=7)
+    elbow = np.array([np.cos(q[0]), np.sin(q[0])])
+    points = np.array([[0.0, 0.0], elbow, planar_tool(q)])
+    axes.plot(*points.T, color=color, lw=width, solid_capstyle="round", zorder=3)
+    axes.plot(*points[:-1].T, "o", color="white", mec=color, ms=5, zorder=4)
+    axes.plot(*points[-1], ".", color=INK, ms=4, zorder=7)
