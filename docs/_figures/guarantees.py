@@ -16,7 +16,7 @@ def draw_angular_deviation() -> Figure:
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0)] * 3, name="3R")
     law = hf.control.failure_tolerant(arm, "planar", pre_failure_error=0.5)
     rng = np.random.default_rng(0)
-    result = law.deviations(rng.uniform(-np.pi, np.pi, (4000, 3)), rng.normal(size=(4000, 2)))
+    result = law.deviations(rng.uniform(-np.pi, np.pi, (1500, 3)), rng.normal(size=(1500, 2)))
     errors, angles = result.peak_velocity_error, np.degrees(result.peak_angular_deviation)
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.6))
