@@ -49,7 +49,7 @@ def design_for_workspace(
     Raises:
         InputError: An arm or a parameter of another kind, or counts below 1.
 
-    Source: Lewis and Maciejewski 1997 for the workspace; search and bound derived here (``docs/theory/upper-bounds.md``).
+    Source: Lewis and Maciejewski 1997 for the workspace; search and bound derived here (``docs/theory/arms-at-the-bound.md``).
     """
     start_time = time.monotonic()
     if generations < 1 or restarts < 1:

@@ -116,7 +116,7 @@ def main() -> None:
     lines = [
         "# Ceilings",
         "",
-        "Written by `python -m measurements.upper_bounds`. Measured here; proofs are in `docs/theory/upper-bounds.md`.",
+        "Written by `python -m measurements.upper_bounds`. Measured here; proofs are in `docs/theory/upper-bounds-proofs.md`.",
         "",
         BUSY,
         "",

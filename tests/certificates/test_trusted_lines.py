@@ -16,7 +16,7 @@ from holdfast.certificates import verifier
 pytest.importorskip("flint", reason="python-flint is not installed")
 ROOT = Path(verifier.__file__).parent
 MODULES = {"verifier": ROOT / "verifier.py"} | {file.stem: file for file in (ROOT / "verifier_parts").glob("*.py")}
-PAGE = (Path(__file__).parents[2] / "docs" / "theory" / "certificates.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "evidence" / "certificates.md").read_text(encoding="utf-8")
 
 
 def code(file):

@@ -1,4 +1,4 @@
-"""Digests: checked by another reading of docs/reference/files.md, on changed bits, on old folders, in copies of live ones."""
+"""Digests: checked by another reading of docs/reference/record-digests.md, on changed bits, on old folders, in copies of live ones."""
 
 import hashlib
 import json
@@ -50,7 +50,7 @@ def test_what_was_written_is_sound(experiment):
 
 
 def by_hand(folder):
-    """The last digest of each chain, as docs/reference/files.md says, without a line of holdfast."""
+    """The last digest of each chain, as docs/reference/record-digests.md says, without a line of holdfast."""
 
     def packed(row):
         out = b""

@@ -96,7 +96,7 @@ class SingularValueBound(Result):
             lengths where rows are mixed; infinite if it may be anything.
         angular: True where angular rows are among the rows: three linear and three angular ones of a pose, for example.
         bound: No Jacobian has more, in the unit of ``lever``.
-        bound_by: S0 to S3 of ``docs/theory/upper-bounds.md``.
+        bound_by: S0 to S3 of ``docs/theory/upper-bounds-proofs.md``.
     """
 
     n: int
@@ -129,7 +129,7 @@ def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angu
     Raises:
         InputError: As :func:`upper_bound`; a lever that is not positive, or infinite where the task is no pose.
 
-    Source: derived here (``docs/theory/upper-bounds.md``, S0 to S3).
+    Source: derived here (``docs/theory/upper-bounds-proofs.md``, S0 to S3).
     """
     upper_bound(n=n, m=m, k=k)  # the same sizes have one
     is_pose = angular and m == _POSE_ROWS

@@ -65,7 +65,7 @@ class UpperBound(Result):
     Attributes:
         n, m, k: Joints, rows of the task, joints that fail at once.
         bound: No configuration of any arm has more.
-        bound_by: The theorems that prove it, names of ``docs/theory/upper-bounds.md``.
+        bound_by: The theorems that prove it, names of ``docs/theory/upper-bounds-proofs.md``.
     """
 
     n: int

@@ -1,6 +1,6 @@
 """Digests of the records: a chain of SHA-256 for each session, so that any changed bit is detected.
 
-``docs/reference/files.md`` says how to check them without holdfast. They show damage, and a change by somebody who does not know of them;
+``docs/reference/record-digests.md`` says how to check them without holdfast. They show damage, and a change by somebody who does not know of them;
 whoever rewrites the whole chain is found out only by a digest that was written down elsewhere.
 """
 
