@@ -41,12 +41,12 @@ nitpick_ignore_regex = [
     (r"py:class", r"ArrayLike|DataFrame|Figure|Fraction|Mapping\[str|NDArray"),
     # Names of types in annotations, which have no entry in the documentation.
     (r"py:class", r"(Float|Bool|Index)Array|P|holdfast\.core\.typing\.T|holdfast\.kernels\.disk_cache\.K"),
-    (r"py:class", r"AccelerationsLike|Aim|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
-    (r"py:class", r"Locked(At|Anywhere)?|MetricName|Missing|Progress|React|RestSystem|Tolerance|Vary|Why"),
+    (r"py:class", r"AccelerationsLike|Aim|Arcs|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
+    (r"py:class", r"Locked(At|Anywhere)?|Method|MetricName|Missing|Progress|React|RelativeTo|RestSystem|Tolerance|Vary|Why"),
     # Classes that users do not construct.
     (r"py:class", r"(holdfast\.certificates\.(kinds|claims)\.)?((Locked)?Target)?Claim"),
     (r"py:class", r"RunSettings|_Simulator|holdfast\.control\.laws\.export\._Law"),
-    (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Composite)Result|tool_paths\.proof\.LockedPath)"),
+    (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Certificate|Composite)Result|tool_paths\.proof\.LockedPath)"),
     (r"py:class", r"holdfast\.control\.simulation\.closed_loop\.LockSchedule"),
     (r"py:class", r"holdfast\.core\.(probability\.intervals\.WeightSums|sweeps\.journal\.JournalEntry)"),
     (r"py:class", r"holdfast\.interface\.(presentation\.arm\.body\.MeshPart|report\.viewer\.ViewerScene)"),
@@ -57,9 +57,9 @@ nitpick_ignore_regex = [
     ),
     (r"py:class", r"holdfast\.model\.shapes\.pieces\.(Missing|Piece)"),
     (r"py:class", r"holdfast\.response\.diagnosis\.signals\.(ScaledResiduals|Signals)"),
-    (r"py:class", r"holdfast\.response\.faults\.(distributions\.ParameterDistribution|entry\.FaultTiming)"),
+    (r"py:class", r"holdfast\.response\.faults\.entry\.(FaultTiming|ParameterDistribution)"),
     (r"py:class", r"holdfast\.response\.faults\.fault_model\.HasJointNames"),
-    (r"py:class", r"holdfast\.response\.lock_survival\.problem\.SurvivalProblem"),
+    (r"py:class", r"holdfast\.response\.lock_survival\.(conditions\.MotionConditions|problem\.SurvivalProblem)"),
     (r"py:class", r"holdfast\.studies\.designs\.record_book\.entries\.RecordFile"),
 ]
 suppress_warnings = ["ref.python"]  # a plain Kind or Path in a signature has namesakes in other packages
