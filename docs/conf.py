@@ -57,7 +57,7 @@ nitpick_ignore_regex = [
     ),
     (r"py:class", r"holdfast\.model\.shapes\.pieces\.(Missing|Piece)"),
     (r"py:class", r"holdfast\.response\.diagnosis\.signals\.(ScaledResiduals|Signals)"),
-    (r"py:class", r"holdfast\.response\.faults\.(distributions\.ParameterDistribution|entry\.FaultTiming)"),
+    (r"py:class", r"holdfast\.response\.faults\.entry\.(ParameterDistribution|FaultTiming)"),
     (r"py:class", r"holdfast\.response\.faults\.fault_model\.HasJointNames"),
     (r"py:class", r"holdfast\.response\.lock_survival\.problem\.SurvivalProblem"),
     (r"py:class", r"holdfast\.studies\.designs\.record_book\.entries\.RecordFile"),
