@@ -143,6 +143,7 @@ WITHOUT_FIGURE |= {
 }
 WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
+    "BisectionResult",
     "Analysis",
     "Bounds",
     "ConvergenceDesigns",

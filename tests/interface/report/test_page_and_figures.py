@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import matplotlib as mpl
@@ -22,6 +23,8 @@ from holdfast.core.formatting import (
     list_alternatives,
 )
 from holdfast.core.result import Result
+from holdfast.interface import presentation
+from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 from holdfast.interface.report import (
     Bin,
     Callout,
@@ -142,19 +145,25 @@ class Told(Result):
     def describe(self) -> list[str]:
         return ["The answer.", "More."]
 
-    def figures(self) -> dict[str, Figure]:  # type: ignore[override]
+    def draw(self) -> Figure:
         self.asked += 1
-        return {"bars": bar_figure(["a"], [1], "b")}
+        return bar_figure(["a"], [1], "b")
 
 
-def test_a_folder_and_its_page_hold_the_same_figure_drawn_once(tmp_path: Path) -> None:
+def present(told: Told) -> Presentation:
+    return Presentation("Told", "The answer.", lines=["More."], figures={"bars": FigureSpec(told.draw)})
+
+
+def test_a_folder_and_its_page_hold_the_same_figure_drawn_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(presentation.PRESENTER_MODULES, f"{Told.__module__}.Told", "told_presenter")
+    monkeypatch.setitem(sys.modules, "holdfast.interface.presentation.told_presenter", sys.modules[__name__])
     told = Told()
     picture, page = told.save(tmp_path, command="holdfast arms", dpi=150)
     assert told.asked == 1
     assert int.from_bytes(picture.read_bytes()[16:20]) == 1200  # 8 inches
     html = page.read_text(encoding="utf-8")
     check(html)
-    assert str(svg(told.figures()["bars"], "bars", "Told: what was found")) in html
+    assert str(svg(told.draw(), "bars", "Told: what was found")) in html
     assert html.index("The answer.") < html.index("More.") < html.index("<svg") < html.index("<pre>holdfast arms")
 
 

@@ -36,10 +36,11 @@ class Interval:
         """
         from scipy.special import betaincinv
 
-        rest = (1 - confidence) / 2
+        rest, value = (1 - confidence) / 2, float(hits / size)
         low = float(betaincinv(hits, size - hits + 1, rest)) if hits > 0 else 0.0
         high = float(betaincinv(hits + 1, size - hits, 1 - rest)) if hits < size else 1.0
-        return cls(value=float(hits / size), low=low, high=high, confidence=confidence)
+        # betaincinv ends at 1.8e-12 where the limit of next to no hits is smaller.
+        return cls(value=value, low=min(low, value), high=max(high, value), confidence=confidence)
 
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:

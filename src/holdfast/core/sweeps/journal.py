@@ -61,7 +61,7 @@ class ChecksumLines:
                     while unwritten:
                         unwritten = unwritten[os.write(handle, unwritten) :]
                     os.fsync(handle)
-                except BaseException:
+                except OSError:  # after Ctrl-C a whole line counts, and a part of one is cut off by the next call
                     os.ftruncate(handle, end)
                     raise
             finally:

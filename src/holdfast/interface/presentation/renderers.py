@@ -13,7 +13,7 @@ from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Presentable, Result
-from holdfast.interface.presentation import call_presenter
+from holdfast.interface.presentation import call_presenter, find_presenter
 from holdfast.interface.presentation.page_content import build_method_blocks
 from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 from holdfast.interface.presentation.printing import TextTable, print_table, to_json_types
@@ -30,8 +30,12 @@ _TONE_COLORS = {"bad": "red", "warn": "yellow", "good": "green", "note": "defaul
 
 
 def present(thing: Presentable, **options: Any) -> Presentation:
-    """Return the presentation of an object."""
-    presentation: Presentation = call_presenter(thing, "present", **options)
+    """Return the presentation of an object; for a class without a presenter the sentences of its ``describe``."""
+    presenter = find_presenter(type(thing), "present")
+    if presenter is present:
+        answer, *lines = thing.describe()  # type: ignore[attr-defined]
+        return Presentation(type(thing).__name__, answer, lines=lines)
+    presentation: Presentation = presenter(thing, **options)
     return presentation
 
 
@@ -96,7 +100,10 @@ def in_notebook(thing: Presentable) -> str:
     presentation = present(thing)
     answer, *remarks = sentences(thing)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
-    facts = TextTable(["", ""], _list_facts(presentation))
+    rows = _list_facts(presentation)
+    if not rows and not presentation.tables and isinstance(thing, Result):
+        rows = [[key.replace("_", " "), str(x)] for key, x in thing.to_dict().items() if isinstance(x, (str, int, float))]
+    facts = TextTable(["", ""], rows)
     parts.append(
         format_table(facts if facts.rows or not presentation.tables else next(iter(presentation.list_tables())).texts())
     )
