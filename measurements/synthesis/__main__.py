@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 import holdfast as hf
-from holdfast.core.files.matrices import read_matrix
 from holdfast.core.files.output import make_folder
 from measurements.synthesis.arms import Synthesis, synthesise, write_dh_table
+from measurements.synthesis.matrices import read_matrix
 from measurements.synthesis.orders import compare_joint_orders
 
 

@@ -149,7 +149,7 @@ def test_arms_from_files_of_numbers(tmp_path, capsys):
     assert hf.arms.resolve(str(tmp_path / "a" / "arm-1.yaml")).n == 4
     for text, refused, said in (
         (None, [*words, "--orders"], "orders are compared for poses"),
-        ("1, 2\n3, x\n", [str(file)], "null.csv, line 2: '3, x' is no row of numbers"),
+        ("1, 2\n3, x\n", [str(file)], "null.csv, line 2: '3, x' is not a row of numbers"),
         ("1 2\n3\n", [str(file)], "line 2: 1 numbers; the first row has 2"),
         (None, ["--size", "7,5,2", "--task", "pointing"], "arms are made for"),
     ):

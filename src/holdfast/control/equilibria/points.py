@@ -16,7 +16,6 @@ from holdfast.core.caching import cached_property
 from holdfast.core.progress import Progress, ignore_progress
 from holdfast.core.result import Result
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-from holdfast.model.arm.model import Arm
 
 WAVE_STARTS = 256
 MAX_IDLE_WAVES = 3
@@ -172,7 +171,3 @@ def classify_points(system: RestSystem, locked_values: FloatArray, q: FloatArray
         starts=starts,
     )
     return points._subset(np.lexsort((np.round(scaled_error, 9), ~points.attracting, point_kinds)))
-
-
-def _format_value(arm: Arm, joint: int, value: float) -> str:
-    return f"{value:.4g} m" if arm.joints[joint].prismatic else f"{np.rad2deg(value):.4f} deg"

@@ -16,7 +16,6 @@ from holdfast.interface.presentation.printing import TextTable
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MAX_SENTENCES = 3
 _MAX_TABLE_ROWS = 12
 _PIXEL_DENSITY = 1.5  # dots for each of the screen's
 _PIXELS_PER_INCH = 96  # px

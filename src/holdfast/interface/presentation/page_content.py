@@ -1,4 +1,4 @@
-"""Content of the page of a result: the answer, its numbers, captions of the figures, and the method."""
+"""Method section of a page: what was computed, the provenance of the arm, and the package versions."""
 
 from __future__ import annotations
 

@@ -7,7 +7,6 @@ Whatever takes time (figures, views of an arm, long tables) is given as a functi
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
@@ -16,7 +15,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from holdfast.core.files.output import open_replacement
 from holdfast.core.formatting import Probability, format_interval, format_number, format_percent
 from holdfast.interface.presentation.printing import (
     TextTable,
@@ -93,7 +91,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Header:
-    """Head of a column of a table: its key in JSON and CSV, its label, and the unit of its values, if need be one for each row.
+    """Head of a column of a table: its key in JSON, its label, and the unit of its values, if need be one for each row.
 
     Numbers of one unit share one precision where their magnitudes allow it; ``aligned=False`` formats each by itself.
     """
@@ -125,7 +123,7 @@ class Header:
 
 @dataclass(frozen=True)
 class TableSpec:
-    """Table of typed values: rendered on the console and on pages, as JSON records, and as CSV.
+    """Table of typed values: rendered on the console, on pages, and as JSON records.
 
     Attributes:
         title: Above the table.
@@ -152,14 +150,6 @@ class TableSpec:
         """Return the rows as dictionaries, for JSON."""
         return [{column.key: value for column, value in zip(self.columns, row, strict=True)} for row in self.rows]
 
-    def write_csv(self, path: Path) -> Path:
-        """Write the rows as CSV, floats with twelve digits."""
-        with open_replacement(path, "table") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow([column.key for column in self.columns])
-            writer.writerows([f"{x:.12g}" if isinstance(x, (float, np.floating)) else x for x in row] for row in self.rows)
-        return path
-
 
 @dataclass(frozen=True)
 class FigureSpec:
@@ -185,10 +175,15 @@ class Notice:
     tone: Literal["bad", "warn", "good", "note"] = "warn"
     title: str = ""
 
+    @property
+    def sentence(self) -> str:
+        """The text after its title."""
+        return f"{self.title}: {self.text}" if self.title else self.text
+
 
 @dataclass(frozen=True)
 class Presentation:
-    """Everything that is said about a result, whoever shows it.
+    """Description of a result, from which every renderer takes its content.
 
     Attributes:
         title: What was asked.

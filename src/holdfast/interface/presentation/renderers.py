@@ -41,8 +41,11 @@ def present(thing: Presentable, **options: Any) -> Presentation:
 
 def sentences(thing: Presentable) -> list[str]:
     """Return the answer and the sentences after it."""
-    presentation = present(thing)
-    notices = [f"{notice.title}: {notice.text}" if notice.title else notice.text for notice in presentation.notices]
+    return _list_sentences(present(thing))
+
+
+def _list_sentences(presentation: Presentation) -> list[str]:
+    notices = [notice.sentence for notice in presentation.notices]
     return [text for text in (presentation.answer, *presentation.lines, *notices) if text]
 
 
@@ -61,7 +64,7 @@ def to_dict(result: Result, **options: Any) -> dict[str, Any]:
 
 
 def show(result: Result, out: Console, **options: Any) -> None:
-    """Print what was given, the answer, its reasons, the numbers, and the tables."""
+    """Print the question, the answer, its reasons, the numbers, and the tables."""
     from rich.markup import escape as escape_markup
 
     from holdfast.interface.presentation.terminal import BandedTable
@@ -73,8 +76,7 @@ def show(result: Result, out: Console, **options: Any) -> None:
     for line in presentation.lines:
         out.print(escape_markup(line), soft_wrap=True)
     for notice in presentation.notices:
-        text = f"{notice.title}: {notice.text}" if notice.title else notice.text
-        out.print(f"[{_TONE_COLORS[notice.tone]}]{escape_markup(text)}[/]", soft_wrap=True)
+        out.print(f"[{_TONE_COLORS[notice.tone]}]{escape_markup(notice.sentence)}[/]", soft_wrap=True)
     if rows := _list_facts(presentation):
         facts = BandedTable()
         for row in rows:
@@ -98,7 +100,7 @@ def in_notebook(thing: Presentable) -> str:
     from holdfast.interface.presentation.notebook import format_table
 
     presentation = present(thing)
-    answer, *remarks = sentences(thing)
+    answer, *remarks = _list_sentences(presentation)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
     rows = _list_facts(presentation)
     if not rows and not presentation.tables and isinstance(thing, Result):

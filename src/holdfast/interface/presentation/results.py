@@ -4,22 +4,13 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.result import Result
 from holdfast.interface.presentation import call_presenter
-from holdfast.interface.presentation.printing import (
-    make_console,
-    print_json,
-    print_written_files,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    Drawings = dict[str, Callable[[], Figure]]
+from holdfast.interface.presentation.printing import make_console, print_json, print_written_files
 
 
 def print_result(
@@ -27,7 +18,7 @@ def print_result(
 ) -> None:
     """Print a result: JSON for machines, with the files if they are listed; or text for people, and the files.
 
-    The options are what was asked about the result: its ``to_dict`` and ``show`` take them.
+    The options, for example thresholds, go to ``to_dict`` and ``show`` of the result.
     """
     if as_json:
         print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))

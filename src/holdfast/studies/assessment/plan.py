@@ -41,7 +41,6 @@ _SURVIVES_AT_TEXT = (
     "1 if the pose can still be reached once the joint has locked at the angle that the plan gives, or where it was at another "
     "pose, 0 if not found, -1 unknown or not asked"
 )
-_OPTIMISED_Q_TEXT = "best configuration found; NaN where there is none"
 _AGREEING_TEXT = "share of the starts followed to the end that reached the best value"
 _CLEARANCE_TEXT = "smallest distance between links; below 0: the arm runs through itself"
 _OPTIMISED_STATUS_TEXT = "as status; 4: every configuration found runs the arm through itself"

@@ -10,12 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.formatting import format_number
-from holdfast.core.labels import TASK_SIZES
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import check_arm
-from holdfast.model.arm.task import plane_normal
 from holdfast.studies.assessment.single_points import explain, structures
 
 if TYPE_CHECKING:
@@ -93,15 +91,6 @@ def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
     from holdfast.interface.presentation.arm import view
 
     return view.page(arm, q, **options)
-
-
-def find_redundant_task(arm: Arm) -> str | None:
-    """Return the largest task of the arm's kind of motion (planar or spatial) with fewer rows than joints; None if there is
-    none.
-    """
-    is_planar = plane_normal(arm) is not None
-    candidates = [task for task, rows in TASK_SIZES.items() if task.startswith("planar") == is_planar and rows < arm.n]
-    return max(candidates, key=TASK_SIZES.__getitem__, default=None)
 
 
 def show(arm: Arm, out: Console) -> None:

@@ -16,14 +16,14 @@ def read_matrix(path: str | Path) -> NDArray[np.float64]:
     a comment.
 
     Raises:
-        InputError: It cannot be read, a word is no number, or rows are of several lengths; the line is named.
+        InputError: The file cannot be read, a word is not a number, or the rows differ in length; the message names the line.
     """
     name = Path(path).name
     with guard_reading(name):
         try:
             content = read_text(path)
         except UnicodeDecodeError as error:
-            raise InputError(f"{name} is no text in UTF-8; give a row of numbers a line") from error
+            raise InputError(f"{name} is not a text file in UTF-8; write one row of the matrix per line") from error
     rows = list[list[float]]()
     for number, line in enumerate(content.split("\n"), 1):
         words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
@@ -32,9 +32,9 @@ def read_matrix(path: str | Path) -> NDArray[np.float64]:
         try:
             rows.append([float(word) for word in words])
         except ValueError as error:
-            raise InputError(f"{name}, line {number}: '{line.strip()[:40]}' is no row of numbers") from error
+            raise InputError(f"{name}, line {number}: '{line.strip()[:40]}' is not a row of numbers") from error
         if len(rows[-1]) != len(rows[0]):
             raise InputError(f"{name}, line {number}: {len(rows[-1])} numbers; the first row has {len(rows[0])}")
     if not rows:
-        raise InputError(f"{name} holds no numbers; give a row of the matrix a line")
+        raise InputError(f"{name} has no numbers; write one row of the matrix per line")
     return np.array(rows)
