@@ -1,7 +1,7 @@
-"""A paper's statements beside ours, and the page of the docs that gathers them.
+"""Compare the statements of the papers with our results, and collect them on one page of the documentation.
 
-``python -m papers.claims`` writes ``docs/evidence/claims.md`` from the tables of statements in every ``papers/*/RESULTS.md`` and in
-``measurements/certificates/RESULTS.md``, which the papers' own runs write; nothing is computed again.
+``python -m papers.claims`` writes ``docs/evidence/claims.md`` from the tables of statements in every
+``papers/*/RESULTS.md`` and in ``measurements/certificates/RESULTS.md``. It computes nothing again.
 """
 
 from __future__ import annotations
@@ -70,22 +70,23 @@ INTRODUCTION = """\
 
 # Claims checked
 
-holdfast makes the figures, tables and numbers of four papers again. This page lists their statements that can be true or
-false, beside what we computed. The command under each heading, run in a checkout of holdfast, computes everything in its
-table again and writes it, with the figures, into a file `RESULTS.md`.
+holdfast reproduces the figures, tables and numbers of four papers. This page compares each statement that can be true or
+false with our result. Run the command under a heading in a checkout of holdfast to recompute its table. The command writes
+the table, with the figures, into a file `RESULTS.md`.
 
-These papers are the ground of holdfast, and most of what they say holds. Where a statement does not hold *as it
-is written*, the row says how it can be read so that it does. Scans and lost displays make some places hard to read;
-where a number depends on our reading, the row says so. The last section has popular beliefs beside the papers' statements:
-there each word in bold is proved by a [certificate](../theory/certificates.md), where a sample can only say that it found no exception.
+holdfast builds on these papers, and most of their statements hold. If a statement does not hold *as written*, its row gives
+a reading under which it does. Some passages are hard to read, because they exist only as scans or have lost their
+displays. A row states where a number depends on our reading. The last section compares common beliefs with the papers.
+There, each verdict in bold is proved by a [certificate](../theory/certificates.md), because a sample can only
+show that no exception was found.
 
-| verdict | it means |
+| verdict | meaning |
 |---|---|
-| holds | we get the same, or the same to the digits that are printed |
-| holds in part | true with a condition that the text does not name, or of some cases only |
-| false as written | there is a counterexample; the row has it |
+| holds | our result agrees, exactly or to the printed digits |
+| holds in part | true under a condition that the text does not name, or only for some cases |
+| false as written | the row contains a counterexample |
 | false as we read it | there is a counterexample under our reading of values that are not stated or hard to read |
-| cannot be told | the text does not give what it takes to check it |
+| cannot be told | the text does not contain enough information for a check |
 """
 
 

@@ -203,7 +203,7 @@ def test_no_claim_is_stronger_than_its_evidence(name, start, verdict):
 
 
 def test_the_angle_is_bounded_by_the_error_whatever_the_vectors(rng):
-    """What docs/evidence/claims.md calls a theorem: a velocity within r < 1 of a unit command is within arcsin r of its direction."""
+    """A velocity within r < 1 of a unit command is within arcsin r of its direction (theorem in docs/evidence/claims.md)."""
     command = rng.normal(size=(20_000, 4))
     command /= np.linalg.norm(command, axis=1, keepdims=True)
     off = rng.normal(size=command.shape)

@@ -9,7 +9,7 @@ from concepts import WIDTH_IN
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, INK, ORANGE, SOFT, settle_layout, style
 
 
 def bench() -> hf.Cell:

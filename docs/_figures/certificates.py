@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, INK, ORANGE, SKY, SOFT, settle_layout, style
 
 WIDTH_IN = 8.6
 CENTRE_CONFIGURATION = np.array([0.1, 0.9])  # rad, of a planar arm with two links of 1 m

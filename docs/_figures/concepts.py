@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
 import holdfast as hf
-from holdfast.interface.report.figures import AMBER, BLUE, GREEN, INK, ORANGE, SKY, SOFT, settle_layout, style
+from holdfast.interface.report import AMBER, BLUE, GREEN, INK, ORANGE, SKY, SOFT, settle_layout, style
 
 WIDTH_IN = 8.6
 TARGET = (1.35, 1.0)  # m

@@ -8,9 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
-from holdfast.response.diagnosis.decision import ISOLATION_TIME_S
-from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S
+from holdfast.interface.report import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
+from holdfast.response.diagnosis import EXCESS_LIMITS_S, ISOLATION_TIME_S
 
 LOCK_TIME_S = 1.5
 DURATION_S = 2.2

@@ -5,8 +5,8 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from holdfast.interface.report.figures import BLUE, INK, SOFT, settle_layout, style
-from holdfast.response.supervisor.states import TRANSITION_TABLE
+from holdfast.interface.report import BLUE, INK, SOFT, settle_layout, style
+from holdfast.response.supervisor import TRANSITION_TABLE
 
 WIDTH_IN = 8.6
 PLACES = {

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
 
 EPISODES = 12
 HORIZON_S = 10.0

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, ORANGE, SKY, settle_layout, style
+from holdfast.interface.report import BLUE, ORANGE, SKY, settle_layout, style
 
 WIDTH_IN = 8.6
 CEILING, FLOOR = 0.07, 0.02

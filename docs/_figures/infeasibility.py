@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle, Wedge
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, SKY, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, SKY, SOFT, settle_layout, style
 
 WIDTH_IN = 8.6
 LOCKED_RAD = np.radians(120.0)  # of joint 2

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, ORANGE, SKY, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, ORANGE, SKY, SOFT, settle_layout, style
 
 WIDTH_IN = 8.6
 GREY = "#c9d0d6"

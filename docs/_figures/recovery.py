@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from scipy.ndimage import label
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, GREEN, ORANGE, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, GREEN, ORANGE, SOFT, settle_layout, style
 
 BALL_CENTERS_M = ((2.6, 0.4), (1.0, 0.5), (-1.0, -0.6))
 BALL_RADIUS_M = 0.2

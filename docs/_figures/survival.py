@@ -7,7 +7,7 @@ from concepts import WIDTH_IN
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, ORANGE, settle_layout, style
+from holdfast.interface.report import BLUE, ORANGE, settle_layout, style
 
 LIMITS_RAD = ((-1.2, 1.0), (-1.6, 2.0), (-1.2, 2.2))
 SAMPLES = 41

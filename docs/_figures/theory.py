@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import AMBER, BLUE, GREEN, INK, ORANGE, SKY, SOFT, settle_layout, style
+from holdfast.interface.report import AMBER, BLUE, GREEN, INK, ORANGE, SKY, SOFT, settle_layout, style
 
 TARGET = (1.35, 1.0)  # m
 WORKSPACE_START, WORKSPACE_TARGET = (2.0, -1.4), (1.5, 1.5)  # m

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report.figures import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
+from holdfast.interface.report import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
 
 WIDTH_IN = 8.6
 TASK_COMPONENTS = 6

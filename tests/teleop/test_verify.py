@@ -1,4 +1,4 @@
-"""Digests: checked by another reading of docs/reference/record-digests.md, on changed bits, on old folders, in copies of live ones."""
+"""Check digests by an independent implementation of docs/reference/record-digests.md, on changed bits and old folders."""
 
 import hashlib
 import json

@@ -2,9 +2,9 @@
 The worst joint of one configuration
 ====================================
 
-The nine-joint PA10 stands in the middle of its limits; one joint locks. How much of its
-manipulability is left, and which joint hurts most? Arm and configuration are those of Table I of
-[Abdi2012]_.
+Each joint of the nine-joint PA10 is at the middle of its range when one joint locks. How much of
+its manipulability remains, and which joint matters most? Arm and configuration are those of Table I
+of [Abdi2012]_.
 """
 
 import matplotlib.pyplot as plt

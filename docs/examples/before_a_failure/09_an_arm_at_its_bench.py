@@ -2,9 +2,9 @@
 An arm at its bench
 ===================
 
-Nobody's arm stands in empty space. A cell is a file with objects around it: here a table, a vise,
+A real arm is surrounded by objects. A cell file describes them. This cell contains a table, a vise,
 a tray and a portal from meshes, a camera, a post, a hose and a lamp. How much dexterity does a
-Panda keep when a joint locks, in configurations that touch none of them?
+Panda keep when a joint locks, in configurations that touch none of these objects?
 """
 
 # sphinx_gallery_capture_repr = ('_repr_html_',)
@@ -25,7 +25,7 @@ for line in result.describe():
     print(line)
 
 # %%
-# The best clear configuration of the pose that keeps the most.
+# The best collision-free configuration of the pose that keeps the most dexterity.
 
 columns = result.columns
 best = int(np.nanargmax(columns["optimised_index"]))

@@ -205,11 +205,12 @@ class WeightSums:
     def effective_size(self) -> float:
         """Effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
 
-        A sample kept with the probability ``w / max w`` is one of equal weight, so about as many are left. Intervals and bands
-        of so many equal samples are wide enough (a weighted share scatters by at most ``p (1 - p)`` over this), those of
-        ``(sum w)^2 / sum w^2``, which is larger, need not be. What no sample can tell: a rare, heavier weight not yet seen.
+        If each sample is kept with probability ``w / max w``, the kept samples have equal weights, and about this many
+        remain. The variance of a weighted share is at most ``p (1 - p)`` divided by this size, so intervals and bands for
+        this many equal samples are wide enough. The larger size ``(sum w)^2 / sum w^2`` does not guarantee that.
+        A sample cannot reveal a rare, heavier weight that it does not contain.
 
-        Source: Martino, Elvira, Louzada 2017 for this size; that intervals of it cover is measured (:doc:`/evidence/intervals`).
+        Source: Martino, Elvira, Louzada 2017 for this size; the coverage is measured (:doc:`/evidence/intervals`).
         """
         return self.weight / self.largest
 

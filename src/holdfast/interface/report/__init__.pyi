@@ -32,8 +32,10 @@ from holdfast.interface.report.page import Table as Table
 from holdfast.interface.report.page import Text as Text
 from holdfast.interface.report.page import render as render
 from holdfast.interface.report.page import write as write
+from holdfast.interface.report.palette import AMBER as AMBER
 from holdfast.interface.report.palette import BLUE as BLUE
 from holdfast.interface.report.palette import FAINT as FAINT
+from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
 from holdfast.interface.report.palette import ORANGE as ORANGE
 from holdfast.interface.report.palette import SKY as SKY

@@ -1,6 +1,7 @@
 """Proved upper bounds of relative manipulability after k failures, for every arm of n joints and task of m rows.
 
-A bound is the least that the theorems give; each carries the names of those it rests on. ``docs/theory/upper-bounds-proofs.md`` has the proofs.
+A bound is the smallest value that the theorems imply, and it carries the names of the theorems used.
+``docs/theory/upper-bounds-proofs.md`` contains the proofs.
 """
 
 from __future__ import annotations

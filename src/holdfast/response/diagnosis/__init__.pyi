@@ -2,6 +2,7 @@ from holdfast.response.diagnosis.answer import Diagnosis as Diagnosis
 from holdfast.response.diagnosis.bounds import Bounds as Bounds
 from holdfast.response.diagnosis.bounds import calibrate as calibrate
 from holdfast.response.diagnosis.bounds import load as load
+from holdfast.response.diagnosis.decision import ISOLATION_TIME_S as ISOLATION_TIME_S
 from holdfast.response.diagnosis.detectability.delay import expected_delays as expected_delays
 from holdfast.response.diagnosis.detectability.motions import read_motion as read_motion
 from holdfast.response.diagnosis.detectability.observability import Observability as Observability
@@ -17,6 +18,7 @@ from holdfast.response.diagnosis.kinds import FaultVerdict as FaultVerdict
 from holdfast.response.diagnosis.monitor import Monitor as Monitor
 from holdfast.response.diagnosis.monitor import diagnose as diagnose
 from holdfast.response.diagnosis.sensors import Sensors as Sensors
+from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S as EXCESS_LIMITS_S
 from holdfast.response.diagnosis.simulated_logs import ExternalForce as ExternalForce
 from holdfast.response.diagnosis.simulated_logs import simulate_log as simulate_log
 from holdfast.response.diagnosis.simulated_logs import simulate_logs as simulate_logs

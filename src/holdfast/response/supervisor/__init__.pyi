@@ -3,3 +3,4 @@ from holdfast.response.supervisor.export import export_controller as export_cont
 from holdfast.response.supervisor.loop import simulate_faults as simulate_faults
 from holdfast.response.supervisor.run import Action as Action
 from holdfast.response.supervisor.run import FaultRun as FaultRun
+from holdfast.response.supervisor.states import TRANSITION_TABLE as TRANSITION_TABLE

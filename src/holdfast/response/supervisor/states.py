@@ -185,6 +185,6 @@ class StateMachine(Generic[State]):
         transition = Transition(self.machine, type(self.state).__name__, event, type(state).__name__)
         if transition not in TRANSITION_TABLE:
             raise HoldfastError(
-                f"the controller has no transition {transition}; see holdfast.response.supervisor.states.TRANSITION_TABLE"
+                f"the controller has no transition {transition}; see holdfast.response.supervisor.TRANSITION_TABLE"
             )
         self.state = state

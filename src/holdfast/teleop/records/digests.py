@@ -1,7 +1,7 @@
 """Digests of the records: a chain of SHA-256 for each session, so that any changed bit is detected.
 
-``docs/reference/record-digests.md`` says how to check them without holdfast. They show damage, and a change by somebody who does not know of them;
-whoever rewrites the whole chain is found out only by a digest that was written down elsewhere.
+``docs/reference/record-digests.md`` explains how to check them without holdfast. The digests reveal damage and changes by a
+person who does not update them. A rewritten chain is revealed only by a digest that was noted elsewhere.
 """
 
 from __future__ import annotations
