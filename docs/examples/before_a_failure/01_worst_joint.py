@@ -3,8 +3,8 @@ The worst joint of one configuration
 ====================================
 
 Each joint of the nine-joint PA10 is at the middle of its range when one joint locks. How much of
-its manipulability remains, and which joint matters most? Arm and configuration are those of Table I
-of [Abdi2012]_.
+its manipulability remains, and which joint matters most? Arm and configuration are those of
+Table I of [Abdi2012]_.
 """
 
 import matplotlib.pyplot as plt
