@@ -3,8 +3,8 @@ An arm at its bench
 ===================
 
 A real arm is surrounded by objects. A cell file describes them. This cell contains a table, a
-vise, a tray and a portal from meshes, a camera, a post, a hose and a lamp. How much dexterity does
-a Panda keep when a joint locks, in configurations that touch none of these objects?
+vise, a tray and a portal from meshes, a camera, a post, a hose and a lamp. How much dexterity
+does a Panda keep when a joint locks, in configurations that touch none of these objects?
 """
 
 # sphinx_gallery_capture_repr = ('_repr_html_',)
