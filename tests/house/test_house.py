@@ -7,7 +7,7 @@ import sys
 import tomllib
 
 import pytest
-from tools.house import inner, picture, ratchet, rules, words
+from tools.house import inner, picture, prose, ratchet, rules, words
 from tools.house.imports import circles, graph, read
 
 
@@ -163,6 +163,41 @@ def test_long_files_and_full_folders(package):
 )
 def test_retired_words(text, found):
     assert words.count(iter([("docs", False, text)])) == {f"{word}, docs": number for word, number in found.items()}
+
+
+@pytest.mark.parametrize(
+    ("text", "pattern"),
+    [
+        ("It prints what remains.", "'what' as a noun"),
+        ("The page says it.", "talking programs"),
+        ("Nobody checks.", "nameless agents"),
+        ("A table beside the plot.", "literal translations"),
+        ("One; two.", "semicolons"),
+        ("One: two.", "colons"),
+        ("It ends. Of two arms one is better.", "phrases in front"),
+        ("Both are looked at again.", "'look at' for 'check'"),
+    ],
+)
+def test_a_pattern_of_foreign_prose_is_counted_in_running_text_only(text, pattern):
+    assert prose.measure_prose(text).hits == {**dict.fromkeys(prose.PATTERNS, 0), pattern: 1}
+    hidden = f"# {text}\n\n```sh\n{text}\n```\n\n| {text} |\n\n`{text}`\n"
+    assert not prose.measure_prose(hidden).hits.total()
+
+
+def test_excesses_of_foreign_prose_are_what_must_be_rewritten():
+    good = "The arm keeps its dexterity because one joint is redundant. " * 30
+    assert prose.find_excesses({"good.md": good}) == {}
+    bad = good + "Nobody moves; it says so. " * 5
+    assert prose.find_excesses({"bad.md": bad}) == {
+        "bad.md": 15 - int(15 * 325 / 1000),
+        "all pages, talking programs": 5,
+        "all pages, nameless agents": 5,
+        "all pages, semicolons": 5,
+    }
+    assert prose.find_excesses({"long.md": ("word " * 41 + "end. ") * 10}) == {
+        "all pages, long sentences": 10,
+        "all pages, missing connectives": 1,
+    }
 
 
 def test_retired_words_in_names_and_on_experiments():

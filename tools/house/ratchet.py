@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yaml
 
-from tools.house import inner, rules, vocabulary, words
+from tools.house import inner, prose, rules, vocabulary, words
 from tools.house.imports import File, circles, graph, read
 
 ROOT = Path(__file__).parents[2]
@@ -49,6 +49,7 @@ def counted() -> Count:
         "long files": rules.long_files(files),
         "full folders": rules.full_folders(files),
         "inner names": inner.inner_names(ROOT, files),
+        "foreign prose": prose.find_excesses(prose.read_pages(ROOT)),
         "retired words": words.count(words.texts(ROOT, files)),
         "bare function names": vocabulary.find_bare_functions(files),
         "repeated classes": vocabulary.find_repeated_classes(files),

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tools.house.imports import File
+from tools.house.prose import find_pages
 
 # What to say instead is in CONTRIBUTING. A pattern leaves out what the word may still say ("by hand", "stands for").
 RETIRED = {
@@ -52,9 +53,9 @@ def texts(root: Path, files: dict[str, File]) -> Iterator[tuple[str, bool, str]]
             place = ("cli" if cli else "messages") if re.search(r"\s", text) else "names"
             yield place, teleop, text
     pages = [
-        path for path in sorted((root / "docs").rglob("*.md")) if not {"_build", "gallery"} & set(path.relative_to(root).parts)
-    ]
-    for path in [root / "README.md", *pages, *sorted((root / "docs" / "examples").glob("*.py"))]:
+        path for path in find_pages(root) if path.name not in ("CONTRIBUTING.md", "CHANGELOG.md")
+    ]  # they quote retired words
+    for path in [*pages, *sorted((root / "docs" / "examples").glob("*.py"))]:
         yield "docs", path.name in GUIDES, path.read_text(encoding="utf-8")
     source = root / "src" / "holdfast"
     for path in sorted([*source.rglob("*.html"), *source.rglob("texts/*.yaml")]):
