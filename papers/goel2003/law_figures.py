@@ -10,9 +10,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report import BLUE, ORANGE, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
+from holdfast.interface.report import BLUE, ORANGE, SKY, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from papers.goel2003.peak_error import TwoMinima
 
 
@@ -35,13 +37,27 @@ def two_minima(found: TwoMinima, path: Path) -> None:
         save_png(settle_layout(figure), path, dpi=110)
 
 
+def draw_quantiles(axes: Axes, curve: hf.control.TradeOff, measure: str, label: str) -> None:
+    """Draw the median of a measure and its quantile bands against the allowed error."""
+    q05, q25, q50, q75, q95 = curve.quantiles(measure)
+    axes.fill_between(curve.allowed, q05, q95, color=SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
+    axes.fill_between(curve.allowed, q25, q75, color=SKY, linewidth=0, label="25 to 75 %")
+    axes.plot(curve.allowed, q50, color=BLUE, linewidth=1.9, label="median")
+    axes.set(
+        xlabel="allowed pre-failure error (of the commanded speed)", ylabel=label, xlim=(0, curve.allowed[-1]), ylim=(0, 1.02)
+    )
+
+
 def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
     """Post-failure gain and pre-failure price against the allowed error, an arm per row."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 7.6))
         for row, curve in zip(figure.subplots(len(curves), 2), curves, strict=True):
-            curve.figures(row)
-            row[0].set_title(f"{curve.arm.name}, {curve.task.name}: what the failed arm gains")
+            draw_quantiles(row[0], curve, "gain", "peak velocity error after a failure,\nrelative to the pseudoinverse")
+            draw_quantiles(row[1], curve, "healthy_error", "velocity error of the healthy arm")
+            row[1].plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="largest allowed error")
+            row[0].set_title(f"{curve.arm.name}, {curve.task.name}: failed arm")
+            row[1].set_title(f"Healthy arm, {len(curve.gain):,} samples")
             for axes in row:
                 axes.axvline(0.5, color=SOFT, linestyle=(0, (1.2, 1.6)), label="the paper's choice")
         legend_below(figure, row[1], 5)

@@ -147,11 +147,10 @@ def sinks(found: Sequence[Curves]) -> list[str]:
     for c, expected, folds, points in zip(found, SINKS, FOLDS, LINES, strict=True):
         arcs = zip(np.degrees(c.sink_arcs).ravel(), np.ravel(expected), strict=True)
         turns = np.concatenate([wrapped(np.degrees(k.locked_values[k.folds])) for k in c.curves if not k.degenerate])
-        angles = [wrapped(np.degrees(x) - 1e-6) + 1e-6 for x in c.degenerate_angles]
         cells = [
             " to ".join(beside(float(x), e, 2) for x, e in arcs),
             ", ".join(beside(float(x), e, 2) for x, e in zip(np.sort(turns), folds, strict=True)),
-            ", ".join(beside(abs(float(x)) if e == 180 else float(x), e, 4) for x, e in zip(angles, points, strict=True)),
+            ", ".join(beside(float(x), e, 4) for x, e in zip(np.degrees(c.degenerate_angles), points, strict=True)),
         ]
         lines.append(f"| {c.joint + 1} | {' | '.join(cells)} |")
     return lines

@@ -23,7 +23,8 @@ Arc = tuple[float, float]
 
 FULL_TURN_RAD = 2 * np.pi
 ARC_TOLERANCE = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
-SAMPLE_RADIUS = 0.1  # rad (and m): sampled values this near are told as one range
+SAMPLE_RADIUS = 0.1  # rad (and m): sampled values this near form one range
+ANGLE_TOLERANCE = 1e-6  # rad (and m): degenerate curves at locked values this close have the same value
 
 
 @dataclass(frozen=True)
@@ -130,12 +131,14 @@ class Curves(Result):
 
     @property
     def degenerate_angles(self) -> list[float]:
-        """Locked values, by size, of whole curves of stationary points; rad from -pi to pi (or m)."""
+        """Locked values of whole curves of stationary points in ascending order, rad in (-pi, pi] (or m)."""
         values = [np.median(curve.q, axis=0) for curve in self.curves if curve.degenerate]
         if not values:
             return []
-        angles = np.sort(wrap_angles(self.law.arm, np.array(values))[:, self.joint])
-        return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > 1e-6]]]
+        shift = np.zeros(self.law.arm.n)
+        shift[self.joint] = ANGLE_TOLERANCE  # -pi and pi are the same angle, so both become pi
+        angles = np.sort((wrap_angles(self.law.arm, np.array(values) - shift) + shift)[:, self.joint])
+        return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > ANGLE_TOLERANCE]]]
 
     def points_at(self, value: float) -> FloatArray:
         """Return (P, n) the stationary points at one locked value, rad (or m), on the curves that are not degenerate."""
