@@ -74,7 +74,7 @@ def test_any_joint_is_one_that_is_driven_and_a_sensor_is_one_that_is_seen(reache
     flat = gymnasium.wrappers.TransformObservation(reacher, lambda seen: 2 * seen, None)
     with pytest.raises(InputError, match="another wrapper changes the observation"):
         FaultWrapper(flat, [event]).reset(seed=1)
-    with pytest.raises(InputError, match=r"the faults are 'faults.yaml'; read a file of them by"):
+    with pytest.raises(InputError, match=r"the faults are 'faults.yaml'; read a file with"):
         FaultWrapper(reacher, "faults.yaml")
 
 

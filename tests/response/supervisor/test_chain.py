@@ -230,7 +230,7 @@ def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
         one = hf.simulate(law, START, GOAL, locked=[e.joint for e in events], time=[e.onset for e in events] or 0.0)
         assert runs.q_final[k] == pytest.approx(one.q_final, abs=1e-9)
         assert hf.simulate(law, START, GOAL, faults=events).q_final.tolist() == one.q_final.tolist()
-    with pytest.raises(InputError, match="bodies and motors are needed"):
+    with pytest.raises(InputError, match="it needs bodies and motors"):
         hf.simulate(law, START, GOAL, faults=hf.faults.FaultModel([hf.faults.limp(onset=1.0)]).draw(law.arm))
     with pytest.raises(InputError, match="leave one of them out"):
         hf.simulate(law, START, GOAL, locked=["panda_joint1"], faults=batch)
