@@ -366,7 +366,7 @@ def test_rows_are_kept_where_corners_are_rounded():
         (0.0, "the acceleration of 'joint1' is 0"),
         ([1.0, np.nan, 1.0], "finite number above 0"),
         ([1.0, 1.0], r"shape \(2,\)"),
-        ({"joint1": 1.0}, "no limit of 'joint3'"),
+        ({"joint1": 1.0}, "no limit for 'joint3'"),
         ({"joint9": 1.0}, "no joint 'joint9'"),
         ({"joint1": [1.0, 2.0]}, "give a number"),
         ("fast", "accelerations"),
