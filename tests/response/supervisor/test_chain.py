@@ -125,13 +125,13 @@ def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
     blind = run(law, LOCKED, react="known").require_ok()
     detour = run(law, LOCKED, react="known", cell=ball, plan=False).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
-    assert "the law would not get there clear of the cell" in detour.actions[-1].why
+    assert "the law would miss the target or touch the cell" in detour.actions[-1].why
     monkeypatch.setattr(
         "holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None
     )
     route, stopped = (run(law, LOCKED, react="known", cell=ball, plan=plan) for plan in (True, False))
     assert [a.what for a in route.require_ok().actions] == ["alarm", "brake", "plan"]
-    assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no other posture helps")
+    assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no intermediate configuration helps")
     for kept in (detour, route, stopped):
         assert detour.clearance.sign(kept.q[::10]).all()  # of the meshes, by another library
         assert kept.contacts == ()

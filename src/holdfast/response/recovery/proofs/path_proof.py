@@ -122,7 +122,7 @@ def _prove_leg_impossible(
             start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
             return (
                 f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
-                f"poses: {box_count:,} boxes of joints that may contain a configuration do not connect its ends, up to floating "
-                "point"
+                f"poses: {box_count:,} boxes of joints that may contain a configuration do not connect its ends, up to "
+                "floating point"
             )
     return None
