@@ -128,7 +128,7 @@ def test_other_folders_are_refused(protocol, copy, tmp_path):
         simulate_experiment(tmp_path / "people", protocol, OPERATORS, seed=4)
     with Records.open(copy) as opened:
         opened.delete_subject("S02")
-    with pytest.raises(hf.StoreError, match="lost or got subjects"):
+    with pytest.raises(hf.StoreError, match="were added or deleted"):
         simulate_experiment(copy, protocol, OPERATORS, seed=4)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "protocol.yaml").write_text("mine")

@@ -98,9 +98,9 @@ def test_tasks_of_an_arm_from_a_file(cli, tmp_path):
     [
         (["--distance", "9"], "give a smaller distance"),
         (["--distance", "nan"], "distance is nan"),
-        (["--select", "90"], "90 tasks were asked for"),
+        (["--select", "90"], "90 tasks are requested"),
         (["--per-joint", "0"], "per-joint"),
-        (["--task", "pose"], "a stick commands"),
+        (["--task", "pose"], "a joystick commands"),
     ],
 )
 def test_tasks_refuses(refused, more, sentence):
@@ -163,7 +163,7 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     code, text, _ = cli("teleop", "analyse", copy, "--difficulty", "computer", "--groups", "2")
     assert code == 0
     assert "2 simulated subjects" in text
-    assert "dropped out, and not part of any number: S02" in text
+    assert "dropped out, and not included: S02" in text
     with lock_records_folder(copy):
         assert "is served by another program already" in refused("teleop", "subjects", copy, "--delete", "S01")
     code, text, _ = cli("teleop", "subjects", copy, "--delete", "S01")
