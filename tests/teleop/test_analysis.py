@@ -314,7 +314,7 @@ def test_without_ratings_cpm_has_eleven_measures(rng):
     table = trials(rng, rated=False)
     a = analyse(table)
     assert len(a.observed.normalisers) == 11
-    assert any("Nobody rated" in n for n in a.notes)
+    assert any("No trial was rated" in n for n in a.notes)
     assert len(a.table("failed")) == 12
     assert not a.correlations
 

@@ -405,7 +405,7 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
 
 
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
-    with pytest.raises(InputError, match="holds no experiment"):
+    with pytest.raises(InputError, match="contains no experiment"):
         asyncio.run(apart.run_job("export", str(tmp_path), str(tmp_path)))
     with pytest.raises(HoldfastError, match="the dance failed; the terminal in which the server was started shows why"):
         asyncio.run(apart.run_job("dance", str(folder), str(tmp_path)))

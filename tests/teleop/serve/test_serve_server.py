@@ -176,7 +176,7 @@ def test_what_is_wrong_is_refused_and_the_session_goes_on(server, protocol, rng)
         ({"type": "begin", "seq": 1, "kind": "training", "position": 0}, "on record already"),
         (
             {"type": "cycles", "seq": last + 1, "first": 2, "time": [0], "velocity": [[0, 0]], "q": [[0, 0, 0]]},
-            "no trial is under way",
+            "no trial is in progress",
         ),
         ({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}, "hello already"),
         ({"type": "shutdown"}, "malformed"),

@@ -158,7 +158,7 @@ class FaultModel:
 
 
 def load(file: str | Path) -> FaultModel:
-    """Load a fault model from a YAML file.
+    """Load a fault model from the YAML file with the path ``file``.
 
     .. code-block:: yaml
 
@@ -169,9 +169,6 @@ def load(file: str | Path) -> FaultModel:
           - {kind: friction, joints: [panda_joint2], coulomb: 3.0, rate_per_hour: 0.5}
 
     Keys, units and distributions are those of :class:`holdfast.response.faults.Fault`.
-
-    Args:
-        file: Path of the YAML file.
 
     Raises:
         InputError: The file cannot be read, or an entry is unknown, missing or wrong; the message names it.

@@ -80,11 +80,9 @@ class FailureRates:
 
     @classmethod
     def load(cls, arm: Arm, file: str | Path) -> FailureRates:
-        """Load rates from a YAML file; the format is in :mod:`holdfast.response.lock_survival.rates`.
+        """Load rates of an ``arm`` from the YAML file with the path ``file``.
 
-        Args:
-            arm: Arm whose joints the file names.
-            file: Path of the file.
+        :mod:`holdfast.response.lock_survival.rates` describes its format.
 
         Raises:
             InputError: The file cannot be read, or a key or joint is unknown, missing or wrong; the message names it.

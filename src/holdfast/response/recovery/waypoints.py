@@ -46,12 +46,7 @@ def time_or_length_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
 
 
 def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
-    """Write waypoints with every digit as a CSV file, and return its path.
-
-    Args:
-        arm: Arm whose joint names are the columns.
-        q: (K, n) waypoints, rad and m.
-        path: Path of the file.
+    """Write waypoints ``q`` (K, n) of an ``arm``, rad and m, with every digit to the CSV file ``path``, and return its path.
 
     Raises:
         StoreError: The file cannot be written.
@@ -61,11 +56,9 @@ def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
 
 
 def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
-    """Read waypoints (K, n), rad and m, from a file of :func:`write_waypoints`; other columns are not needed.
+    """Read waypoints (K, n) of an ``arm``, rad and m, from the file ``path`` of :func:`write_waypoints`.
 
-    Args:
-        arm: Arm whose joint names are the columns.
-        path: Path of the file.
+    Columns other than those of the joints are not needed.
 
     Raises:
         InputError: The file cannot be read, or a column, line or number is missing or wrong; the message names it.
@@ -74,11 +67,9 @@ def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
 
 
 def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
-    """Read the times (K,) of waypoints, s, from a file of :func:`write_waypoints`; None if the file has none.
+    """Read the times (K,) of waypoints of an ``arm``, s, from the file ``path`` of :func:`write_waypoints`.
 
-    Args:
-        arm: Arm whose joint names are the columns.
-        path: Path of the file.
+    The result is None if the file has no times.
 
     Raises:
         InputError: As for :func:`read_waypoints`.

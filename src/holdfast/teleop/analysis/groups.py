@@ -85,13 +85,7 @@ class CellMeans:
 
     @classmethod
     def from_trials(cls, observed: TrialTable, conditions: list[int], grouped: TaskGroups) -> CellMeans:
-        """Compute the cell means.
-
-        Args:
-            observed: Trials.
-            conditions: (A,) indices of the scenarios whose laws are compared.
-            grouped: Groups of the tasks.
-        """
+        """Compute the cell means of the trials ``observed`` with A scenarios (indices ``conditions``) and ``grouped`` tasks."""
         cpm = observed.cpm[:, :, conditions]
         finite = np.isfinite(cpm)
         membership = np.eye(len(grouped.names))[grouped.of_task]

@@ -188,15 +188,9 @@ def tabulate_tasks(
 
 
 def median_operator(observed: TrialTable, task: int, reference: int) -> int | None:
-    """Return the index of the subject whose CPM of a task is closest to the median of all subjects.
+    """Return the index of the subject whose CPM of a ``task`` (index) is closest to the median of all subjects.
 
-    Args:
-        observed: Trials.
-        task: Index of the task.
-        reference: Index of the reference scenario.
-
-    Returns:
-        Index of the subject; None if no subject reached the target.
+    ``observed`` are the trials, and ``reference`` is the index of the scenario. None if no subject reached the target.
     """
     task_cpm, median = observed.cpm[:, task, reference], observed.median_cpm()[task, reference]
     if not np.isfinite(task_cpm).any():

@@ -47,12 +47,7 @@ class Binning:
 
 
 def bin_tasks(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
-    """Divide the plane of CPM3 and CPM4/CPM3 into equal cells over the whole range of the bank.
-
-    Args:
-        bank: Task bank.
-        columns: Number of cells along CPM3.
-        rows: Number of cells along CPM4/CPM3.
+    """Divide the range of a ``bank`` in the plane of CPM3 and CPM4/CPM3 into ``columns`` x ``rows`` equal cells.
 
     Raises:
         InputError: There is no cell, or no task was completed in every scenario.
@@ -158,11 +153,9 @@ def _choose_tasks_near_centers(bank: TaskBank, cells: Binning, task_cells: list[
 
 
 def find_most_disorienting(bank: TaskBank, excluded: IndexArray) -> int:
-    """Return the index of the task outside ``excluded`` with the largest direction errors and retreat (M10 x M5, scenario 3).
+    """Return the index of the most disorienting task of a ``bank``, without the indices ``excluded`` (K,).
 
-    Args:
-        bank: Task bank.
-        excluded: (K,) indices of tasks that are not considered.
+    It has the largest direction errors and retreat (M10 x M5 of scenario 3).
 
     Raises:
         InputError: No other task was completed in every scenario.

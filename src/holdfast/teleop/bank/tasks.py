@@ -209,13 +209,7 @@ class TaskBank:
 
     @classmethod
     def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIO_NAMES) -> TaskBank:
-        """Return the bank of ``tasks`` with their ``trials`` from :func:`run_tasks` in these ``scenarios``.
-
-        Args:
-            tasks: N tasks.
-            trials: S x N trials, scenario by scenario.
-            scenarios: S scenarios.
-        """
+        """Return the bank of N ``tasks`` with their S x N ``trials`` from :func:`run_tasks` in S ``scenarios``."""
         shape = (len(scenarios), len(tasks))
         values = compute_measures(trials).reshape(*shape, RECORDED_MEASURES)
         combined = compute_cpm(values)

@@ -60,13 +60,9 @@ def choose_next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -
 
 
 def shuffle_scenarios(tasks: int, scenarios: int, seed: int, *, subject: int) -> IndexArray:
-    """Return random orders (tasks, scenarios) of the scenarios within each task, which depend only on the arguments.
+    """Return random orders (tasks, scenarios) of a number of ``scenarios`` within each of a number of ``tasks``.
 
-    Args:
-        tasks: Number of tasks.
-        scenarios: Number of scenarios.
-        seed: Seed of the experiment, 0 or more.
-        subject: Number of the subject, from 0.
+    They depend only on the ``seed`` of the experiment and the number of the ``subject``, both 0 or more.
     """
     generator = np.random.default_rng(np.random.SeedSequence([seed, subject]))
     return np.asarray(generator.permuted(np.tile(np.arange(scenarios), (tasks, 1)), axis=1), dtype=np.int64)

@@ -183,11 +183,7 @@ class Records:
         return [parse_subject_row(row) for row in self._db.execute(f"SELECT {SUBJECT_COLUMNS} FROM subjects ORDER BY number")]
 
     def set_state(self, code: str, state: SubjectState) -> None:
-        """Set the state of a subject's session.
-
-        Args:
-            code: Code of the subject.
-            state: Completed, dropped, or open again.
+        """Set the session of the subject ``code`` to a ``state``: completed, dropped, or open again.
 
         Raises:
             InputError: There is no such subject.
@@ -363,12 +359,7 @@ class Records:
             self._chain.update_trial_digest(trial, [row[1:] for row in rows])
 
     def finish_trial(self, trial: int, end: End, q_end: FloatArray) -> None:
-        """Finish a trial.
-
-        Args:
-            trial: Number of the trial.
-            end: End of the trial.
-            q_end: (n,) final configuration of the arm, rad and m.
+        """Finish the trial with the number ``trial`` by its ``end`` and the final configuration ``q_end`` (n,), rad and m.
 
         Raises:
             InputError: The trial does not exist, or has already ended.
@@ -387,12 +378,7 @@ class Records:
             self._chain.end_trial(trial, self._query_value("SELECT subject FROM trials WHERE id = ?", trial))
 
     def rate_trial(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
-        """Store the rating of a trial.
-
-        Args:
-            trial: Number of the trial.
-            rating: Step of the rating, from 0.
-            answers: Answers to further questions, as JSON data.
+        """Store the ``rating``, a step from 0, of the trial with the number ``trial``, and ``answers`` as JSON data.
 
         Raises:
             InputError: The trial does not exist or is a training trial, or the rating has no such step.

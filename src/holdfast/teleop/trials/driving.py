@@ -51,12 +51,7 @@ class Operator(ABC):
 
     @abstractmethod
     def begin(self, x: FloatArray, target: FloatArray) -> None:
-        """Begin a batch of N trials.
-
-        Args:
-            x: (N, m) tool points at the start, m.
-            target: (N, m) targets, m.
-        """
+        """Begin a batch of N trials with tool points ``x`` (N, m) and targets ``target`` (N, m), m."""
 
     @abstractmethod
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
@@ -70,12 +65,7 @@ class Operator(ABC):
         """
 
     def gives_up(self, rows: IndexArray, cycle: int) -> NDArray[np.bool_]:
-        """Return (K,) True for trials that the operator aborts.
-
-        Args:
-            rows: (K,) indices of the trials in progress.
-            cycle: Index of the control cycle, from 0.
-        """
+        """Return (K,) True for the trials in progress, with indices ``rows`` (K,), that the operator aborts in ``cycle``."""
         del cycle
         return np.zeros(rows.size, dtype=bool)
 
@@ -103,11 +93,7 @@ class ComputerOperator(Operator):
 
 
 class RecordedOperator(Operator):
-    """Operator that repeats the commands of recorded trials, cycle by cycle, and gives no command after their end.
-
-    Args:
-        trials: N recorded trials, in the order of the batch.
-    """
+    """Operator that repeats the commands of N recorded ``trials``, cycle by cycle, and gives no command after their end."""
 
     def __init__(self, trials: Trials) -> None:
         self._trials = trials

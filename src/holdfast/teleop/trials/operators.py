@@ -74,12 +74,9 @@ _PARAMETER_SPREAD = {
 
 
 def sample_people(count: int, seed: int = 0, middle: Person | None = None) -> list[Person]:
-    """Sample simulated people, in which every parameter has a log-normal distribution around that of ``middle``.
+    """Sample a number (``count``) of simulated people with a ``seed``.
 
-    Args:
-        count: Number of people.
-        seed: Seed of the random numbers.
-        middle: Person with the median parameters. Default: ``Person()``.
+    Every parameter has a log-normal distribution around that of ``middle`` (default: ``Person()``).
 
     Raises:
         InputError: ``count`` is below 1.

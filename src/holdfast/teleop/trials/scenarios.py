@@ -38,11 +38,7 @@ class Scenario:
         return f"{'failed' if self.failed else 'healthy'}, {self.law}"
 
     def make_law(self, arm: Arm, task: str | Task | Sequence[str] = "planar") -> Law:
-        """Return the control law of the scenario.
-
-        Args:
-            arm: The arm.
-            task: Task rows that the joystick commands.
+        """Return the control law of an ``arm`` for the rows of a ``task`` that the joystick commands.
 
         Raises:
             InputError: The law, or one of its options, is unknown.

@@ -14,11 +14,7 @@ from holdfast.response.faults.log import Log
 
 
 def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
-    """Read a motion from a log, or from a CSV table with ``time_s`` and one column for each joint.
-
-    Args:
-        arm: Arm whose joint names are the columns.
-        file: Path of the file.
+    """Read a motion of an ``arm`` from a ``file``: a log, or a CSV table with ``time_s`` and one column for each joint.
 
     Returns:
         References (T, n), rad and m, and their sample rate, Hz.

@@ -122,9 +122,7 @@ class CommandDropoutKind(_MotorKind):
 def limp(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a motor without torque, so that the joint is free-swinging.
 
-    Args:
-        joints: Name or names of the joints that can have the fault. None: any joint.
-        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
     """
     return Fault("limp", {}, joints, **when)
 
@@ -175,8 +173,6 @@ def reduced_speed(joints: Joints = None, *, velocity: Value, **when: Unpack[Faul
 def command_dropout(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a joint that receives no new commands and keeps its last one.
 
-    Args:
-        joints: Name or names of the joints that can have the fault. None: any joint.
-        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
     """
     return Fault("command_dropout", {}, joints, **when)

@@ -97,9 +97,7 @@ def sensor_drift(joints: Joints = None, *, rate: Value, **when: Unpack[FaultTimi
 def sensor_freeze(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a joint sensor whose reading keeps its value from the onset.
 
-    Args:
-        joints: Name or names of the joints that can have the fault. None: any joint.
-        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
     """
     return Fault("sensor_freeze", {}, joints, **when)
 

@@ -24,10 +24,7 @@ class SuccessRate:
     confidence: float = 0.95
 
     def rate(self, feasible: str = "yes") -> Interval | None:
-        """Compute the success rate of the episodes with one ``feasible`` answer, with its Clopper-Pearson interval.
-
-        The result is None without episodes.
-        """
+        """Return the success rate of episodes by their ``feasible`` answer, with its Clopper-Pearson interval; None if none."""
         success_count, episode_count = self.counts[feasible]
         return Interval.from_counts(success_count, episode_count, self.confidence) if episode_count else None
 
