@@ -354,7 +354,7 @@ BAD = [
     ({"metric": "money"}, "'money' is not known"),
     ({"weights": [1.0, 2.0]}, "weights"),
     ({"starts": 0}, "starts is 0"),
-    ({"margin": 0.1}, "nothing to keep"),
+    ({"margin": 0.1}, "margin has no effect"),
     ({"task": "pirouette"}, "not known"),
 ]
 

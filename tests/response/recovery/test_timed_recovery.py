@@ -302,7 +302,7 @@ def test_a_corner_that_other_code_refuses_is_a_stop(among_balls, monkeypatch):
     )
     never = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert never.verdict.answer == "undecided"
-    assert "as it is timed, no" in never.verdict.why
+    assert "in the timed motion, no" in never.verdict.why
 
 
 # ---- tool paths and rows ---------------------------------------------------------------------------------------------

@@ -302,6 +302,6 @@ def test_a_motion_and_the_timed_motion_have_the_worse_of_both_findings():
     first = Verification(faults=("a",), checked=3, exact_by="", goal_miss=0.1, path_miss=0.5, kept=((1.0, 5.0),))
     timed = Verification(faults=("b",), checked=4, exact_by="", goal_miss=0.2, path_miss=0.3, kept=((2.0, 4.0),))
     both = first.merge_timed(timed)
-    assert both.faults == ("a", "as it is timed, b")
+    assert both.faults == ("a", "in the timed motion, b")
     assert (both.checked, both.path_miss, both.kept) == (7, 0.5, ((2.0, 5.0),))
     assert timed.merge_timed(first).path_miss == 0.5

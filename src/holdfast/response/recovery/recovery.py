@@ -230,7 +230,7 @@ class Recovery(Result):
         if self.ending == RecoveryOutcome.GOAL_REACHED:
             if self.verified is None or self.verified.ok:
                 return RecoveryVerdict("solved")
-            return RecoveryVerdict("undecided", f"a motion was found, and {self.verified}; please report this")
+            return RecoveryVerdict("undecided", f"a motion was found, but {self.verified}; please report this")
         if self.proof_kind and self.proof_kind != "start":
             return RecoveryVerdict("proved infeasible", f"{self.proof or ''}{self._tolerance_text}", self.proof_kind)
         if self.proof_kind == "start":
