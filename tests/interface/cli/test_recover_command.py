@@ -89,7 +89,7 @@ def test_anything_less_than_the_whole_goal_is_exit_code_3(cli, more, ending):
 def test_a_proof_says_whether_it_holds_within_what_may_be_missed(cli):
     code, text, _ = cli(*CALL, "--goal", "pose:4,0,0", "--samples", "0", "--tolerance", "1mm,0.5deg")
     assert code == 3
-    assert "this also holds for what misses it by 1 mm and 0.5 deg" in text
+    assert "this also holds for misses of up to 1 mm and 0.5 deg" in text
 
 
 def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):

@@ -98,11 +98,11 @@ class Bounds(Result):
         return np.asarray(time_to_bound + np.sqrt(2 * EXCESS_LIMITS_S["tracking"] * time_to_bound))
 
     def body(self, arm: Arm) -> Arm:
-        """Return the given arm with its link masses multiplied by ``scales``."""
+        """Return the ``arm`` with its link masses multiplied by ``scales``."""
         return scale_masses(arm, self.scales)
 
     def to_json(self, file: str | Path) -> Path:
-        """Write the JSON file that :func:`holdfast.response.diagnosis.load` reads, and return its path.
+        """Write the JSON file ``file`` that :func:`holdfast.response.diagnosis.load` reads, and return its path.
 
         Raises:
             StoreError: The file cannot be written.
@@ -142,7 +142,7 @@ class Bounds(Result):
             raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
 
     def require(self, arm: Arm, rate: float) -> None:
-        """Raise an error if the thresholds belong to another arm or to another sample rate, in Hz.
+        """Raise an error if the thresholds do not belong to ``arm`` and to the sample rate ``rate``, Hz.
 
         Raises:
             InputError: The fingerprint or the rate differs.
@@ -156,7 +156,7 @@ class Bounds(Result):
 
 
 def load(file: str | Path) -> Bounds:
-    """Read thresholds from a JSON file of :meth:`Bounds.to_json`.
+    """Read thresholds from the JSON file ``file`` of :meth:`Bounds.to_json`.
 
     Raises:
         InputError: The file does not exist or is not a threshold file.
@@ -254,7 +254,7 @@ def calibrate(
     fitted_arm = scale_masses(arm, scales)
     residual_signals = [
         compute_signals(arm, log, coulomb=coulomb_friction, viscous=viscous_friction, body=fitted_arm)
-        for log in track("records", logs)
+        for log in track("logs", logs)
     ]
     largest = [
         np.array([log_signals.largest_residual(name) for log_signals in residual_signals])

@@ -73,7 +73,7 @@ class ExportedMonitor(Result):
 
 
 @check_arguments
-@reports_progress("writing down the monitor")
+@reports_progress("exporting the monitor")
 def export_c(
     arm: Arm, bounds: Bounds, folder: str | Path, *, name: str = "monitor", sensors: Sensors | None = None
 ) -> ExportedMonitor:

@@ -50,7 +50,7 @@ class ExternalForce:
 
 @check_arguments
 @silence_mujoco()
-@reports_progress("simulating a record")
+@reports_progress("simulating a log")
 def simulate_log(
     arm: Arm,
     duration: float | None = None,
@@ -106,7 +106,7 @@ def simulate_log(
 
 @check_arguments
 @silence_mujoco()
-@reports_progress("simulating records")
+@reports_progress("simulating logs")
 def simulate_logs(
     arm: Arm,
     duration: float,

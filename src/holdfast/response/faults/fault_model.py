@@ -144,7 +144,7 @@ class FaultModel:
         return self if seed is None else FaultModel(self.entries, seed)
 
     def save(self, file: str | Path) -> Path:
-        """Write a YAML file that :func:`holdfast.response.faults.load` reads, and return its path.
+        """Write the YAML file ``file`` that :func:`holdfast.response.faults.load` reads, and return its path.
 
         Raises:
             StoreError: The file cannot be written.

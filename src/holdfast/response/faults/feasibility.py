@@ -198,5 +198,5 @@ def _check_weak_motor_torques(
     overloads = (np.abs(arm.gravity_torque(q)[:, joints]) - efforts).max(axis=1)
     best, names = int(overloads.argmin()), " and ".join(gains)
     if overloads[best] > 0:
-        return Feasibility("not found", f"gravity asks more of {names} in each of {len(q)} configurations of the goal")
+        return Feasibility("not found", f"gravity exceeds the torque of {names} in each of {len(q)} configurations of the goal")
     return Feasibility("yes", f"{names} can carry the arm at the goal", q[best])

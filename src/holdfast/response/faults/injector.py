@@ -102,7 +102,7 @@ class FaultInjector:
         self._check_entries()
 
     def reset(self, episode: int = 0) -> FaultEvents:
-        """Undo all changes and sample the events of an episode, by its index from 0; given events occur in every episode.
+        """Undo all changes and sample the events of ``episode``, an index from 0; given events occur in every episode.
 
         Raises:
             InputError: The model cannot have a fault.

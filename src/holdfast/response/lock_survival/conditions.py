@@ -115,8 +115,8 @@ class MotionConditions:
         """Explain in a sentence why a pose has no configuration."""
         if self.manifold is None or self_motion.status != Status.INFEASIBLE:
             return self_motion.summary
-        clearance_text = "" if self.required_clearance is None else ", clear of what is around it,"
-        return f"no configuration that was found{clearance_text} meets the constraint: {'; '.join(map(str, self.left_to_arm))}"
+        clearance_text = "" if self.required_clearance is None else "collision-free "
+        return f"no {clearance_text}configuration that was found meets the constraint: {'; '.join(map(str, self.left_to_arm))}"
 
     def restrict_curves(self, tracer: ManifoldTracer, self_motion: SelfMotion) -> SelfMotion:
         """Restrict the curves of configurations to the parts that meet the constraints left to the arm."""

@@ -35,7 +35,7 @@ LEAST_NORM = "least-norm"
 
 
 @check_arguments
-@reports_progress("looking at what the motion survives")
+@reports_progress("evaluating locks of the motion")
 def evaluate_motion(
     arm: Arm,
     motion: Trajectory | ArrayLike,

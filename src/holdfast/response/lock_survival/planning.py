@@ -266,7 +266,7 @@ class LockSurvival(Result):
         )
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as CSV rows of time, joints, and survival of a lock at that time, and return the path.
+        """Write the motion to the CSV file ``file``: time, joints, and survival of a lock at that time; return its path.
 
         Raises:
             StoreError: The file cannot be written.

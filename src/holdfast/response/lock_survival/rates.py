@@ -103,7 +103,7 @@ class FailureRates:
         return float(self.each.sum())
 
     def weights(self, time: FloatArray) -> FloatArray:
-        """Return the weights (T,) of times (T,), s: the trapezoidal rule, times the probability of no earlier failure."""
+        """Return the weights (T,) of ``time`` (T,), s: the trapezoidal rule, times the probability of no earlier failure."""
         weight = np.zeros(len(time))
         half_steps = np.diff(time) / 2
         weight[:-1] += half_steps

@@ -64,7 +64,7 @@ class Approach:
 
 
 @check_arguments
-@reports_progress("looking for the safest way to the goal")
+@reports_progress("searching for the safest motion to the goal")
 def plan_motion_to(
     arm: Arm,
     start: ArrayLike,

@@ -41,7 +41,7 @@ _MAX_CONE_AXES = 2  # axes along which the tool is fixed in a cone; many arms ar
 
 
 @check_arguments
-@reports_progress("looking for the motion that survives most locks")
+@reports_progress("searching for the motion that survives most locks")
 def plan_motion(
     arm: Arm,
     path: TimedPath,

@@ -283,7 +283,7 @@ class RecoveryAttempt:
         )
 
     def _prove_unreachable(self, goal: UndecidedGoal) -> UndecidedGoal:
-        """Add the proof that no configuration meets the goal, or what is unknown where there is no proof."""
+        """Add the proof that no configuration meets the goal, or the unknown property where there is no proof."""
         recovery, target, space = goal.recovery, goal.target, self.search.space
         reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
         proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(reach_proofs, goal.box_proofs, strict=True)]
@@ -296,13 +296,13 @@ class RecoveryAttempt:
             recovery = replace(recovery, proof=proof, proof_kind=kind, proved_within=within)
             return replace(goal, recovery=recovery, reasons=(*goal.reasons, proof), is_proved_unreachable=True)
         pair = name_blocking_pair(self.search, target.poses, goal.q_start, recovery.seed)
-        finding_text = "no clear configuration" if pair else "no configuration"
-        blocking_text = f"; what is most often in the way where it is met: {pair}" if pair else ""
+        finding_text = "no collision-free configuration" if pair else "no configuration"
+        blocking_text = f"; the most frequent collision where the goal is met: {pair}" if pair else ""
         reason = f"{finding_text} of the goal was found in {recovery.starts} starts, which proves nothing{blocking_text}"
         if pair and (shape_doubt := describe_unknown_shape(space.clearance)):
             recovery = replace(recovery, unknown=f"the goal is met where {pair} may be too close; {shape_doubt}")
         elif recovery.within is not None:
-            recovery = replace(recovery, unknown=f"{reason}; a proof would have to cover the whole cone, and there is none")
+            recovery = replace(recovery, unknown=f"{reason}; no available proof covers the whole cone")
         return replace(goal, recovery=recovery, reasons=(*goal.reasons, reason))
 
     def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:

@@ -257,7 +257,7 @@ class Recovery(Result):
         if self.tolerance is None:
             return ""
         tolerance_values = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
-        return f"; {'this also holds for' if self.proved_within else 'not proved for'} what misses it by {tolerance_values}"
+        return f"; {'this also holds' if self.proved_within else 'not proved'} for misses of up to {tolerance_values}"
 
     def require_ok(self) -> Recovery:
         """Return the recovery, or raise :class:`holdfast.HoldfastError` with the reason if the request is not met."""
@@ -299,7 +299,7 @@ class Recovery(Result):
         return certify_unreachable_pose(self.degraded, self.task, pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the waypoints, or the timed motion, as a CSV file that :func:`read_waypoints` reads, and return its path.
+        """Write the waypoints, or the timed motion, to the CSV file ``file`` for :func:`read_waypoints`; return its path.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.

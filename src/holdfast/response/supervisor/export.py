@@ -73,7 +73,7 @@ class ExportedController(Result):
 
 
 @check_arguments
-@reports_progress("writing down the controller")
+@reports_progress("exporting the controller")
 def export_controller(
     law: Law, bounds: Bounds, folder: str | Path, *, name: str = "controller", sensors: Sensors | None = None
 ) -> ExportedController:

@@ -163,7 +163,7 @@ class FaultRun(Result):
         return Log(t=self.time, q_ref=self.reference, q=self.q_measured, tau=self.torque, x=self.x, quat=self.quat)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write a CSV row for each cycle with the joints, rad and m, and the tool point, m, and return the path.
+        """Write the joints, rad and m, and the tool point, m, of each cycle to the CSV file ``file``; return its path.
 
         Raises:
             StoreError: The file cannot be written.

@@ -54,7 +54,7 @@ _CODE_PATTERN = re.compile("[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 class Records:
     """Records of one experiment in a folder: ``protocol.yaml`` and ``records.sqlite``; see :meth:`create` and :meth:`open`.
 
-    An object has one connection, for one thread. Several programs may open the same folder at once.
+    An object has one ``connection`` to the file, for one thread. Several programs may open the same folder at once.
 
     Attributes:
         folder: Folder of the experiment.

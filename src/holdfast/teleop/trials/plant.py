@@ -100,7 +100,7 @@ class JoystickPlant:
         return np.ascontiguousarray(result[:, :n]), actual
 
     def position(self, q: FloatArray) -> FloatArray:
-        """Return the task components (N, m) of the tool point, m, at configurations q (N, n), rad and m."""
+        """Return the task components (N, m) of the tool point, m, at configurations ``q`` (N, n), rad and m."""
         points = self.law.arm.forward_kinematics(np.atleast_2d(q))[:, :3, 3]
         return np.asarray(points @ self.law.task.rows[:, :3].T)
 

@@ -62,7 +62,7 @@ class Observability(Result):
 
 
 @check_arguments
-@reports_progress("looking ahead")
+@reports_progress("predicting detections")
 def predict_detection(
     arm: Arm,
     motion: ArrayLike,

@@ -92,7 +92,7 @@ class ProbingMotion(Result):
         return tuple(name for name in names if name not in self.untestable and name not in inseparable)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the references as a CSV file with ``time_s`` and one column for each joint, and return its path.
+        """Write the references to the CSV file ``file`` with ``time_s`` and one column for each joint, and return its path.
 
         Raises:
             StoreError: The file cannot be written.
@@ -100,11 +100,11 @@ class ProbingMotion(Result):
         return write_table(file, "probe", ["time_s", *joint_columns(self.arm)], np.column_stack([self.t, self.q]))
 
     def resample(self, rate: float) -> FloatArray:
-        """Return the references (K, n) at a sample rate in Hz, by linear interpolation of the plan."""
+        """Return the references (K, n) at the sample rate ``rate``, Hz, by linear interpolation of the plan."""
         return resample_motion(self.q, PLAN_RATE_HZ, rate)
 
     def decide(self, log: Log) -> Identification:
-        """Identify the locked joint from a log of this motion; see :func:`holdfast.response.diagnosis.identify`."""
+        """Identify the locked joint from a ``log`` of this motion; see :func:`holdfast.response.diagnosis.identify`."""
         return identify(self.arm, log, suspects=[self.arm.joint_names[joint] for joint in self.suspects], sensors=self.sensors)
 
 

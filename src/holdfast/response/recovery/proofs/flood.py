@@ -355,7 +355,7 @@ class _BlockedCells:
         self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
 
     def restrict_to_joints(self, joints: IndexArray) -> _BlockedCells:
-        """Return the same test without the balls that the other joints always move too far for a proof."""
+        """Return this test without the balls that the other joints always move too far for a proof."""
         space, half_widths = self._space, (self._space.high - self._space.low) / 2
         half_widths[joints] = 0.0
         frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))

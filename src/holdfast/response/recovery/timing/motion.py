@@ -62,7 +62,7 @@ class TimedMotion:
         return float(self.time[-1]) / max(len(self.time) - 1, 1)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write a CSV row for each time, with joints, rates and accelerations and their units, and return the path.
+        """Write joints, rates and accelerations with their units to the CSV file ``file``, and return its path.
 
         Raises:
             StoreError: The file cannot be written.
