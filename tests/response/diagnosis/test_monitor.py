@@ -319,7 +319,7 @@ def test_a_late_pose_from_parquet_is_in_time(panda, bounds, healthy, tmp_path):
     assert hf.diagnosis.diagnose(panda, Log.load(tmp_path / "log.parquet"), bounds).verdict.kind == "sensor"
     with pytest.raises(InputError, match="latency is 3 s; it must be 0 or more"):
         Log.load(tmp_path / "log.parquet", latency=3.0)
-    with pytest.raises(InputError, match="it is no Parquet file"):
+    with pytest.raises(InputError, match="it is not a readable Parquet file"):
         Log.load((tmp_path / "log.csv").rename(tmp_path / "x.parquet") if log.save(tmp_path / "log.csv") else "")
 
 

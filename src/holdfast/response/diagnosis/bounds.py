@@ -139,7 +139,7 @@ class Bounds(Result):
             _require_between(name, vectors[name], 0.0, "0 or more")
         _require_between("factor", np.atleast_1d(self.factor), 1.0, "1 or more")
         if not self.logs >= 1 or not (self.alarms is None or self.alarms >= 0):
-            raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
+            raise InputError(f"alarms is {self.alarms} and logs is {self.logs}; alarms must be 0 or more, and logs 1 or more")
 
     def require(self, arm: Arm, rate: float) -> None:
         """Raise an error if the thresholds do not belong to ``arm`` and to the sample rate ``rate``, Hz.
@@ -182,7 +182,7 @@ def load(file: str | Path) -> Bounds:
     except InputError as error:
         raise InputError(f"bounds '{file}': {error}; make the file again with holdfast calibrate") from error
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
-        raise InputError(f"bounds '{file}': it is no threshold file; make one with holdfast calibrate") from error
+        raise InputError(f"bounds '{file}': it is not a threshold file; make one with holdfast calibrate") from error
 
 
 def _read_number(value: Any) -> float:

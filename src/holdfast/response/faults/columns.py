@@ -106,7 +106,7 @@ def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
     try:
         rows = [(line_number, row) for line_number, row in enumerate(csv.reader(lines, delimiter=delimiter), start=1) if row]
     except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
-        raise InputError(f"it is no table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
+        raise InputError(f"it is not a table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
     if len(rows) < 2:
         raise InputError("it has no rows of numbers; give a header and a line for each sample")
     header = [name.strip() for name in rows[0][1]]
@@ -146,7 +146,7 @@ def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
         # One thread: threads of pyarrow that still run when Python exits would crash the process.
         table = parquet.read_table(io.BytesIO(raw), use_threads=False, pre_buffer=False)
     except Exception as error:  # damaged files raise errors of many types
-        raise InputError("it is no Parquet file that can be read; give one with columns t, q_ref_1, ..., q_1, ...") from error
+        raise InputError("it is not a readable Parquet file; give one with columns t, q_ref_1, ..., q_1, ...") from error
     names = []
     for field in table.schema:
         lengths = _get_list_length(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
@@ -169,7 +169,7 @@ def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
 
 
 def _get_list_length(pyarrow: Any, column: Any) -> int:
-    """Return the length of the lists in a column, 0 where it holds single values."""
+    """Return the length of the lists in a column, 0 where it contains single values."""
     if not pyarrow.types.is_nested(column.type) or not len(column):
         return 0
     first = column[0].as_py()

@@ -254,4 +254,4 @@ def _read_npz(path: Path) -> dict[str, FloatArray]:
         with np.load(io.BytesIO(content), allow_pickle=False) as data, np.errstate(invalid="ignore"):  # a signaling NaN
             return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _ARRAY_WIDTHS}
     except Exception as error:  # zipfile, zlib and NumPy raise errors of many types
-        raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error
+        raise InputError("it is not an .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error

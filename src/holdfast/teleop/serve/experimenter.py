@@ -206,7 +206,7 @@ async def stream_live(socket: WebSocket) -> None:
 
 async def _send_updates(socket: WebSocket) -> None:
     control = _get_control(socket)
-    control.mark_subjects_changed()  # the list is sent as soon as the page watches, which is in the next line
+    control.mark_subjects_changed()  # the list is sent as soon as the page is connected, which is in the next line
     async for message in control.live.stream_messages():
         await socket.send_text(json.dumps(message))
 
