@@ -137,7 +137,7 @@ def simulate_logs(
         pose: Record the tool poses, 100 times a second.
 
     Raises:
-        InputError: As for :func:`simulate_log`, or a sequence has not one entry for each log.
+        InputError: As for :func:`holdfast.response.diagnosis.simulate_log`, or a sequence lacks entries for some logs.
         ArmError: Inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """

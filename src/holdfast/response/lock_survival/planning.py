@@ -39,7 +39,7 @@ class BaselineMotion:
     Attributes:
         name: Method that planned the motion.
         survival: Survival as in :class:`LockSurvival`.
-        curve: (T,) survival of a lock at each time, as :meth:`LockSurvival.curve`.
+        curve: (T,) survival of a lock at each time, as from ``LockSurvival.curve()``.
         off: Fraction of the samples at which the motion is off the path, violates a constraint, or has no configuration; a
             lock there counts as lost.
     """

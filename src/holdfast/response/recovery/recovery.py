@@ -299,7 +299,9 @@ class Recovery(Result):
         return certify_unreachable_pose(self.degraded, self.task, pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the waypoints, or the timed motion, to the CSV file ``file`` for :func:`read_waypoints`; return its path.
+        """Write the waypoints, or the timed motion, to the CSV file ``file``, and return its path.
+
+        :func:`holdfast.response.recovery.read_waypoints` reads the file.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.

@@ -70,7 +70,7 @@ def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float
     """Return the smallest number of subjects with which a within-subjects F test has the required power; None above 10,000.
 
     Args:
-        effect: Noncentrality per subject, as for :func:`f_test_power`.
+        effect: Noncentrality per subject: for an observed F, ``F df / subjects`` of that experiment.
         df: Degrees of freedom of the effect.
         power: Required power, between ``limit`` and 1.
         limit: p-value below which an effect is called significant.

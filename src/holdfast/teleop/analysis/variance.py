@@ -86,7 +86,7 @@ class Anova:
         raise InputError(f"the ANOVA has no effect '{name}'; it has {', '.join(effect.name for effect in self.effects)}")
 
     def table(self) -> DataFrame:
-        """Return a table with a row for each effect and the columns of :class:`Effect`; the name is in ``effect``."""
+        """Return a table with a row for each effect and the fields of an ``Effect`` as columns; the name is in ``effect``."""
         from pandas import DataFrame
 
         columns = ["effect", *(field.name for field in fields(Effect)[1:])]

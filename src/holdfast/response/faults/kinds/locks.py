@@ -80,6 +80,6 @@ def locked(joints: Joints = None, *, at: Value | str = "here", **when: Unpack[Fa
 def slipping_clutch(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a clutch: a brake holds the link, and the sensor on the motor's side follows the reference.
 
-    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
     """
     return Fault("slipping_clutch", {}, joints, **when)

@@ -122,7 +122,7 @@ class CommandDropoutKind(_MotorKind):
 def limp(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a motor without torque, so that the joint is free-swinging.
 
-    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
     """
     return Fault("limp", {}, joints, **when)
 
@@ -173,6 +173,6 @@ def reduced_speed(joints: Joints = None, *, velocity: Value, **when: Unpack[Faul
 def command_dropout(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a joint that receives no new commands and keeps its last one.
 
-    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
     """
     return Fault("command_dropout", {}, joints, **when)

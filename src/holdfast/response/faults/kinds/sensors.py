@@ -97,7 +97,7 @@ def sensor_drift(joints: Joints = None, *, rate: Value, **when: Unpack[FaultTimi
 def sensor_freeze(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
     """Return a fault of a joint sensor whose reading keeps its value from the onset.
 
-    ``joints`` are the names of joints that can have the fault (None: any), and ``when`` are the options of :class:`Fault`.
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
     """
     return Fault("sensor_freeze", {}, joints, **when)
 
