@@ -78,7 +78,7 @@ class RestOfPath:
         if self.first_lost is not None:
             return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
         graph_text = f" among {self.graph:,} configurations connected from pose to pose" if self.graph else ""
-        return f"each of its poses can be reached, but no continuous motion through all of them was found{graph_text}"
+        return f"each of its poses has a configuration, but no continuous motion through all of them was found{graph_text}"
 
     def describe(self) -> str:
         """Return the result in one or two sentences."""
@@ -175,7 +175,7 @@ def _follow_samples(
     complete = np.flatnonzero(last_samples == len(fractions) - 1)
     if complete.size:
         rest = replace(rest, share=fractions, found=np.ones(len(fractions), dtype=bool))
-        # A pose that a motion passes counts as found.
+    # A pose that a motion passes counts as found.
     rest = replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest) & (last_samples.max(initial=-1) >= 0))
     motions = [q[:, index] for index in complete]
     return rest, sorted(motions, key=lambda motion: float(search.metric.cumulative_length(motion)[-1]))
