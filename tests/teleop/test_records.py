@@ -284,7 +284,7 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     records.finish_trial(number, End.ARRIVED, q)
     with pytest.raises(hf.InputError, match="has ended"):
         records.append_cycles(number, 7, np.zeros(1), velocity=v, q=q[None])
-    with pytest.raises(hf.InputError, match="ended already"):
+    with pytest.raises(hf.InputError, match="already ended"):
         records.finish_trial(number, End.ARRIVED, q)
 
 

@@ -87,13 +87,13 @@ def test_a_stopped_experiment_ends_with_the_same_bytes(protocol, complete, tmp_p
     assert content == complete[1]
     assert counts == sorted(counts)
     assert len(counts) > 1
-    assert ("already holds" in capfd.readouterr().err) == (method != "add_subject")
+    assert ("already contains" in capfd.readouterr().err) == (method != "add_subject")
 
 
 def test_a_complete_experiment_stays_as_it_is(protocol, complete, copy, monkeypatch, capfd):
     monkeypatch.setattr(rehearsal, "_run_simulated_trials", None)
     assert run(protocol, copy) == complete[1]
-    assert f"already holds 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
+    assert f"already contains 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
 
 
 def test_the_creation_of_an_experiment_is_resumed(protocol, complete, tmp_path, monkeypatch):
