@@ -190,7 +190,7 @@ def test_complete_leaves_subjects_out_and_lists_them(table):
     a = analyse(lost, missing="complete")
     assert a.left_out == ("S03",)
     assert a.observed.subjects == ("S01", "S02", "S04", "S05", "S06")
-    assert "1 subject left out of everything because of empty cells: S03." in a.notes
+    assert "1 subject left out completely because of empty cells: S03." in a.notes
     without = analyse(lost[lost["subject"] != "S03"])
     assert a.anova == without.anova
     for s in ("S01", "S02", "S04", "S05", "S06"):
@@ -314,7 +314,7 @@ def test_without_ratings_cpm_has_eleven_measures(rng):
     table = trials(rng, rated=False)
     a = analyse(table)
     assert len(a.observed.normalisers) == 11
-    assert any("Nobody rated" in n for n in a.notes)
+    assert any("No trial was rated" in n for n in a.notes)
     assert len(a.table("failed")) == 12
     assert not a.correlations
 
@@ -328,7 +328,7 @@ def test_without_ratings_cpm_has_eleven_measures(rng):
         (lambda t: t.drop(columns="M3"), r"no column 'M3'"),
         (lambda t: t.iloc[:0], r"no trials"),
         (lambda t: t.assign(kind=["person"] * 100 + ["simulated"] * 116), r"kind person and simulated; analyse one"),
-        (lambda t: t.assign(end="done"), r"ended 'done'; an end is one of arrived, still"),
+        (lambda t: t.assign(end="done"), r"ended 'done'; the end must be one of arrived, still"),
         (lambda t: pd.concat([t, t.iloc[:1]]), r"subject S01, task 1, scenario 1 twice"),
         (lambda t: t.assign(M2=-1.0), r"M2 = -1 for subject S01, task 1, scenario 1"),
         (lambda t: t.assign(M2=np.nan), r"M2 = nan"),
@@ -352,7 +352,7 @@ def test_bad_options_are_refused(table, computer):
         analyse(table, computer[computer["task"] < 9])
     with pytest.raises(InputError, match=r"computer's table has no scenario 4: failed, failure-tolerant"):
         analyse(table, computer[computer["scenario"] < 4])
-    with pytest.raises(InputError, match=r"has 6 subjects; there is one computer"):
+    with pytest.raises(InputError, match=r"has 6 subjects; it must have one"):
         analyse(table, table)
     with pytest.raises(InputError, match=r"no table 'x'; there are trials, "):
         analyse(table).table("x")

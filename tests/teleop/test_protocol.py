@@ -110,7 +110,7 @@ def test_protocol_reads_what_it_writes(tmp_path):
         ("target: [1.5, 1.5]", "target: [1.5, 1.5, 0]", "target: it has 3 numbers"),
         ("dead_zone: 0.005", "dead_zone: 0.5", "dead zone"),
         ("moderate, difficult,", "easy, difficult,", "two of its steps"),
-        ("- {law: pseudoinverse, failed: true}", "- {law: pseudoinverse, failed: false}", "two of them are the same"),
+        ("- {law: pseudoinverse, failed: true}", "- {law: pseudoinverse, failed: false}", "two of them are equal"),
     ],
 )
 def test_bad_protocols_get_one_sentence(tmp_path, old, new, message):

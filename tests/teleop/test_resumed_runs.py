@@ -87,13 +87,13 @@ def test_a_stopped_experiment_ends_with_the_same_bytes(protocol, complete, tmp_p
     assert content == complete[1]
     assert counts == sorted(counts)
     assert len(counts) > 1
-    assert ("already holds" in capfd.readouterr().err) == (method != "add_subject")
+    assert ("already contains" in capfd.readouterr().err) == (method != "add_subject")
 
 
 def test_a_complete_experiment_stays_as_it_is(protocol, complete, copy, monkeypatch, capfd):
     monkeypatch.setattr(rehearsal, "_run_simulated_trials", None)
     assert run(protocol, copy) == complete[1]
-    assert f"already holds 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
+    assert f"already contains 18 training tasks and the sessions of 3 of {OPERATORS} operators" in capfd.readouterr().err
 
 
 def test_the_creation_of_an_experiment_is_resumed(protocol, complete, tmp_path, monkeypatch):
@@ -128,7 +128,7 @@ def test_other_folders_are_refused(protocol, copy, tmp_path):
         simulate_experiment(tmp_path / "people", protocol, OPERATORS, seed=4)
     with Records.open(copy) as opened:
         opened.delete_subject("S02")
-    with pytest.raises(hf.StoreError, match="lost or got subjects"):
+    with pytest.raises(hf.StoreError, match="were added or deleted"):
         simulate_experiment(copy, protocol, OPERATORS, seed=4)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "protocol.yaml").write_text("mine")

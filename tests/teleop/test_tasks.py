@@ -160,5 +160,5 @@ def test_bad_input_is_refused(arm, bank):
         sample_tasks(arm, per_joint=0)
     with pytest.raises(hf.InputError, match="give a smaller distance"):
         sample_tasks(arm, per_joint=1, joints=[0], distance=7.0)
-    with pytest.raises(hf.InputError, match="tasks were asked for"):
+    with pytest.raises(hf.InputError, match="tasks are requested"):
         select_tasks(bank, bin_tasks(bank), 10_000)

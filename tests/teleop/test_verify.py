@@ -131,7 +131,7 @@ def test_a_stranger_gets_the_same_digests(experiment):
         ("UPDATE subjects SET note = 'left' WHERE code = 'S02'", "subject S02 is not as it was written"),
         ("UPDATE events SET data = '{}' WHERE id = 1", "event 1 of S01 is not"),
         ("UPDATE sessions SET seq = 7 WHERE subject = 'S01'", "the session of the page of S01"),
-        ("UPDATE about SET value = '2020' WHERE key = 'began'", "what is said about the experiment"),
+        ("UPDATE about SET value = '2020' WHERE key = 'began'", "the metadata of the experiment"),
         ("UPDATE cycles SET q = zeroblob(24) WHERE trial = 7 AND k = 2", "trial 7, which is not over, is not"),
     ],
 )
@@ -175,7 +175,7 @@ def test_an_older_folder_is_read_and_goes_on_with_digests(experiment, tmp_path):
 
 
 def test_what_is_not_an_experiment(tmp_path):
-    with pytest.raises(hf.StoreError, match="holds no experiment"):
+    with pytest.raises(hf.StoreError, match="contains no experiment"):
         verify_records(tmp_path)
 
 

@@ -1,4 +1,4 @@
-"""Everything that a person sees: the command line, reports, texts and figures of results, and the studio.
+"""User interfaces: the command line, reports, texts and figures of results, and the studio.
 
 A module belongs here if it formats, draws, or reads input of a user. It computes nothing that another wing could need.
 """

@@ -1,7 +1,7 @@
 """Everything between a failure and the end of the task: faults, their diagnosis, recovery, and the supervisor of the arm.
 
-A module belongs here if it simulates or detects a fault, or decides what an arm does after one. Motions that are planned
-beforehand so that they survive a lock are in ``lock_survival``.
+A module belongs here if it simulates or detects a fault, or decides the response of an arm. Motions that are planned in advance
+so that they survive a lock are in ``lock_survival``.
 """
 
 from holdfast.core._lazy import offer

@@ -24,7 +24,7 @@ from holdfast.teleop.trials.operators import Person, SimulatedPeople, rate_comfo
 from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import PointTasks
 
-OPERATORS_PER_BATCH = 64  # their trials are driven together and held in memory
+OPERATORS_PER_BATCH = 64  # operators whose trials are driven together and kept in memory
 
 
 @reports_progress("simulating the experiment", passes_progress=False)
@@ -38,22 +38,22 @@ def simulate_experiment(
 ) -> Records:
     """Run an experiment with simulated people, from training to the last rating, and record it.
 
-    A stopped experiment is resumed by the same call: each round of training, and the session of each operator, is recorded as
-    a whole or not at all, and the resumed experiment has the same results as one that was not stopped.
+    The same call resumes a stopped experiment. Each round of training, and the session of each operator, is recorded as a whole
+    or not at all, and a resumed experiment has the same results as one that was not stopped.
 
     Args:
-        folder: A new or empty folder, or the folder of the same experiment.
-        protocol: What is done.
-        operators: How many, drawn from :func:`holdfast.teleop.sample_people`, or who.
-        seed: Of the people and of their noise.
-        progress: Is told how far it is.
+        folder: New or empty folder, or the folder of the same experiment.
+        protocol: Protocol of the experiment.
+        operators: Number of operators, sampled by :func:`holdfast.teleop.sample_people`, or the people themselves.
+        seed: Seed of the people and of their noise.
+        progress: Function that is called with a text about the progress. None: no reports.
 
     Returns:
-        The records, open. Subjects are marked *simulated*.
+        Open records, in which the subjects are marked *simulated*.
 
     Raises:
-        StoreError: The folder holds something else, another program writes to it, or it cannot be written.
-        InputError: Fewer than one operator.
+        StoreError: The folder contains something else, another program writes to it, or it cannot be written.
+        InputError: There is no operator.
     """
     report_progress = progress or (lambda text: None)
     people_seed, training_seed, trial_seed, rating_seed = (
@@ -89,7 +89,7 @@ def _create_or_resume_records(folder: Path, protocol: Protocol, operators: int |
     """Create the records of a simulated experiment, or open those that the same call began.
 
     Raises:
-        StoreError: The folder holds another experiment or something else.
+        StoreError: The folder contains another experiment or something else.
     """
     content = sha256(f"{protocol.to_yaml()}{protocol.arm.fingerprint}".encode()).hexdigest()[:8]
     people = {"number of operators": operators} if isinstance(operators, int) else {"people": [vars(p) for p in operators]}
@@ -105,11 +105,11 @@ def _create_or_resume_records(folder: Path, protocol: Protocol, operators: int |
     else:
         return records
     records.close()
-    raise StoreError(f"'{folder}' holds {problem}; give another folder")
+    raise StoreError(f"'{folder}' contains {problem}; give another folder")
 
 
 def _add_or_read_subjects(records: Records, people: Sequence[Person]) -> list[Subject]:
-    """Add the subjects, or read them and say how much of the experiment is recorded already.
+    """Add the subjects, or read them and report the recorded part of the experiment.
 
     Raises:
         StoreError: Subjects were added or deleted since.
@@ -119,21 +119,21 @@ def _add_or_read_subjects(records: Records, people: Sequence[Person]) -> list[Su
         with records.transaction():
             return [records.add_subject(kind=SubjectKind.SIMULATED) for _ in people]
     if [s.number for s in subjects] != list(range(len(people))):
-        raise StoreError(f"'{records.folder}' has lost or got subjects since it was simulated; give another folder")
+        raise StoreError(f"subjects of '{records.folder}' were added or deleted since it was simulated; give another folder")
     training = len(records.entries(kind=TrialKind.TRAINING))
     sessions = len({e.subject for e in records.entries(kind=TrialKind.TRIAL)})
     recorded = f"{training} training tasks and the sessions of {sessions} of {len(people)} operators"
-    print_warning(f"'{records.folder}' already holds {recorded}")
+    print_warning(f"'{records.folder}' already contains {recorded}")
     return subjects
 
 
 def _train_people(
     records: Records, subjects: list[Subject], people: Sequence[Person], seed: int, report_progress: Callable[[str], None]
 ) -> list[bool]:
-    """Run training tasks, in rounds, until each person meets the criterion or has done all; return who met it.
+    """Run training tasks, in rounds, until each person meets the criterion or has done all tasks.
 
     Returns:
-        Whether each subject meets the criterion; the others have dropped out.
+        True for each subject who meets the criterion; the others have dropped out.
     """
     protocol = records.protocol
     criterion, scenario = protocol.training, find_training_scenario(protocol)
@@ -149,7 +149,7 @@ def _train_people(
         ]
         if not practising:
             break
-        # Nobody is trained before the least number of tasks: these are done side by side.
+        # Training takes at least `at_least` tasks, which are therefore run in one batch.
         count = min(criterion.at_least if first == 0 else 1, criterion.most - first)
         noise_seed = int(noise_seeds.spawn(1)[0].generate_state(1)[0])
         if any(len(recorded[person]) == first for person in practising):
@@ -187,14 +187,14 @@ def _train_people(
 def _run_sessions(
     records: Records, subjects: list[Subject], people: list[Person], seeds: Sequence[int], say: Callable[[str], None]
 ) -> None:
-    """Do the sessions of a batch of subjects, and record those that are not recorded yet, each as a whole or not at all.
+    """Run the sessions of a batch of subjects, and record those that are missing, each as a whole or not at all.
 
     Args:
-        records: The records.
-        subjects: The batch.
-        people: Who they are.
-        seeds: Of the trials and of the ratings.
-        say: Is told how far it is.
+        records: Records of the experiment.
+        subjects: Subjects of the batch.
+        people: Simulated person of each subject.
+        seeds: Seeds of the trials and of the ratings.
+        say: Function that is called with a text about the progress.
     """
     missing = [k for k, s in enumerate(subjects) if not records.entries(s.code, TrialKind.TRIAL)]
     if not missing:

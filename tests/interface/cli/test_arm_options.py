@@ -235,7 +235,7 @@ def crane(tmp_path: Path, lower: float = -2.0) -> Path:
 
 def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, tmp_path):
     at = ("recover", crane(tmp_path), "--lock", "2", "--at", "0.2 0 0.4", "--samples", "0", "--task", "planar")
-    assert ask(*at)["goal"] == "the end effector where it is at all joints at 0"
+    assert ask(*at)["goal"] == "the end effector's pose at all joints at 0"
     limited = crane(tmp_path, lower=0.1)
     assert ask(at[0], limited, *at[2:5], "0.2 0.1 0.4", *at[6:])["goal"].endswith(
         "at all joints at 0, a1, a2, a3 at the limit nearest to it"
@@ -244,8 +244,8 @@ def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, 
     values = {"home": (0.1, 0, 0.3), "ready": (0.3, 0, 0.3)}
     texts = {name: "".join(f"<joint name='a{k + 1}' value='{x}'/>" for k, x in enumerate(q)) for name, q in values.items()}
     (tmp_path / "crane.srdf").write_text(SRDF.format(**texts))
-    assert ask(*at)["goal"] == "the end effector where it is at home"
-    assert ask(*at, "--goal", "ready")["goal"] == "the end effector where it is at ready"
+    assert ask(*at)["goal"] == "the end effector's pose at home"
+    assert ask(*at, "--goal", "ready")["goal"] == "the end effector's pose at ready"
     code, _, err = cli(*at, "--goal", "half")
     assert code == 2
     assert "--goal 'half' is not known; write home, ready, 'q:...' with 3 joint values, or 'pose:...'" in err

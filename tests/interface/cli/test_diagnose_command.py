@@ -32,7 +32,7 @@ def test_from_records_to_a_page(cli, tmp_path):
     assert "No fault seen in 1.999 s." in out
     code, _, error = cli("diagnose", faults, *options)
     assert code == 2
-    assert "it is no .npz file of numbers" in error
+    assert "it is not an .npz file of numbers" in error
     assert Log.load(log).n == 7
 
 

@@ -79,4 +79,4 @@ def test_without_physics_faults_are_locks(ask, refused, tmp_path):
     call = ["simulate", "planar-3r", "--start", "20 40 60", "--degrees", "--target", "1.5,1.5"]
     assert ask(*call, "--faults", path) == ask(*call, "--lock", "2@0.5")
     path.write_text("faults: [{kind: limp, joints: [joint2], onset: 0.5}]\n", encoding="utf-8")
-    assert "bodies and motors are needed; add --physics" in refused(*call, "--faults", path)
+    assert "it needs bodies and motors; add --physics" in refused(*call, "--faults", path)

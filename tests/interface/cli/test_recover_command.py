@@ -54,7 +54,7 @@ def test_a_motion_is_timed_within_accelerations_and_its_file_is_checked(cli, tmp
     call = ["recover", arm, "--lock", "2", "--at", "0.1 0.3 0.2", "--goal", "q:1.1 0.3 0.5", "--samples", "0"]
     code, text, err = cli(*call, "--accelerations", accelerations, "--period", 0.02, "--out", tmp_path / "out")
     assert (code, err) == (0, "")
-    assert "takes 1.5 s (1 s at the speed limits alone)" in text
+    assert "takes 1.5 s (1 s at the velocity limits alone)" in text
     assert (tmp_path / "out" / "timing.png").exists()
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     check(page)
@@ -89,7 +89,7 @@ def test_anything_less_than_the_whole_goal_is_exit_code_3(cli, more, ending):
 def test_a_proof_says_whether_it_holds_within_what_may_be_missed(cli):
     code, text, _ = cli(*CALL, "--goal", "pose:4,0,0", "--samples", "0", "--tolerance", "1mm,0.5deg")
     assert code == 3
-    assert "so is what misses it by 1 mm and 0.5 deg" in text
+    assert "this also holds for misses of up to 1 mm and 0.5 deg" in text
 
 
 def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
@@ -116,7 +116,7 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--goal", "pose:1,1,0", "--task", "planar-pose"], "no orientation"),
         ([*CALL, "--margin", "0.1"], "--margin has no effect"),
         ([*CALL, "--accelerations", "quick"], "--accelerations"),
-        ([*CALL, "--accelerations", "3=1"], "no limit of 'joint1'"),
+        ([*CALL, "--accelerations", "3=1"], "no limit for 'joint1'"),
         ([*CALL, "--tolerance", "1mm"], "a sequence of 2"),
         ([*CALL, "--tolerance", "1mm,x"], "--tolerance '1mm,x' is not a number"),
     ],

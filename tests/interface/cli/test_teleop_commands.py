@@ -98,9 +98,9 @@ def test_tasks_of_an_arm_from_a_file(cli, tmp_path):
     [
         (["--distance", "9"], "give a smaller distance"),
         (["--distance", "nan"], "distance is nan"),
-        (["--select", "90"], "90 tasks were asked for"),
+        (["--select", "90"], "90 tasks are requested"),
         (["--per-joint", "0"], "per-joint"),
-        (["--task", "pose"], "a stick commands"),
+        (["--task", "pose"], "a joystick commands"),
     ],
 )
 def test_tasks_refuses(refused, more, sentence):
@@ -163,9 +163,9 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     code, text, _ = cli("teleop", "analyse", copy, "--difficulty", "computer", "--groups", "2")
     assert code == 0
     assert "2 simulated subjects" in text
-    assert "dropped out, and not part of any number: S02" in text
+    assert "dropped out, and not included: S02" in text
     with lock_records_folder(copy):
-        assert "is served by another program already" in refused("teleop", "subjects", copy, "--delete", "S01")
+        assert "is already served by another program" in refused("teleop", "subjects", copy, "--delete", "S01")
     code, text, _ = cli("teleop", "subjects", copy, "--delete", "S01")
     assert code == 0
     assert "deleted: subject S01 and" in text
@@ -230,10 +230,10 @@ def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
         (["run", "--simulated"], "--out"),
         (["run", "--simulated", "--operators", "0", "--out", "new"], "operators"),
         (["run", "--simulated", "--out", "new", "--protocol", "none.yaml"], "none.yaml"),
-        (["analyse", "none"], "holds no experiment"),
-        (["replay", "none"], "holds no experiment"),
-        (["export", "none"], "holds no experiment"),
-        (["subjects", "none"], "holds no experiment"),
+        (["analyse", "none"], "contains no experiment"),
+        (["replay", "none"], "contains no experiment"),
+        (["export", "none"], "contains no experiment"),
+        (["subjects", "none"], "contains no experiment"),
         (["protocol", "none.yaml"], "none.yaml"),
         (["allocation", "none.yaml"], "none.yaml"),
         (["allocation", "--subjects", "0"], "subjects"),

@@ -228,7 +228,7 @@ def test_a_line_through_what_the_arm_cannot_reach_is_not_called_infeasible_witho
     for tries, verdict in ((1, "undecided"), (4, "argued infeasible")):
         answer = hf.recover(three, {"joint3": 0.0}, start, **ask, keep=tool_constraints.plane(across), tries=tries)
         assert (answer.verdict.answer, answer.ending) == (verdict, RecoveryOutcome.NO_ROUTE_FOUND)
-    assert "grows no more" in str(answer.verdict)
+    assert "exhausted all that is connected" in str(answer.verdict)
 
 
 def test_a_start_and_a_goal_that_break_a_row(panda):

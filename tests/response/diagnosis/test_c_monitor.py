@@ -63,5 +63,5 @@ def test_what_is_not_written(tmp_path):
     bounds = c_monitor.bounds_of(arm)
     with pytest.raises(InputError, match="cannot name a C function"):
         hf.diagnosis.export_c(arm, bounds, tmp_path, name="2")
-    with pytest.raises(InputError, match="the bounds are of another arm"):
+    with pytest.raises(InputError, match="the thresholds are not of"):
         hf.diagnosis.export_c(hf.arms.load("panda"), bounds, tmp_path)

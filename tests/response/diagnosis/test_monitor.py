@@ -90,7 +90,7 @@ def test_pushes_on_links_are_nobodys_fault(panda, bounds):
         said = hf.diagnosis.diagnose(panda, log, bounds).verdict
         assert said.time > 0.8
         assert (said.kind, said.joint) == ("contact", None)
-    with pytest.raises(InputError, match="external_forces are of 1 records and seeds of 2; give one for each"):
+    with pytest.raises(InputError, match="external_forces has entries for 1 logs and there are 2 seeds; give one for each"):
         hf.diagnosis.simulate_logs(panda, 1.0, seeds=[1, 2], external_forces=[[]])
 
 
@@ -319,15 +319,15 @@ def test_a_late_pose_from_parquet_is_in_time(panda, bounds, healthy, tmp_path):
     assert hf.diagnosis.diagnose(panda, Log.load(tmp_path / "log.parquet"), bounds).verdict.kind == "sensor"
     with pytest.raises(InputError, match="latency is 3 s; it must be 0 or more"):
         Log.load(tmp_path / "log.parquet", latency=3.0)
-    with pytest.raises(InputError, match="it is no Parquet file"):
+    with pytest.raises(InputError, match="it is not a readable Parquet file"):
         Log.load((tmp_path / "log.csv").rename(tmp_path / "x.parquet") if log.save(tmp_path / "log.csv") else "")
 
 
 def test_what_does_not_go_together_is_refused(panda, bounds, healthy):
-    with pytest.raises(InputError, match="the bounds are of another arm"):
+    with pytest.raises(InputError, match="the thresholds are not of"):
         hf.diagnosis.Monitor(hf.arms.load("planar-3r"), bounds)
     slow = dataclasses.replace(healthy[0], t=healthy[0].t * 2)
-    with pytest.raises(InputError, match="the record has 500 samples a second and the bounds 1000"):
+    with pytest.raises(InputError, match="the log has 500 samples a second and the thresholds have 1000"):
         hf.diagnosis.diagnose(panda, slow, bounds)
     with pytest.raises(InputError, match=r"factor is 0\.5; it must"):
         hf.diagnosis.calibrate(panda, healthy[:1], factor=0.5)

@@ -143,10 +143,10 @@ def test_what_cannot_be_asked(panda, probe, rng):
     with pytest.raises(InputError, match="has no redundancy for task 'pose'"):
         hf.diagnosis.plan_identification(hf.arms.load("ur5"), np.zeros(6))
     log = measured(panda, probe, 1, rng)
-    with pytest.raises(InputError, match="the record has no measured pose"):
+    with pytest.raises(InputError, match="the log has no measured pose"):
         probe.decide(Log(t=log.t, q_ref=log.q_ref, q=log.q))
     late = np.where(np.arange(len(log.t))[:, None] < 40, np.nan, log.x)
-    with pytest.raises(InputError, match="begin the record at rest"):
+    with pytest.raises(InputError, match="begin the log at rest"):
         probe.decide(Log(t=log.t, q_ref=log.q_ref, q=log.q, x=late, quat=log.quat))
     with pytest.raises(InputError, match=r"they must be above 0\.6"):
         hf.diagnosis.plan_identification(panda, probe.q[0], duration=0.5)

@@ -145,7 +145,7 @@ def test_a_file_gives_the_model_back(tmp_path):
         ("{kind: limp, onset: {normal: [2, 1]}}", "onset of 'limp' has the keys normal; it must be a number"),
         ("{kind: limp, onset: -1}", "onset of 'limp' is -1; it must be 0 or more"),
         ("{kind: limp, onset: 1, rate_per_hour: 2}", "both onset and rate_per_hour"),
-        ("{kind: sensor_bias, bias: -0.1}", "it must be 0 or more; its sign is drawn"),
+        ("{kind: sensor_bias, bias: -0.1}", "it must be 0 or more; its sign is random"),
         ("{kind: limp, joints: [a, a]}", "name each once"),
         ("{kind: limp, joints: [a, b], weights: [1]}", "has 1 weights; give one for each of its joints"),
         ("{kind: limp, joints: [a], together: 2}", "together of 'limp' is 2"),
@@ -164,7 +164,7 @@ def test_a_file_that_is_wrong_says_where(text, words, tmp_path):
 def test_what_a_draw_refuses():
     with pytest.raises(InputError, match="'limp' names joint 'x'; the joints are a, b, c, d"):
         hf.faults.FaultModel([hf.faults.limp("x")]).draw(JOINTS)
-    with pytest.raises(InputError, match="comes and goes for ever"):
+    with pytest.raises(InputError, match="is intermittent without an end"):
         hf.faults.FaultModel([hf.faults.limp("a", on=1, off=1)]).draw(JOINTS)
     with pytest.raises(InputError, match="together of 'limp' is 5, and there are 4 joints"):
         hf.faults.FaultModel([hf.faults.limp(together=5)]).draw(JOINTS)

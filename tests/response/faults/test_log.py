@@ -112,9 +112,9 @@ def test_units_that_cannot_be_those_of_the_arm():
     Log(t=t, q_ref=q, q=q).require(PANDA)
     leaps = np.repeat(q[::100], 100, axis=0)
     Log(t=t, q_ref=leaps, q=q).require(PANDA)
-    with pytest.raises(InputError, match=r"q_ref of 'panda_joint1' is from 0 to 17.19 rad .* give a record in rad and s"):
+    with pytest.raises(InputError, match=r"q_ref of 'panda_joint1' is from 0 to 17.19 rad .* give a log in rad and s"):
         Log(t=t, q_ref=np.degrees(q), q=np.degrees(q)).require(PANDA)
-    with pytest.raises(InputError, match=r"the record has 0\.2 samples a second; it must have 40 or more, with t in s"):
+    with pytest.raises(InputError, match=r"the log has 0\.2 samples a second; it must have 40 or more, with t in s"):
         Log(t=1e3 * t, q_ref=q, q=q).require(PANDA)
     with pytest.raises(InputError, match=r"is from .* rad at .* rad/s, and the joint's limits are"):
         Log(t=t / 30, q_ref=q, q=q).require(PANDA)

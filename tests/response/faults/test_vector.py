@@ -171,7 +171,7 @@ def test_it_is_an_environment_of_gymnasium(law):
 def test_bad_input(law):
     with pytest.raises(InputError, match=r"use holdfast\.simulate_faults"):
         FaultVectorEnv(law, 2, FaultModel([hf.faults.limp(onset=0.1)])).reset(seed=0)
-    with pytest.raises(InputError, match="give an arm or more"):
+    with pytest.raises(InputError, match="give at least one arm"):
         FaultVectorEnv(law, 0)
     env = made(law, 2)
     env.reset(seed=0)

@@ -74,7 +74,7 @@ def test_any_joint_is_one_that_is_driven_and_a_sensor_is_one_that_is_seen(reache
     flat = gymnasium.wrappers.TransformObservation(reacher, lambda seen: 2 * seen, None)
     with pytest.raises(InputError, match="another wrapper changes the observation"):
         FaultWrapper(flat, [event]).reset(seed=1)
-    with pytest.raises(InputError, match=r"the faults are 'faults.yaml'; read a file of them by"):
+    with pytest.raises(InputError, match=r"the faults are 'faults.yaml'; read a file with"):
         FaultWrapper(reacher, "faults.yaml")
 
 
@@ -116,7 +116,7 @@ def test_a_weak_motor_must_carry_the_arm():
     assert abs(panda.gravity_torque(found.q)[1]) <= 0.9 * panda.joints[1].effort
     none = feasible(panda, goal, {FaultEvent("weak", "panda_joint2", 0.0, parameters={"gain": 1e-6}): 0.6})
     assert none.answer == "not found"
-    assert "gravity asks more" in none.why
+    assert "gravity exceeds the torque" in none.why
     assert feasible(panda, goal, {FaultEvent("limp", "panda_joint4", 0.0): -1.8}).answer == "yes"  # its brake holds it
     # A stop gives way: a joint 5 mrad beyond it is at it, and one 50 mrad beyond is an error.
     limp = FaultEvent("limp", "panda_joint7", 0.0)

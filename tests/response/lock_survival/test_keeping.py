@@ -67,14 +67,14 @@ def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     machine, path, best = kept
     flat = hf.plan_motion(machine, timed([1.2, 0.3], [1.9, 0.3]), samples=5, spacing=0.2, keep=["plane:0,1,0", "plane:0,0,1"])
     assert "by the rows of the path alone" in " ".join(flat.describe())
-    with pytest.raises(hf.InputError, match=r"path itself breaks what is kept: at 0.5 s the tool is 0.1 m off the plane"):
+    with pytest.raises(hf.InputError, match=r"path itself violates a constraint: at 0.5 s the tool is 0.1 m off the plane"):
         hf.plan_motion(machine, timed([1.2, 0.3], [1.6, 0.7]), samples=5, spacing=0.2, keep="plane:0,1,0")
-    with pytest.raises(hf.InputError, match="leaves free what is to be kept exactly"):
+    with pytest.raises(hf.InputError, match="leaves an exact constraint free"):
         hf.plan_motion(machine, path, keep=heading(0.0))
-    with pytest.raises(hf.InputError, match="path has positions only"):
+    with pytest.raises(hf.InputError, match="path has only positions"):
         hf.plan_motion(machine, path, keep=hf.tool_constraints.plane([0, 0, 1], frame="tool"))
     with pytest.raises(
-        hf.HoldfastError, match=r"cannot be followed at 0 s: no configuration that was found keeps this: upright"
+        hf.HoldfastError, match=r"cannot be followed at 0 s: no configuration that was found meets the constraint: upright"
     ):
         hf.plan_motion(
             machine, path, samples=5, spacing=0.2, keep=hf.tool_constraints.upright(0.1, axis=[1, 0, 0], direction=[-1, 0, 0])
@@ -83,7 +83,7 @@ def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     assert free.survival > best.survival
     again = hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE))
     np.testing.assert_array_equal(again.survives, best.survives)
-    with pytest.raises(hf.InputError, match=r"motion breaks what is kept: at \S+ s the tool is turned away by"):
+    with pytest.raises(hf.InputError, match=r"motion violates a constraint: at \S+ s the tool is turned away by"):
         hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE / 3))
 
 

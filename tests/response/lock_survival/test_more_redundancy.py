@@ -89,7 +89,7 @@ def test_detours_regain_the_path_where_closed_forms_have_every_pose(four):
 
 def test_detours_among_obstacles_ask_for_one_degree_of_redundancy(four):
     machine, path, _ = four
-    with pytest.raises(TaskError, match="detours among obstacles or with something kept are looked at with one"):
+    with pytest.raises(TaskError, match="detours among obstacles or with constraints need exactly one"):
         hf.plan_motion(machine, path, task="planar", mode="detour", keep="plane:0,0,1")
 
 

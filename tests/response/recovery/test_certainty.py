@@ -66,7 +66,7 @@ def test_a_start_whose_meshes_touch_is_proved_and_named(panda, between):
         assert pin.computeCollisions(scene.model, scene.data, scene.shapes, placed, q, True)
         found = hf.recover(panda, ["panda_joint7"], q, samples=0)
         assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "start"), found.verdict
-        assert "certain of " in found.reason
+        assert "certain for " in found.reason
     with pytest.raises(hf.InputError, match="goal: at that configuration the arm collides with itself"):
         hf.recover(panda, ["panda_joint7"], hf.arms.about("panda").home, goal=touching[0], samples=0)
 

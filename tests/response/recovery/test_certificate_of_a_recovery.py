@@ -27,7 +27,7 @@ def test_a_proof_is_a_certificate(tmp_path, task, locked):
 
 def test_what_has_none():
     found = hf.recover(hf.arms.load("planar-3r"), [1], [0.1, 0.2, 0.3], samples=0)
-    with pytest.raises(InputError, match="the goal names joints beyond what is left of their limits"):
+    with pytest.raises(InputError, match="the goal names joints beyond their remaining limits"):
         found.certificate()
 
 

@@ -169,7 +169,7 @@ def test_a_healthy_or_weak_arm_and_a_position_without_an_axis(leaning):
     [
         ({"within": 0.0}, "within is 0 rad; it must be from"),
         ({"within": 4.0}, "within is 4 rad"),
-        ({"within": 0.3, "task": ["vx", "vy"]}, "within keeps the whole position"),
+        ({"within": 0.3, "task": ["vx", "vy"]}, "within needs all position rows"),
     ],
 )
 def test_a_wrong_cone_is_refused(leaning, options, sentence):

@@ -349,12 +349,12 @@ BAD = [
     ({"at": [0.0, np.inf, 0.0]}, "NaN or infinity"),
     ({"goal": "away"}, "'away' is not known"),
     ({"goal": [0.0, 1.0]}, "shape"),
-    ({"goal": None}, "neither a goal nor a path"),
+    ({"goal": None}, "no goal and no path"),
     ({"goal": [0.0, 0.0, 4.0]}, "outside its limits"),
     ({"metric": "money"}, "'money' is not known"),
     ({"weights": [1.0, 2.0]}, "weights"),
     ({"starts": 0}, "starts is 0"),
-    ({"margin": 0.1}, "nothing to keep"),
+    ({"margin": 0.1}, "margin has no effect"),
     ({"task": "pirouette"}, "not known"),
 ]
 

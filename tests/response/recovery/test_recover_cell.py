@@ -100,7 +100,7 @@ def test_what_is_in_the_way_is_named(slim):
     wall = hf.Cell([Sphere("wall", 0.2, pose=pose)])
     found = hf.recover(arm, ["joint2"], START, goal=pose, task="planar", clearance=clearance, cell=wall, samples=0, starts=32)
     assert found.ending == RecoveryOutcome.PROVED_UNREACHABLE
-    assert "every configuration within the limits that meets it touches something (wall)" in found.reason
+    assert "every configuration within the limits that meets it collides (wall)" in found.reason
     with pytest.raises(hf.InputError, match=r"goal: .* the cell .*\(joint3 & ball"):
         hf.recover(arm, ["joint2"], GOAL, goal=START, clearance=clearance, cell=ball, samples=0)
 

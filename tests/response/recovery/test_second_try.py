@@ -84,7 +84,7 @@ def test_a_gap_that_is_closed_or_too_narrow_for_the_margin_stays_so(arm, slim, l
     found = turned(arm, slim, beyond(gap), **options)
     assert found.ending == RecoveryOutcome.NO_ROUTE_FOUND
     assert not len(found.q)
-    assert "nor is there more by exact distances" in found.reason
+    assert ") find no more" in found.reason
     assert not check_waypoints(arm, ENDS, clearance=slim, cell=beyond(gap), **options).ok
 
 

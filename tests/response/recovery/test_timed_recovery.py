@@ -302,7 +302,7 @@ def test_a_corner_that_other_code_refuses_is_a_stop(among_balls, monkeypatch):
     )
     never = round_the_corner(bent.arm, bent.at, bent.q[-1], bent.clearance)
     assert never.verdict.answer == "undecided"
-    assert "as it is timed, no" in never.verdict.why
+    assert "in the timed motion, no" in never.verdict.why
 
 
 # ---- tool paths and rows ---------------------------------------------------------------------------------------------
@@ -366,7 +366,7 @@ def test_rows_are_kept_where_corners_are_rounded():
         (0.0, "the acceleration of 'joint1' is 0"),
         ([1.0, np.nan, 1.0], "finite number above 0"),
         ([1.0, 1.0], r"shape \(2,\)"),
-        ({"joint1": 1.0}, "no limit of 'joint3'"),
+        ({"joint1": 1.0}, "no limit for 'joint3'"),
         ({"joint9": 1.0}, "no joint 'joint9'"),
         ({"joint1": [1.0, 2.0]}, "give a number"),
         ("fast", "accelerations"),

@@ -171,4 +171,4 @@ def test_no_motion_along_a_line_is_proved_and_what_may_be_missed_is_said():
         assert result.verdict.answer == "proved infeasible"
         assert result.verdict.kind in ("a pose of the path", "disconnected")
         assert result.proved_within == within
-        assert ("so is what misses it" if within else "not proved of what misses it") in result.verdict.why
+        assert ("this also holds for misses" if within else "not proved for misses") in result.verdict.why

@@ -57,8 +57,8 @@ def test_what_is_solved_is_verified_by_other_code(moved):
     [
         (lambda q: q + np.array([0, 1e-11, 0]), "joint2 is locked and moves"),
         (lambda q: np.concatenate([q, q[-1:] + np.array([1e-3, 0, 0])]), "the goal is missed by"),
-        (lambda q: np.concatenate([q[:1], [[9.0, 0.6, 0.1]], q[1:]]), "joint1 leaves its limits by"),
-        (lambda q: q + np.array([1e-3, 0, 0]), "does not begin where the arm is"),
+        (lambda q: np.concatenate([q[:1], [[9.0, 0.6, 0.1]], q[1:]]), "joint1 exceeds its limits by"),
+        (lambda q: q + np.array([1e-3, 0, 0]), "does not begin at the start configuration"),
     ],
 )
 def test_a_spoilt_motion_is_refused(moved, three, spoil, fault):
@@ -197,7 +197,7 @@ def test_that_every_configuration_touches_something_is_a_proof(three):
     goal = placed(1.5, -1.0)
     shape = slim(three, hf.cell.Sphere("ball", 0.2, pose=[1.5, -1.0, 0.0]))
     every = enumerate_configurations(hf.Degraded(three, locked={"joint2": 0.6}), as_task(three, "planar"), goal, np.inf)
-    assert "each of its 2 configurations touches something" in str(prove_no_configuration(every, shape))
+    assert "each of its 2 configurations collides" in str(prove_no_configuration(every, shape))
     assert prove_no_configuration(every, None) is None
     assert prove_no_configuration(every, slim(three, hf.cell.Sphere("ball", 0.2, pose=[-2.0, 2.0, 0.0]))) is None
 
@@ -237,7 +237,7 @@ def test_what_only_a_search_says_is_argued(three, monkeypatch):
 def test_a_spent_time_limit_is_undecided_and_says_at_which_level(three):
     path = hf.paths.line([1.5, 1.5, 0], [1.2, 1.6, 0])
     found = hf.recover(three, ["joint2"], HOME, goal=None, path=path, time_limit=1e-9, samples=0)
-    assert str(found.verdict) == "undecided: the time limit was spent following the tool path"
+    assert str(found.verdict) == "undecided: the time limit ended the search while following the tool path"
     with pytest.raises(hf.InputError, match="time_limit is 0"):
         hf.recover(three, ["joint2"], HOME, time_limit=0.0)
 
@@ -302,6 +302,6 @@ def test_a_motion_and_the_timed_motion_have_the_worse_of_both_findings():
     first = Verification(faults=("a",), checked=3, exact_by="", goal_miss=0.1, path_miss=0.5, kept=((1.0, 5.0),))
     timed = Verification(faults=("b",), checked=4, exact_by="", goal_miss=0.2, path_miss=0.3, kept=((2.0, 4.0),))
     both = first.merge_timed(timed)
-    assert both.faults == ("a", "as it is timed, b")
+    assert both.faults == ("a", "in the timed motion, b")
     assert (both.checked, both.path_miss, both.kept) == (7, 0.5, ((2.0, 5.0),))
     assert timed.merge_timed(first).path_miss == 0.5

@@ -125,13 +125,13 @@ def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
     blind = run(law, LOCKED, react="known").require_ok()
     detour = run(law, LOCKED, react="known", cell=ball, plan=False).require_ok()
     assert [a.what for a in detour.actions] == ["alarm", "brake", "detour"]
-    assert "the law would not get there clear of the cell" in detour.actions[-1].why
+    assert "the law would miss the target or touch the cell" in detour.actions[-1].why
     monkeypatch.setattr(
         "holdfast.response.supervisor.replanning.choose_intermediate_configuration", lambda *args, **given: None
     )
     route, stopped = (run(law, LOCKED, react="known", cell=ball, plan=plan) for plan in (True, False))
     assert [a.what for a in route.require_ok().actions] == ["alarm", "brake", "plan"]
-    assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no other posture helps")
+    assert (stopped.outcome, stopped.actions[-1].why) == ("stopped", "no intermediate configuration helps")
     for kept in (detour, route, stopped):
         assert detour.clearance.sign(kept.q[::10]).all()  # of the meshes, by another library
         assert kept.contacts == ()
@@ -230,7 +230,7 @@ def test_lock_times_of_drawn_faults_in_the_kinematic_loop(law):
         one = hf.simulate(law, START, GOAL, locked=[e.joint for e in events], time=[e.onset for e in events] or 0.0)
         assert runs.q_final[k] == pytest.approx(one.q_final, abs=1e-9)
         assert hf.simulate(law, START, GOAL, faults=events).q_final.tolist() == one.q_final.tolist()
-    with pytest.raises(InputError, match="bodies and motors are needed"):
+    with pytest.raises(InputError, match="it needs bodies and motors"):
         hf.simulate(law, START, GOAL, faults=hf.faults.FaultModel([hf.faults.limp(onset=1.0)]).draw(law.arm))
     with pytest.raises(InputError, match="leave one of them out"):
         hf.simulate(law, START, GOAL, locked=["panda_joint1"], faults=batch)

@@ -193,7 +193,7 @@ def test_what_is_left_of_the_law_is_left_before_something_is_near():
     robot.hear(0.5, kind="locked")
     sent = np.array([robot.controller.rates(0.5 + 1e-3 * k, np.full(7, 0.1)) for k in range(600)])
     assert robot.did() == ["alarm", "brake", "stop"]
-    assert robot.controller.actions[-1].why == "no other posture helps"
+    assert robot.controller.actions[-1].why == "no intermediate configuration helps"
     after = sent[100:]  # it has stopped after the brake, goes on, and stops again
     assert after.max() == pytest.approx(np.sqrt(0.005 * 10), abs=2e-3)
     assert (sent[-1] == 0).all()

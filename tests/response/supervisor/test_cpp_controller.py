@@ -234,5 +234,5 @@ def test_what_is_no_controller(tmp_path):
     law, bounds = hf.control.pseudoinverse(arm, "planar"), c_monitor.bounds_of(arm)
     with pytest.raises(InputError, match="cannot name a C function"):
         hf.supervisor.export_controller(law, bounds, tmp_path, name="new-one")
-    with pytest.raises(InputError, match="the bounds are of another arm"):
+    with pytest.raises(InputError, match="the thresholds are not of"):
         hf.supervisor.export_controller(hf.control.pseudoinverse(hf.arms.load("panda")), bounds, tmp_path)

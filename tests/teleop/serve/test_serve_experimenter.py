@@ -399,13 +399,13 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
     assert apart._run_job_function("report", str(experiment), str(tmp_path), "refuse") == 0
     assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
     dropped, simulated = written[1].notes[1:]
-    assert dropped.startswith("dropped out, and not part of any number: ")
+    assert dropped.startswith("dropped out, and not included: ")
     assert "P3" in dropped
-    assert simulated == f"simulated, and not part of any number: {', '.join(programs)}"
+    assert simulated == f"simulated, and not included: {', '.join(programs)}"
 
 
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
-    with pytest.raises(InputError, match="holds no experiment"):
+    with pytest.raises(InputError, match="contains no experiment"):
         asyncio.run(apart.run_job("export", str(tmp_path), str(tmp_path)))
     with pytest.raises(HoldfastError, match="the dance failed; the terminal in which the server was started shows why"):
         asyncio.run(apart.run_job("dance", str(folder), str(tmp_path)))

@@ -42,7 +42,7 @@ def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, p
     for each in (client, idle):
         with pytest.raises(ConnectionClosed):
             each.receive()
-    assert "not there any more" in list_of(served)["fault"]
+    assert "no longer exists" in list_of(served)["fault"]
     with connect(served.url, proxy=None) as new:  # nobody begins a session either
         new.send(json.dumps({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}))
         assert isinstance(read_reply(new.recv(30)), Unstored)
@@ -60,7 +60,7 @@ def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, p
 
 
 def test_one_server_for_a_folder(server, built):
-    with pytest.raises(hf.StoreError, match="is served by another program already"):
+    with pytest.raises(hf.StoreError, match="is already served by another program"):
         serve_experiment(ServerOptions(server.folder, static=built[0], english=built[1]), port=0)
 
 
@@ -68,7 +68,7 @@ def test_nobody_is_deleted_behind_a_servers_back(start, tmp_path, protocol):
     served = start(tmp_path / "experiment")
     code = Client(served.url, protocol).connect().subject
     with Records.open(served.folder) as records:
-        with pytest.raises(hf.StoreError, match="is served by another program already; stop that one first"):
+        with pytest.raises(hf.StoreError, match="is already served by another program; stop that one first"):
             records.delete_subject(code)
         assert records.subject(code).code == code
         served.process.kill()
@@ -149,7 +149,7 @@ def test_a_rating_of_the_training_is_refused(server, protocol, rng):
     client.trial("training", 0, rng, cycles=2)
     client.settle()
     client.socket.send(json.dumps({"type": "rate", "seq": client.seq + 1, "rating": 1, "answers": {}}))
-    assert "one of the training" in client.receive().reason
+    assert "is a training trial" in client.receive().reason
     client.socket.close()
 
 

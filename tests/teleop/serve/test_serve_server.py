@@ -172,11 +172,11 @@ def test_what_is_wrong_is_refused_and_the_session_goes_on(server, protocol, rng)
     last = client.seq
     for wrong, reason in [
         ({"type": "begin", "seq": last + 1, "kind": "trial", "position": 0}, "training 2 is the next"),
-        ({"type": "begin", "seq": last + 2, "kind": "training", "position": 1}, f"{last + 1} is the next"),
+        ({"type": "begin", "seq": last + 2, "kind": "training", "position": 1}, f"{last + 1} is next"),
         ({"type": "begin", "seq": 1, "kind": "training", "position": 0}, "on record already"),
         (
             {"type": "cycles", "seq": last + 1, "first": 2, "time": [0], "velocity": [[0, 0]], "q": [[0, 0, 0]]},
-            "no trial is under way",
+            "no trial is in progress",
         ),
         ({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}, "hello already"),
         ({"type": "shutdown"}, "malformed"),

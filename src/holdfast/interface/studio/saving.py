@@ -22,11 +22,11 @@ class ViewSaver:
     """Saver of one client's view; the files are named after the arm.
 
     Args:
-        client: Of Viser; it is sent the files.
-        machine: The arm.
-        stage: What the client sees of it.
-        on_saved: Is told in a sentence what was saved.
-        on_error: Is told what went wrong.
+        client: Client of viser, which receives the files.
+        machine: Compiled arm.
+        stage: Scene of the client.
+        on_saved: Function that is called with a sentence about the saved file.
+        on_error: Function that is called with an exception.
     """
 
     def __init__(
@@ -48,8 +48,8 @@ class ViewSaver:
         """Save the scene as ``png`` or ``svg``, or the cell as ``cell-file``.
 
         Args:
-            file_kind: Which of them.
-            state: What is shown.
+            file_kind: Kind of the file.
+            state: State of the view.
             ghosts: Configurations (n,) of ghost arms.
         """
         match file_kind:

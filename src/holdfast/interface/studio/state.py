@@ -19,27 +19,27 @@ class State:
     """View of the studio, without its camera position.
 
     Attributes:
-        arm: The arm as given on the command line: a built-in name or a file.
-        names: (n,) names of its joints.
+        arm: Arm as given on the command line: a built-in name or a file.
+        names: (n,) names of the joints.
         q: (n,) configuration, rad and m.
-        task: Rows of the pose that matter, as on the command line.
-        base, tip: Links of the file, if chosen.
-        hold: Joints of the file that are held, and where, rad or m.
+        task: Task as on the command line.
+        base, tip: Links of the file at the ends of the arm. None: automatic.
+        hold: Joints of the file that are fixed, with their values, rad or m.
         conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
-        index: The index of the bars.
-        susceptibility: The susceptibility of the bars.
-        objective: What best and worst configurations are chosen by: an index or a susceptibility, by name.
-        laws: Two control laws side by side, as ``slug`` or ``slug:setting``.
-        target: Where they should bring the end effector: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
-        show: What is shown beside the arm: nothing else (``arm``), ghosts in the ``best-worst`` configuration of this pose, a
-            motion under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
-        file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
-        region: A results folder of ``assess``, or None: then a region around the end effector.
-        time: Where a motion is shown, s (or whatever its first column counts).
-        cell: A cell file, or None: no objects.
-        meshes: A folder in which meshes that the arm's file names are looked for first, or None.
-        fault: What is injected and watched: its kind, the joint and when, s. No joint: the middle one. It is not in the
-            command line.
+        index: Index of the bars.
+        susceptibility: Susceptibility of the bars.
+        objective: Index or susceptibility, by name, that defines the best and the worst configuration.
+        laws: Two control laws to compare, as ``slug`` or ``slug:setting``.
+        target: Target of the end effector under these laws: x, y, z (m) and quaternion x, y, z, w. None: not chosen.
+        show: Content in addition to the arm: none (``arm``), ghosts in the ``best-worst`` configuration of this pose, a motion
+            under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
+        file: File of a motion from ``follow``, ``simulate`` or ``recover``, or None.
+        region: Results folder of ``assess``. None: a region around the end effector.
+        time: Time of the shown motion, s (or the unit of its first column).
+        cell: Cell file. None: no objects.
+        meshes: Folder that is searched first for meshes of the arm's file, or None.
+        fault: Injected fault: kind, joint and onset, s. An empty joint name means the middle joint. The fault is not part of
+            the command line.
         moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
@@ -85,7 +85,7 @@ class State:
 
     @property
     def failed_joints(self) -> tuple[int, ...]:
-        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes catch them."""
+        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes stop them."""
         return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
 
     @property
@@ -94,7 +94,7 @@ class State:
         return tuple(k for k, c in enumerate(self.conditions) if c == "free")
 
     def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
-        """Return the same view with an object of the cell in another pose."""
+        """Return the same view with the object ``name`` of the cell at ``numbers``: x, y, z (m) and quaternion x, y, z, w."""
         return replace(self, moved=(*(entry for entry in self.moved if entry[0] != name), (name, numbers)))
 
     def arguments(self) -> list[str]:

@@ -28,11 +28,11 @@ class StudioView:
     """Scene and controls of one client, and the state that they show.
 
     Args:
-        client: Of viser.
-        machine: The arm.
-        state: What is shown at first.
-        parts: What the arm is made of.
-        request_action: ``ask(what, value)`` is told of everything that a person does.
+        client: Client of viser.
+        machine: Compiled arm.
+        state: Initial state.
+        parts: Meshes of the arm.
+        request_action: Function ``ask(what, value)`` that is called for every action of the user.
     """
 
     def __init__(
@@ -40,8 +40,8 @@ class StudioView:
     ) -> None:
         self.client, self.machine, self.state = client, machine, state
         self._initial_state = state
-        self.updates = 0  # pictures sent
-        self.dragged: str | int | None = None  # what a person holds: the end effector, or a slider
+        self.updates = 0  # number of pictures that were sent
+        self.dragged: str | int | None = None  # control that the user drags: the end effector, or a slider
         self.cloud: RegionCloud | None = None
         self.monitor_demo: MonitorDemo | None = None
         self._reading: LiveReading | None = None
@@ -84,7 +84,7 @@ class StudioView:
         self.updates += 1
 
     def _find_enabled_actions(self, reading: LiveReading) -> dict[str, bool]:
-        """Return for each button whether it has an effect now."""
+        """Return for each button True if it has an effect now."""
         state, machine = self.state, self.machine
         ghosts = len(self.player.ghosts) if state.show in ("best-worst", "laws") else 0
         has_extras = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
@@ -144,7 +144,7 @@ class StudioView:
             self._set_configuration(q)
 
     def _on_time(self, value: float) -> None:
-        self.player.pause()  # who takes the slider stops what plays
+        self.player.pause()  # dragging the slider stops the playback
         self.player.show_motions_at(value)
 
     def _on_play(self, _: Any) -> None:
@@ -164,7 +164,7 @@ class StudioView:
         self.stage.target.visible = True
 
     def _is_at_target(self) -> bool:
-        """Return whether the end effector is at the target, by the rows of the task."""
+        """Return True if the end effector is at the target, by the rows of the task."""
         target = self.state.target
         return (
             target is not None

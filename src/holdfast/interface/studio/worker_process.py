@@ -23,15 +23,15 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 
 Progress = Callable[[int, int], None]
-CANCEL_TIMEOUT_S = 2.0  # s that a request gets to give up before its process is ended
-_POLL_INTERVAL_S = 0.02  # s
+CANCEL_TIMEOUT_S = 2.0  # time that a cancelled request has before its process is killed, s
+_POLL_INTERVAL_S = 0.02  # interval of calls of ``check``, s
 
 
 class WorkerProcess:
     """Worker process, started on first use, and killed and restarted if a request is not cancelled in time."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
-        self._inputs = replace(arm), task, cell  # without what has been compiled
+        self._inputs = replace(arm), task, cell  # without compiled functions
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._request_lock = threading.Lock()
@@ -41,14 +41,14 @@ class WorkerProcess:
         """Run a job of :mod:`holdfast.interface.studio.compute` for a state.
 
         Args:
-            job_name: Its name.
-            state: What it is of.
-            check: Called 50 times a second; raises to give up.
-            progress: Told of (done, in all).
+            job_name: Name of the job.
+            state: State for which it runs.
+            check: Function that is called 50 times a second, and raises an exception to cancel.
+            progress: Function that is called with (done, total).
 
         Raises:
-            Cancelled: As ``check`` raises it.
-            HoldfastError: What the job raised, or that its process ended.
+            Cancelled: ``check`` raised it.
+            HoldfastError: The job raised it, or its process ended.
         """
         while not self._request_lock.acquire(timeout=_POLL_INTERVAL_S):
             check()
@@ -76,7 +76,7 @@ class WorkerProcess:
                     try:
                         pipe.close()
                     except OSError:
-                        continue  # what was not sent yet cannot be sent any more
+                        continue  # the pipe is closed, so unsent data cannot be sent
 
     def _ensure_started(self) -> None:
         if self._process is not None and self._process.poll() is None:
@@ -136,27 +136,27 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
             return
 
 
-# ---- in the process ----------------------------------------------------------------------------------------------
+# ---- in the worker process ---------------------------------------------------------------------------------------
 
 
 def main() -> None:
     """Answer requests until the parent process ends."""
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
-    sys.stdout = sys.stderr  # what a library prints must not get between the answers
+    sys.stdout = sys.stderr  # output of libraries must not mix with the answers
     arm, task, cell = pickle.load(requests)
 
     from holdfast.interface.studio.compute import JOB_FUNCTIONS
     from holdfast.interface.studio.scene.machine import CompiledArm, describe_error
 
     machine, pending = CompiledArm(arm, task, cell), queue.SimpleQueue[Any]()
-    newest_cancelled = [0]  # the newest request that is of no interest any more
+    newest_cancelled = [0]  # number of the newest cancelled request
 
     def read_requests() -> None:
         while True:
             try:
                 message = pickle.load(requests)
             except (EOFError, OSError, pickle.UnpicklingError):
-                os._exit(0)  # the parent is gone: nobody waits for what is under way
+                os._exit(0)  # the parent process has ended, so no result is needed
             if message[1] == "cancel":
                 newest_cancelled[0] = message[0]
             else:

@@ -16,8 +16,8 @@ from holdfast.response.diagnosis.kinds import FaultVerdict
 from holdfast.response.diagnosis.signals import ScaledResiduals, Signals
 from holdfast.response.faults.log import Log
 
-_MIN_TRAVEL_FACTOR = 2.0  # of its tracking bound: a reference that moves by less shows no lock
-_MAX_SPEED_FACTOR = 1.1  # than in calibration
+_MIN_TRAVEL_FACTOR = 2.0  # of the tracking threshold: a reference that moves by less does not reveal a lock
+_MAX_SPEED_FACTOR = 1.1  # of the calibrated speed
 _LEVEL_NAMES = {"torque": "torques", "tracking": "joint sensors", "tool": "the measured tool pose"}
 
 
@@ -26,12 +26,12 @@ class Diagnosis(Result):
     """Result of :func:`holdfast.response.diagnosis.diagnose` for a recording.
 
     Attributes:
-        arm: The arm.
-        log: The record.
-        bounds: Of the healthy arm.
-        signals: Residuals.
-        scaled: The same in units of their bounds, and seconds of excess.
-        verdict: The first alarm, its joint and kind.
+        arm: Monitored arm.
+        log: Diagnosed log.
+        bounds: Detection thresholds of the healthy arm.
+        signals: Residuals of the log.
+        scaled: Residuals in units of their thresholds, and their accumulated excess in seconds.
+        verdict: First alarm, with the faulty joint and the kind of its fault.
     """
 
     arm: Arm
@@ -43,14 +43,14 @@ class Diagnosis(Result):
 
     @cached_property
     def inconclusive(self) -> tuple[str, ...]:
-        """Joints whose reference moves by less than twice their tracking bound, so that a lock could not be detected."""
+        """Joints whose reference moves by less than twice their tracking threshold, so that a lock could not be detected."""
         travel = np.fmax.reduce(self.log.q_ref) - np.fmin.reduce(self.log.q_ref)
         moves_too_little = ~(travel >= _MIN_TRAVEL_FACTOR * self.bounds.tracking)
         return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(moves_too_little))
 
     @cached_property
     def beyond(self) -> tuple[str, ...]:
-        """Joints whose reference is more than 10 % faster than in calibration, so that the bounds are not valid for them."""
+        """Joints whose reference is more than 10 % faster than in calibration, so that their thresholds are not valid."""
         max_speeds = np.fmax.reduce(np.abs(np.diff(self.log.q_ref, axis=0))) * self.bounds.rate
         is_too_fast = max_speeds > _MAX_SPEED_FACTOR * self.bounds.speed + 1e-9
         return tuple(self.arm.joint_names[joint] for joint in np.flatnonzero(is_too_fast))
@@ -65,7 +65,7 @@ class Diagnosis(Result):
 
     @property
     def unmonitored(self) -> tuple[str, ...]:
-        """Signals that are not monitored, because the recording or the bounds lack them."""
+        """Signals that are not monitored, because the log or the thresholds lack them."""
         has_bound = {"torque": np.isfinite(self.bounds.torque).all(), "tool": np.isfinite(self.bounds.position)}
         levels = self.signals.levels
         return tuple(_LEVEL_NAMES[name] for name, is_bound in has_bound.items() if not is_bound or name not in levels)

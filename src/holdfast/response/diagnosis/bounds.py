@@ -1,4 +1,4 @@
-"""Bounds of the residuals of a healthy arm, calibrated from its recordings, with the resulting rate of false alarms."""
+"""Detection thresholds of a healthy arm, calibrated from its logs, with the resulting rate of false alarms."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from holdfast.response.faults.log import Log
 
 BOUND_FACTOR = 1.5  # on the largest healthy residual
 BOUND_FACTOR_SENSORS_ALONE = 2.5  # with joint sensors alone
-RATE_TOLERANCE = 0.01  # of the rate: so much may a record differ from its bounds
+RATE_TOLERANCE = 0.01  # largest relative difference between the sample rates of a log and of the thresholds
 _SECONDS_PER_HOUR = 3600.0
 _FILE_FORMAT = 2
 _JOINT_VECTORS = ("torque", "change", "tracking", "coulomb", "viscous", "scales", "speed")
@@ -35,25 +35,25 @@ _MAX_VALUE = 1e9  # N m, rad, m, rad/s and Hz: no threshold of a robot is larger
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Bounds(Result):
-    """Largest residuals of a healthy arm.
+    """Detection thresholds: the largest residuals in the logs of a healthy arm, times ``factor``.
 
     Attributes:
-        fingerprint: Of the arm.
-        joints: Names.
-        rate: Samples per second of the records.
-        torque: (n,) largest residual torque, N m and N; infinite without torques.
-        change: (n,) largest distance of the residual torque from its level: its average of the last 0.15 s, N m and N.
-        tracking: (n,) largest distance of a joint from its reference, rad and m.
-        position: Largest distance of the measured tool from the joints' one, m; infinite where it is not measured.
-        angle: Likewise, rad.
-        coulomb: (n,) dry friction that is taken off, N m and N.
-        viscous: (n,) viscous friction that is taken off, N m s/rad and N s/m.
-        scales: (n,) of the links' masses and inertias, fitted to the records; 1 if they were not.
-        factor: What the bounds are multiplied by.
-        speed: (n,) largest rate of the references, rad/s and m/s: faster motion was not calibrated.
-        hours: Of healthy motion.
-        logs: Records.
-        alarms: False ones, each record watched with the bounds of all others; None with one record alone.
+        fingerprint: Fingerprint of the calibrated arm.
+        joints: Names of the n joints.
+        rate: Sample rate of the logs, Hz.
+        torque: (n,) threshold of the residual torque, N m and N; infinite without torques.
+        change: (n,) threshold of the residual torque minus its level, the average of the last 0.15 s, N m and N.
+        tracking: (n,) threshold of the distance of a joint from its reference, rad and m.
+        position: Threshold of the distance between measured and computed tool point, m; infinite without measured poses.
+        angle: Threshold of the angle between measured and computed tool orientation, rad; infinite without measured poses.
+        coulomb: (n,) dry friction in the model of the healthy arm, N m and N.
+        viscous: (n,) viscous friction in the model of the healthy arm, N m s/rad and N s/m.
+        scales: (n,) factors on the masses and inertias of the links, fitted to the logs; 1 without a fit.
+        factor: Ratio of the thresholds to the largest healthy residuals.
+        speed: (n,) largest rate of the references, rad/s and m/s. Faster motion was not calibrated.
+        hours: Duration of the healthy motion, h.
+        logs: Number of logs.
+        alarms: Number of false alarms if each log is monitored with the thresholds of all others; None with a single log.
     """
 
     fingerprint: str
@@ -76,8 +76,8 @@ class Bounds(Result):
     def false_alarms(self) -> tuple[float, float] | None:
         """Return the false alarms per hour, and the 95 % upper confidence limit of their rate; None if they were not counted.
 
-        The limit is ``chi2_0.95(2 k + 2) / (2 H)`` for k alarms in H hours: 3.0/H for none. It is of this arm and this kind of
-        motion, and no lower rate may be claimed.
+        The limit is ``chi2_0.95(2 k + 2) / (2 H)`` for k alarms in H hours, which is 3.0/H without an alarm. It holds for this
+        arm and this kind of motion, and no lower rate may be claimed.
 
         Source: the exact limit of a Poisson rate, Garwood 1936.
         """
@@ -88,24 +88,24 @@ class Bounds(Result):
         return self.alarms / self.hours, float(chi2.ppf(0.95, 2 * self.alarms + 2) / (2 * self.hours))
 
     def lock_delays(self) -> FloatArray:
-        """Return the time (n,) in s from a lock to the alarm of joint sensors, at half the calibrated speed.
+        """Return the time (n,) in s from a lock to the alarm of the joint sensors, at half the calibrated speed.
 
-        The joint falls behind by ``v t``, whose excess over the tracking bound ``b`` reaches the limit ``L`` after
-        ``b / v + sqrt(2 L b / v)``; infinite for a joint that never moved.
+        The tracking error grows as ``v t``, and its excess over the threshold ``b`` reaches the limit ``L`` after
+        ``b / v + sqrt(2 L b / v)``. The time is infinite for a joint that never moved.
         """
         with np.errstate(divide="ignore"):
             time_to_bound = self.tracking / (self.speed / 2)
         return np.asarray(time_to_bound + np.sqrt(2 * EXCESS_LIMITS_S["tracking"] * time_to_bound))
 
     def body(self, arm: Arm) -> Arm:
-        """Return the arm with the link masses that the bounds assume."""
+        """Return the ``arm`` with its link masses multiplied by ``scales``."""
         return scale_masses(arm, self.scales)
 
     def to_json(self, file: str | Path) -> Path:
-        """Write the file that :func:`holdfast.response.diagnosis.load` reads.
+        """Write the JSON file ``file`` that :func:`holdfast.response.diagnosis.load` reads, and return its path.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         data: dict[str, Any] = {"format": _FILE_FORMAT}
         for name, value in vars(self).items():
@@ -117,10 +117,10 @@ class Bounds(Result):
         return Path(file)
 
     def require_sound(self) -> None:
-        """Raise an error for bounds with which a monitor would detect nothing or everything.
+        """Raise an error for thresholds with which a monitor would detect nothing or everything.
 
         Raises:
-            InputError: A value of the wrong length or size; the message names it.
+            InputError: A value has a wrong length or size; the message names it.
         """
         joint_count = len(self.joints)
         vectors = {name: getattr(self, name) for name in _JOINT_VECTORS}
@@ -139,27 +139,27 @@ class Bounds(Result):
             _require_between(name, vectors[name], 0.0, "0 or more")
         _require_between("factor", np.atleast_1d(self.factor), 1.0, "1 or more")
         if not self.logs >= 1 or not (self.alarms is None or self.alarms >= 0):
-            raise InputError(f"it counts {self.alarms} false alarms in {self.logs} logs; both are numbers of 0 or more")
+            raise InputError(f"alarms is {self.alarms} and logs is {self.logs}; alarms must be 0 or more, and logs 1 or more")
 
     def require(self, arm: Arm, rate: float) -> None:
-        """Raise an error if the bounds belong to another arm or to another sample rate.
+        """Raise an error if the thresholds do not belong to ``arm`` and to the sample rate ``rate``, Hz.
 
         Raises:
-            InputError: It is another one.
+            InputError: The fingerprint or the rate differs.
         """
         if arm.fingerprint != self.fingerprint:
-            raise InputError(f"the bounds are of another arm than '{arm.name}'; calibrate with records of this one")
+            raise InputError(f"the thresholds are not of '{arm.name}'; calibrate with logs of this arm")
         if abs(rate / self.rate - 1) > RATE_TOLERANCE:
             raise InputError(
-                f"the record has {rate:.4g} samples a second and the bounds {self.rate:.4g}; use records of one rate"
+                f"the log has {rate:.4g} samples a second and the thresholds have {self.rate:.4g}; use logs of one rate"
             )
 
 
 def load(file: str | Path) -> Bounds:
-    """Read bounds from a file of :meth:`Bounds.to_json`.
+    """Read thresholds from the JSON file ``file`` of :meth:`Bounds.to_json`.
 
     Raises:
-        InputError: Unreadable, or no such file.
+        InputError: The file does not exist or is not a threshold file.
     """
     try:
         data = read_sealed(file)
@@ -182,7 +182,7 @@ def load(file: str | Path) -> Bounds:
     except InputError as error:
         raise InputError(f"bounds '{file}': {error}; make the file again with holdfast calibrate") from error
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
-        raise InputError(f"bounds '{file}': it is no file of bounds; make one with holdfast calibrate") from error
+        raise InputError(f"bounds '{file}': it is not a threshold file; make one with holdfast calibrate") from error
 
 
 def _read_number(value: Any) -> float:
@@ -209,32 +209,31 @@ def calibrate(
     viscous: ArrayLike | None = None,
     fit: bool = False,
 ) -> Bounds:
-    """Calibrate bounds from recordings of a healthy arm, and count how often these recordings would have raised an alarm.
+    """Calibrate detection thresholds from logs of a healthy arm, and count how often these logs would have raised an alarm.
 
-    The bound of each residual is the largest that any record has, times ``factor``. For the false alarms each record is
-    watched with the bounds of all others.
+    The threshold of each residual is its largest value in any log, times ``factor``. To count false alarms, each log is
+    monitored with the thresholds of all others.
 
     Args:
-        arm: The arm, with inertial data if torques were recorded.
-        logs: Records of healthy motion, of the kind that is to be watched.
-        factor: Above or equal to 1. None: 1.5; 2.5 where torques were not recorded: then the bounds are those of slow motion
-            (every reference below 0.6 rad/s and m/s for 0.1 s), in which alone tracking is watched.
-        coulomb: (n,) dry friction of the joints, N m and N, if it is known.
-        viscous: (n,) viscous friction, N m s/rad and N s/m; the arm's own if not given.
-
-        fit: Fit masses of the links and friction of the joints to the records first, so that bounds are tighter; dry friction
-            that is given is kept.
+        arm: Arm that was recorded, with inertial data if torques were recorded.
+        logs: Logs of healthy motion, of the kind that will be monitored.
+        factor: Ratio of the thresholds to the largest residuals, 1 or more. Default: 1.5, or 2.5 without recorded torques.
+            Without torques, tracking is monitored and calibrated in slow motion only (every reference below 0.6 rad/s and m/s
+            for 0.1 s).
+        coulomb: (n,) dry friction of the joints, N m and N. Default: 0.
+        viscous: (n,) viscous friction of the joints, N m s/rad and N s/m. Default: the friction of the arm's model.
+        fit: Fit link masses and joint friction to the logs first, for tighter thresholds; ``coulomb``, if given, is kept.
 
     Raises:
-        InputError: No records, records of another arm or of several rates, records that the arm's model does not explain
-            (units, signs, order of joints), or that have the measured joints as references; or a factor below 1.
-        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+        InputError: There is no log; the logs have other joints, several rates, or the measured joints as references; the
+            arm's model does not explain them (units, signs, order of joints); or the factor is below 1.
+        ArmError: Torques were recorded, and the arm's inertial data are missing or impossible.
 
-    Source: derived here. That residuals are bounded rather than modelled as noise is measured: they are friction, inertia and
-    gravity errors, correlated over seconds, for which tests designed for independent noise alarm all the time.
+    Source: derived here. Residuals are bounded and not modelled as noise, because measured residuals are errors of friction,
+    inertia and gravity. These are correlated over seconds, and tests designed for independent noise alarm on them all the time.
     """
     if not logs:
-        raise InputError("there is no record to calibrate with; give records of healthy motion")
+        raise InputError("there is no log to calibrate with; give logs of healthy motion")
     if factor is None:
         factor = BOUND_FACTOR if any(log.tau is not None for log in logs) else BOUND_FACTOR_SENSORS_ALONE
     if not factor >= 1:
@@ -246,7 +245,7 @@ def calibrate(
     rate = logs[0].rate
     for log in logs:
         if abs(log.rate / rate - 1) > RATE_TOLERANCE:
-            raise InputError(f"the records have {rate:.4g} and {log.rate:.4g} samples a second; use records of one rate")
+            raise InputError(f"the logs have {rate:.4g} and {log.rate:.4g} samples a second; use logs of one rate")
     require_reference_tracking(arm, logs)
     require_explained_torques(arm, logs, coulomb=coulomb_friction, viscous=viscous_friction)
     scales = np.ones(arm.n)
@@ -255,19 +254,19 @@ def calibrate(
     fitted_arm = scale_masses(arm, scales)
     residual_signals = [
         compute_signals(arm, log, coulomb=coulomb_friction, viscous=viscous_friction, body=fitted_arm)
-        for log in track("records", logs)
+        for log in track("logs", logs)
     ]
     largest = [
         np.array([log_signals.largest_residual(name) for log_signals in residual_signals])
         for name in ("torque", "tracking", "position", "angle")
     ]
     if all(np.isnan(log_signals.tracking).all() for log_signals in residual_signals):
-        raise InputError("the records have neither torques nor slow motion, where joint sensors alone can tell; record either")
+        raise InputError("the logs have neither torques nor slow motion, in which joint sensors alone suffice; record either")
     without_error = np.flatnonzero(largest[1].max(axis=0) == 0)
     if without_error.size:
         raise InputError(
-            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the records; q_ref must be what the "
-            "servos were to follow, not what the sensors told"
+            f"'{arm.joint_names[without_error[0]]}' never departs from its reference in the logs; q_ref must be the reference "
+            "of the servos, not the measured position"
         )
     change = factor * np.array([log_signals.largest_residual("change") for log_signals in residual_signals]).max(axis=0)
     alarms: int | None = None

@@ -1,6 +1,6 @@
 """Isolation of the faulty joint and classification of its fault, cycle by cycle after the alarm, with a state of constant size.
 
-Source: derived here; the thresholds were set on simulated faults other than those that they were measured with.
+Source: derived here; the thresholds were set on other simulated faults than those of the measurements.
 """
 
 from __future__ import annotations
@@ -20,28 +20,28 @@ from holdfast.response.diagnosis.sensors import Sensors
 
 ISOLATION_TIME_S = 0.020  # after the alarm
 CLASSIFICATION_TIME_S = 0.100  # after the isolation
-SENSOR_REVISION_TIME_S = 0.5  # after the alarm; until then the tool's pose may show that a sensor is faulty
-POSE_MONITORING_TIME_S = 2.0  # after the alarm; until then the tool's pose may name that sensor
-SUSPECT = 1.5  # of the tool's bound: then the joints are not where their sensors say
-WORSE = 28.0  # in squares of deviations: another joint explains the tool's pose so much worse
+SENSOR_REVISION_TIME_S = 0.5  # after the alarm; until then the tool pose may show that a sensor is faulty
+POSE_MONITORING_TIME_S = 2.0  # after the alarm; until then the tool pose may identify that sensor
+SUSPECT = 1.5  # of the tool threshold: above, the joint sensors contradict the tool pose
+WORSE = 28.0  # squared deviations by which every other joint must explain the tool pose worse
 _RANK_TOLERANCE = 1e-9  # of the largest: a direction in which a force loads no joint
-UNSURE = 0.7  # of a torque bound: a level of residuals follows them while all are below; healthy ones are below 1 / factor
-PUSHED = 4.0  # likewise a force at the far end of a link explains the torques so much better than one joint
+UNSURE = 0.7  # of a torque threshold: the level follows the residuals while all are below; healthy ones are below 1 / factor
+PUSHED = 4.0  # squared deviations by which a force on a link must explain the torques better than one joint
 
 
 class AlarmDecision:
     """Isolation and classification of the fault behind one alarm.
 
     Args:
-        arm: The arm.
-        bounds: Of the healthy arm.
-        sensors: How good they are.
-        time: Of the alarm, s.
-        level: (n,) of the residual torques before it, N m and N.
-        joints: (n,) those that are watched.
-        torques: Whether torques are watched.
-        tool: Whether the tool's pose is measured at all.
-        tool_alone: Whether nothing but the tool's pose alarmed.
+        arm: Monitored arm.
+        bounds: Detection thresholds of the healthy arm.
+        sensors: Accuracy of the sensors.
+        time: Time of the alarm, s.
+        level: (n,) level of the residual torques before the alarm, N m and N.
+        joints: (n,) mask of the monitored joints.
+        torques: True if torques are monitored.
+        tool: True if the tool pose is measured.
+        tool_alone: True if only the tool pose raised the alarm.
     """
 
     def __init__(
@@ -85,11 +85,11 @@ class AlarmDecision:
         """Add the signals of one control cycle.
 
         Args:
-            q: (n,) rad and m.
-            reference: (n,) rad and m.
+            q: (n,) measured joint positions, rad and m.
+            reference: (n,) references of the joints, rad and m.
             signals: (n,) each: rates, residual torques, commanded torques through both filters of these, gravity torques.
-            scaled_torque: (n,) residual torques in units of their bounds.
-            scaled_tracking: (n,) tracking likewise.
+            scaled_torque: (n,) residual torques in units of their thresholds.
+            scaled_tracking: (n,) tracking errors in units of their thresholds.
         """
         self.count += 1
         if self.count <= self._isolation_cycles:
@@ -105,15 +105,15 @@ class AlarmDecision:
             self._classifier.add_cycle(float(q[joint]), float(reference[joint]), slip, torques)
 
     def add_tool_pose(self, scaled_residual: float, residual: FloatArray, jacobian: FloatArray) -> None:
-        """Add a sample of the tool's pose in the cycle that :meth:`add_cycle` was given last.
+        """Add a sample of the tool pose in the cycle of the last call of :meth:`add_cycle`.
 
-        What each joint leaves unexplained, ``c = -J_i b`` with an error of its own for each sample, for a sensor that is
-        frozen drifts away.
+        For each joint, the residual that its column does not explain, ``c = -J_i b``, is accumulated with a separate error
+        ``b`` per sample, because a frozen sensor drifts.
 
         Args:
-            scaled_residual: Smoothed residual of the pose, in units of its bounds.
-            residual: (6,) of this sample, m and rad.
-            jacobian: (6, n) there.
+            scaled_residual: Smoothed residual of the pose, in units of its threshold.
+            residual: (6,) pose residual of this sample, m and rad.
+            jacobian: (6, n) Jacobian at this sample.
         """
         if self.count <= self._revision_cycles and scaled_residual > SUSPECT:
             self._sensor_suspected = True
@@ -147,11 +147,11 @@ class AlarmDecision:
         """Return the verdict from the cycles so far.
 
         Args:
-            last: Nothing will follow: decide from what is there.
+            last: True if no more cycles follow, so that the decision uses the cycles so far.
         """
         if self._sensor_suspected and (self.count >= self._isolation_cycles or last):
             return self._sensor_verdict()
-        # The joint that alone was above its bound, on average over the cycles that isolate it.
+        # The only joint that was above its threshold, on average over the cycles that isolate it.
         above_bound = np.flatnonzero(self._residual_sizes > self._isolation_cycles)
         suspect = self._arm.joint_names[above_bound[0]] if above_bound.size == 1 else None
         classifier = self._classifier
@@ -167,15 +167,15 @@ class AlarmDecision:
             return FaultVerdict(True, self._alarm_time, joint=joint.name)
         mean_sizes = self._residual_sizes / self._isolation_cycles
         size, next_largest = mean_sizes[classifier.joint], np.delete(mean_sizes, classifier.joint).max(initial=0.0)
-        reason = f"its residuals are {size:.3g} times their bounds, those of the next joint {next_largest:.3g}"
+        reason = f"its residuals are {size:.3g} times their thresholds, those of the next joint {next_largest:.3g}"
         classification: dict[str, Any] = classifier.classify(joint.unit, () if self._has_tool else ("sensor",))
         classification["evidence"] = (reason, *classification["evidence"])
         culprit: dict[str, Any] = {"suspect": suspect} if classification["kind"] == "contact" else {"joint": joint.name}
         return FaultVerdict(True, self._alarm_time, **culprit, **classification)
 
     def _sensor_verdict(self) -> FaultVerdict:
-        """Return the verdict on the joint whose sensor would explain the tool's pose."""
-        evidence, joint = ["the measured tool is not where the joints say"], None
+        """Return the verdict on the joint whose sensor error would explain the tool pose."""
+        evidence, joint = ["the measured tool pose contradicts the joint sensors"], None
         if self._best_joint is not None:
             best_joint, advantage = self._best_joint
             if advantage > WORSE:
@@ -183,7 +183,7 @@ class AlarmDecision:
                 evidence.append(f"the next joint explains its pose worse by {advantage:.3g} squared deviations")
             else:
                 first, second = np.argsort(self._unexplained)[:2]
-                evidence.append(f"{self._arm.joint_names[first]} and {self._arm.joint_names[second]} explain its pose alike")
+                evidence.append(f"{self._arm.joint_names[first]} and {self._arm.joint_names[second]} both explain its pose")
         candidates, reasons = ("sensor", "slipping_clutch"), tuple(evidence)
         return FaultVerdict(True, self._alarm_time, joint=joint, kind="sensor", candidates=candidates, evidence=reasons)
 
@@ -191,13 +191,14 @@ class AlarmDecision:
 def _force_advantage(arm: Arm, q: FloatArray, residual_change: FloatArray, scale: FloatArray) -> float:
     """Return by how many squared deviations a force at the far end of a link explains residual torques better than one joint.
 
-    The arm is at q (n,), the residual torques (n,) have changed by so much, and ``scale`` (n,) are their deviations, N m and N.
+    The arm is at q (n,); ``residual_change`` (n,) is the change of the residual torques and ``scale`` (n,) their deviation, N m
+    and N.
     """
     ends, jacobian, scaled_change = arm.frames(q)[2:, :3, 3], arm.jacobian(q), residual_change / scale
     smallest_error = np.inf
     for index, end in enumerate(ends):
         columns = (jacobian[:3] + np.cross(jacobian[3:].T, end - ends[-1]).T).T / scale[:, None]
-        columns[index + 1 :] = 0.0  # what carries the link alone feels it
+        columns[index + 1 :] = 0.0  # the force loads only the joints that carry the link
         force = np.linalg.lstsq(columns, scaled_change, rcond=_RANK_TOLERANCE)[0]
         smallest_error = min(smallest_error, float(((scaled_change - columns @ force) ** 2).sum()))
     return float((scaled_change**2).sum() - (scaled_change**2).max() - smallest_error)

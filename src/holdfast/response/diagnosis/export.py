@@ -36,7 +36,7 @@ from holdfast.response.diagnosis.observer import (
 from holdfast.response.diagnosis.sensors import Sensors
 from holdfast.response.diagnosis.signals import CALM_TIME_S, EXCESS_LIMITS_S, MAX_SLOW_RATE
 
-# As the enum in C has them.
+# In the order of the enum in the C source.
 _KIND_WORDS = ("unknown", "locked", "standstill", "limp", "weak", "friction", "sluggish", "sensor", "contact")
 
 
@@ -45,11 +45,11 @@ class ExportedMonitor(Result):
     """Files of an exported monitor.
 
     Attributes:
-        arm: The arm.
-        source: ``NAME.c``.
-        header: ``NAME.h``, for C and C++.
-        example: ``NAME_example.c``, which watches a record from its standard input.
-        digest: Of bounds and sensors; the header has it, and the arm's fingerprint.
+        arm: Monitored arm.
+        source: Path of ``NAME.c``.
+        header: Path of ``NAME.h``, for C and C++.
+        example: Path of ``NAME_example.c``, a program that monitors a log from its standard input.
+        digest: Digest of thresholds and sensors; the header contains it and the fingerprint of the arm.
     """
 
     arm: Arm
@@ -73,26 +73,26 @@ class ExportedMonitor(Result):
 
 
 @check_arguments
-@reports_progress("writing down the monitor")
+@reports_progress("exporting the monitor")
 def export_c(
     arm: Arm, bounds: Bounds, folder: str | Path, *, name: str = "monitor", sensors: Sensors | None = None
 ) -> ExportedMonitor:
-    """Write the monitor of :class:`holdfast.response.diagnosis.Monitor` as C99: the same numbers and the same verdicts.
+    """Export :class:`holdfast.response.diagnosis.Monitor` as C99 code that computes the same numbers and verdicts.
 
-    It allocates nothing, keeps everything in a struct that the caller owns, one for each arm, and takes the same time in every
-    cycle but for those with a pose. It is no certified safety function.
+    The code allocates no memory and keeps its state in a struct that the caller owns, one for each arm. Every cycle takes the
+    same time, except for cycles with a pose. It is not a certified safety function.
 
     Args:
-        arm: The arm.
-        bounds: Of the healthy arm.
-        folder: For the files, made if it is not there.
-        name: Of the functions and the files.
-        sensors: How good they are.
+        arm: Arm to monitor.
+        bounds: Detection thresholds of the healthy arm.
+        folder: Output folder, created if necessary.
+        name: Prefix of the functions and base name of the files.
+        sensors: Accuracy of the sensors. Default: ``Sensors()``.
 
     Raises:
-        InputError: Bounds of another arm, or a name that no C function can have.
-        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
-        StoreError: They cannot be written.
+        InputError: The thresholds are of another arm, or the name is not a valid C identifier.
+        ArmError: The thresholds include torques, and the arm's inertial data are missing or impossible.
+        StoreError: A file cannot be written.
     """
     bounds.require(arm, bounds.rate)
     check_name(name)
@@ -122,7 +122,7 @@ def export_c(
 
 
 def _monitor_digest(bounds: Bounds, sensors: Sensors) -> str:
-    """Return the digest of all numbers that the monitor contains, in their order."""
+    """Return the digest of all numbers that the monitor contains, in a fixed order."""
     data = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(bounds).items()}
     return hashlib.sha256(json.dumps([data, vars(sensors)], sort_keys=True).encode()).hexdigest()
 
@@ -174,11 +174,11 @@ def _c_array(name: str, values: FloatArray) -> str:
 
 
 def _model_source(arm: Arm, bounds: Bounds, sensors: Sensors, name: str) -> str:
-    """Return names, bounds, and the functions of the arm's equations, in C and from the same graph as the Python monitor."""
+    """Return C code of names, thresholds, and the arm's equations, from the expression graph of the Python monitor."""
     q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", arm.n)
     pose = kinematics.tool_pose(arm, q)
     moving, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
-    link_ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # of links, from the tool
+    link_ends = [*(position - pose[:3, 3] for _, position in moving[2:]), ca.SX(3, 1)]  # far ends of links, from the tool
     tool_outputs = {"there": [pose[:3, :3].T, pose[:3, 3]], "jacobian": [kinematics.world_jacobian(arm, q)], "ends": link_ends}
     functions = {"tool": CFunction({"q": q}, tool_outputs)}
     if np.isfinite(bounds.torque).all():
@@ -201,9 +201,9 @@ def _heading_comment(arm: Arm, bounds: Bounds, name: str, digest: str) -> str:
         else f"fewer than {false_alarm_rates[1]:.3g} an hour with 95 % confidence, for motion as calibrated"
     )
     lines = [
-        f"{name}: watches the arm {arm.title} for joint faults, {bounds.rate:g} cycles a second.",
-        f"Made by holdfast {holdfast_version()} of the arm {arm.fingerprint}",
-        f"and the bounds {digest}; C99, needs only math.h.",
+        f"{name}: fault monitor of the arm {arm.title}, {bounds.rate:g} cycles a second.",
+        f"Made by holdfast {holdfast_version()} from the arm {arm.fingerprint}",
+        f"and the thresholds {digest}; C99, needs only math.h.",
         "",
         f"False alarms: {limit}.",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",

@@ -1,4 +1,4 @@
-"""Fit masses and friction of one robot to its recordings; the residuals are linear in them."""
+"""Fit masses and friction of one robot to its logs; the residuals are linear in them."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from holdfast.response.diagnosis.gaps import LogSegment, complete_row_mask, spli
 from holdfast.response.diagnosis.observer import OBSERVER_GAIN_PER_S, momentum_terms, observe_residuals
 from holdfast.response.faults.log import Log
 
-_MASS_PRIOR_DEVIATION = 0.1  # prior deviation of the scale of a link's mass
+_MASS_PRIOR_DEVIATION = 0.1  # relative prior deviation of the mass of a link
 _FRICTION_PRIOR_DEVIATION = 1.0  # prior deviation, N m (N) and N m s/rad (N s/m)
-_FIXED_FRICTION_DEVIATION = 1e-4  # of friction that is kept
-_SCALE_STEP = 0.5  # of a scale: residuals are linear in it, so that any step does
+_FIXED_FRICTION_DEVIATION = 1e-4  # prior deviation of friction that is kept
+_SCALE_STEP = 0.5  # step of a mass scale; residuals are linear in it, so that any step gives the exact slope
 
 
 def scale_masses(arm: Arm, scales: FloatArray) -> Arm:
@@ -38,21 +38,22 @@ def scale_masses(arm: Arm, scales: FloatArray) -> Arm:
 def fit_masses_and_friction(
     arm: Arm, logs: Sequence[Log], coulomb: FloatArray, viscous: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Fit scales of the links' masses and dry and viscous friction, (n,) each, to the residuals of recordings.
+    """Fit scales of the links' masses and dry and viscous friction, (n,) each, to the residuals of logs.
 
-    Ridge: masses are believed to 10 %, friction to 1 N m and 1 N m s/rad, and dry friction that is given is kept; residuals
-    count once for each time constant of the observer. What gravity and motion do not show stays as it was.
+    Ridge regression: prior deviations are 10 % for masses, 1 N m and 1 N m s/rad for friction, and close to 0 for dry friction
+    that is given. Residuals count once per time constant of the observer. Parameters that gravity and motion do not excite
+    keep their prior values.
 
     Source: derived here.
     """
     joint_count, symbols = arm.n, (joint_symbols(arm), ca.SX.sym("v", arm.n))
     arms = [arm, *(scale_masses(arm, 1 + _SCALE_STEP * row) for row in np.eye(joint_count))]
-    # On CasADi's machine: they are called a few times, and never again.
+    # Evaluated by CasADi's interpreter: the expressions are called only a few times, so compiling them does not pay.
     nominal, *heavier = (
         Kernel("momentum", symbols, [ca.densify(term) for term in momentum_terms(scaled_arm, *symbols)], backend="casadi")
         for scaled_arm in arms
     )
-    # What is given of dry friction tells later whether friction can hold a joint: motion alone may show none of it.
+    # Given dry friction is kept, because it decides later whether friction can hold a joint; motion may not reveal it.
     prior = np.r_[
         np.full(joint_count, _MASS_PRIOR_DEVIATION),
         np.where(coulomb > 0, _FIXED_FRICTION_DEVIATION, _FRICTION_PRIOR_DEVIATION),
@@ -69,7 +70,7 @@ def fit_masses_and_friction(
         columns = np.zeros((*nominal_residual.shape, 3 * joint_count))
         for index in range(joint_count):
             columns[:, :, index] = (residual(heavier[index], coulomb, viscous) - nominal_residual) / _SCALE_STEP
-        # Friction of a joint is on its own row alone.
+        # Friction of a joint appears in its own row only.
         joints = np.arange(joint_count)
         columns[:, joints, joint_count + joints] = residual(nominal, coulomb + 1, viscous) - nominal_residual
         columns[:, joints, 2 * joint_count + joints] = residual(nominal, coulomb, viscous + 1) - nominal_residual
@@ -84,7 +85,7 @@ def fit_masses_and_friction(
 def _residuals_per_time_constant(
     kernel: Kernel, coulomb: FloatArray, viscous: FloatArray, *, segments: Sequence[LogSegment], rate: float
 ) -> FloatArray:
-    """Return residuals of a recording, one for each time constant of the observer."""
+    """Return the residuals of a log, one sample per time constant of the observer."""
     residuals_of = partial(observe_residuals, kernel, dt=1 / rate, coulomb=coulomb, viscous=viscous)
     segment_residuals = [
         residuals_of(segment.q, segment.tau, settling=segment.settling)[0] for segment in segments if segment.tau is not None

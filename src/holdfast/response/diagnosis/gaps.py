@@ -1,4 +1,4 @@
-"""Gaps in a recording: short ones are interpolated linearly, and long ones are not monitored."""
+"""Gaps in a log: short ones are interpolated linearly, and long ones are not monitored."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from holdfast.core.typing import FloatArray
 from holdfast.response.diagnosis.observer import FILTER_BANDWIDTH_RAD_S, low_pass
 from holdfast.response.faults.log import Log
 
-MAX_BRIDGED_GAP_S = 0.050  # s without a number; over shorter gaps lines are drawn
+MAX_BRIDGED_GAP_S = 0.050  # longest gap without a value, s, that is interpolated
 
 
 @dataclass(frozen=True, eq=False)
 class LogSegment:
-    """R rows of a recording without a long gap; short gaps are interpolated linearly."""
+    """R rows of a log without a long gap; short gaps are interpolated linearly."""
 
     rows: slice
     q: FloatArray  # (R, n) rad and m
     tau: FloatArray | None  # (R, n) N m and N
-    settling: int  # rows until residuals begin: but for the first stretch it begins in the midst of motion
+    settling: int  # rows until residuals begin; every segment but the first one begins while the arm moves
 
 
 def count_cycles(seconds: float, dt: float) -> int:
-    """Return the number of cycles in a time, at least one."""
+    """Return the number of cycles of ``dt`` s in a time in s, at least one."""
     return max(1, round(seconds / dt))
 
 
@@ -36,12 +36,12 @@ def complete_row_mask(log: Log) -> NDArray[np.bool_]:
     parts = [part for part in (log.q, log.q_ref, log.tau) if part is not None]
     is_complete = np.all([np.isfinite(part).all(axis=1) for part in parts], axis=0)
     if not is_complete.any():
-        raise InputError("no row of the record has all numbers of the joints; leave a signal out that is never there")
+        raise InputError("the log has no row in which every joint signal has a value; leave out a signal that is never there")
     return np.asarray(is_complete)
 
 
 def split_at_gaps(log: Log, is_complete: NDArray[np.bool_]) -> Iterator[LogSegment]:
-    """Yield the segments of a recording between its long gaps; ``is_complete`` is the mask of :func:`complete_row_mask`."""
+    """Yield the segments of a log between its long gaps; ``is_complete`` is the mask of :func:`complete_row_mask`."""
     period, rows = 1 / log.rate, np.flatnonzero(is_complete)
     max_gap = count_cycles(MAX_BRIDGED_GAP_S, period)
     for index, segment_rows in enumerate(np.split(rows, np.flatnonzero(np.diff(rows) > max_gap + 1) + 1)):

@@ -8,18 +8,18 @@ from typing import Any
 
 import numpy as np
 
-STILL = 2e-3  # rad or m
-PART = 0.15  # of the reference's travel
-NOISE_FACTOR = 12.0  # deviations of the sensor
-ALL = 0.93  # losses: of the whole motor
-FRICTION_LOSS_RANGE = (0.8, 1.2)  # that friction may hide
-MORE = 1.1  # of a motor's torque: no fault of its own takes so much
+STILL = 2e-3  # travel of a joint that does not move, rad or m
+PART = 0.15  # and as a fraction of the travel of its reference
+NOISE_FACTOR = 12.0  # standard deviations of the sensor that are added to it
+ALL = 0.93  # torque loss above which the joint is free-swinging
+FRICTION_LOSS_RANGE = (0.8, 1.2)  # torque losses that friction may conceal
+MORE = 1.1  # torque loss that no motor fault can cause
 TIMES = 2.0  # of dry friction: a torque that would move a joint that can move
-AWAY = 5.0  # of its tracking bound: so far from its reference, a joint with next to no torque has none
-LOST = 20.0  # likewise: a push leaves a joint to its servo, which holds it nearer
-SCALE = 0.25  # of its torque bound: a deviation of the residual
-GROWN = 10.0  # of dry friction: it is not believed to grow by more
-DRIVEN = 0.5  # of dry friction: what a joint needs to move as it does; if it drives itself by nothing, it needs nothing
+AWAY = 5.0  # of the tracking threshold: at this error, a joint with hardly any motor torque has none
+LOST = 20.0  # of the tracking threshold: an intact servo holds a pushed joint closer than this
+SCALE = 0.25  # of the torque threshold: deviation of the residual
+GROWN = 10.0  # of dry friction: friction is assumed not to grow by more
+DRIVEN = 0.5  # of dry friction: smallest torque that counts as driving a joint
 
 
 @dataclass(frozen=True)
@@ -27,20 +27,20 @@ class FaultVerdict:
     """Verdict of a monitor.
 
     Attributes:
-        alarm: Something is outside its bounds.
-        time: Of the alarm, s; NaN without one.
-        _: What follows is known 20 and 120 ms later, and may be revised until 2 s after the alarm.
-        joint: Its name; None if no joint is to blame or it is not known yet.
+        alarm: True if a residual raised an alarm.
+        time: Time of the alarm, s; NaN without one.
+        _: The following attributes are decided 20 and 120 ms after the alarm, and may be revised until 2 s after it.
+        joint: Name of the faulty joint; None if no joint is faulty or it is not isolated yet.
         kind: ``locked``, ``standstill`` (locked, or free-swinging and held by friction), ``limp``, ``weak``, ``friction``,
-            ``sluggish`` (weak or more friction: where gravity is small both look alike), ``sensor`` (of the joint, or a clutch
-            that slips), ``contact`` or ``unknown``.
-        loss: Fraction of its torque that the motor lost; NaN where that is not the question.
-        uncertainty: By how much ``loss`` may be off while the residuals of a healthy arm stay within those of calibration:
+            ``sluggish`` (torque loss or more friction, which look alike where gravity is small), ``sensor`` (sensor of the
+            joint, or a slipping clutch), ``contact`` or ``unknown``.
+        loss: Fraction of its torque that the motor lost; NaN if the kind does not involve a loss.
+        uncertainty: Largest error of ``loss`` while the residuals of a healthy arm stay within those of calibration. It is
             large where the motor's torque is mostly friction, or the masses are not known.
         candidates: Kinds that remain possible.
-        suspect: Name of the joint that alone was above its bound, where the kind is ``contact``: a fault of this joint remains
+        suspect: Name of the only joint that was above its threshold, if the kind is ``contact``; a fault of this joint remains
             possible. None otherwise.
-        evidence: A phrase for each reason.
+        evidence: Phrases that state the reasons.
     """
 
     alarm: bool
@@ -59,12 +59,12 @@ class FaultClassifier:
     """Sums over the motion of a joint after the alarm, from which its kind of fault is classified.
 
     Args:
-        joint: Its number.
-        coulomb: Its dry friction, N m or N.
-        bounds: Of its residual torque, N m or N, and of its tracking, rad or m.
-        largest: Of a healthy arm's residual torques on this joint, N m or N.
-        noise: Deviation of its sensor, rad or m.
-        torques: Whether torques are watched.
+        joint: Index of the joint, from 0.
+        coulomb: Dry friction of the joint, N m or N.
+        bounds: Thresholds of its residual torque, N m or N, and of its tracking error, rad or m.
+        largest: Largest residual torque of the healthy arm on this joint, N m or N.
+        noise: Standard deviation of the joint sensor, rad or m.
+        torques: True if torques are monitored.
     """
 
     def __init__(
@@ -80,10 +80,10 @@ class FaultClassifier:
         """Add the signals of one cycle.
 
         Args:
-            q: rad or m.
-            reference: rad or m.
-            slip: Sign of the rate, smooth, in which dry friction acts.
-            torques: Residual, commanded through both filters of the residual, of gravity; N m or N.
+            q: Measured joint position, rad or m.
+            reference: Reference of the joint, rad or m.
+            slip: Smoothed sign of the rate, which is the direction of dry friction.
+            torques: Residual torque, commanded torque through both filters of the residual, and gravity torque, N m or N.
         """
         residual, torque, gravity = torques
         self._cycle_count, self._tracking_error = self._cycle_count + 1, abs(reference - q)
@@ -103,12 +103,12 @@ class FaultClassifier:
     def classify(self, unit: str, candidates_without_pose: tuple[str, ...]) -> dict[str, Any]:
         """Return kind, loss, candidates, and evidence.
 
-        A motor can lose all that it is asked for and no more. A joint that follows against its motor, and needs a torque to
-        move as it does, has been pushed.
+        A motor can lose at most all of its torque. A joint was pushed if it follows its reference against its motor although
+        its motion requires a torque.
 
         Args:
-            unit: Of the joint.
-            candidates_without_pose: What remains possible where the tool's pose is not measured.
+            unit: Unit of the joint position.
+            candidates_without_pose: Kinds that remain possible where the tool pose is not measured.
         """
         travel, reference_travel = (max(highest - lowest, 0.0) for lowest, highest in (self._q_range, self._reference_range))
         is_still = travel < STILL and travel < PART * reference_travel + NOISE_FACTOR * self._sensor_noise
@@ -117,7 +117,7 @@ class FaultClassifier:
         def make_answer(kind: str, candidates: tuple[str, ...], loss: float = np.nan) -> dict[str, Any]:
             if np.isnan(loss):
                 return {"kind": kind, "candidates": candidates, "evidence": tuple(evidence)}
-            # Of -sum r tau / sum tau^2, where r is off by no more than `largest`.
+            # Uncertainty of -sum r tau / sum tau^2 if r is off by at most `largest`.
             uncertainty = self._healthy_residual * self._torque_sum / self._tt
             loss_text = f"its motor lost {loss:.0%} of its torque, which may be off by {uncertainty:.0%}"
             return make_answer(kind, candidates) | {
@@ -136,7 +136,7 @@ class FaultClassifier:
         drag_error = self._rr + 2 * drag * self._rs + drag**2 * self._ss
         if is_still and self._max_requested_torque >= TIMES * self._coulomb:
             if FRICTION_LOSS_RANGE[0] < loss < FRICTION_LOSS_RANGE[1] and self._min_gravity_torque < TIMES * self._coulomb:
-                evidence.append("friction may hold it: gravity on it is small")
+                evidence.append("friction may hold it, because gravity on it is small")
                 return make_answer("standstill", ("locked", "limp", *candidates_without_pose), loss)
             return make_answer("locked", ("locked", *candidates_without_pose))
         if not min(loss_error, drag_error) < 0.5 * self._rr:
@@ -146,12 +146,12 @@ class FaultClassifier:
         drag_disadvantage = (drag_error - loss_error) / (self._cycle_count * (SCALE * self._bounds[0]) ** 2)
         if abs(drag_disadvantage) < 1 and (drag <= GROWN * self._coulomb or self._coulomb == 0):
             alternatives = "a weak motor, more friction and a push" if follows else "a weak motor and more friction"
-            evidence.append(f"{alternatives} explain its torque alike")
+            evidence.append(f"{alternatives} explain its torque equally well")
             return make_answer("sluggish", ("weak", "friction", *["contact"] * follows), loss)
         if drag_disadvantage < 0:
             return make_answer("friction", ("friction",))
         if follows and is_driven and loss > MORE:
-            evidence.append("it follows against its motor: something pushed it")
+            evidence.append("it follows its reference against its motor, so something pushed it")
             return make_answer("contact", ("contact",))
         if loss > ALL or (loss > FRICTION_LOSS_RANGE[0] and self._tracking_error > AWAY * self._bounds[1]):
             return make_answer("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)

@@ -1,4 +1,4 @@
-"""Monitor that compares a recording, or one control cycle after another, with the bounds of a healthy arm."""
+"""Monitor that compares a log, or one control cycle after another, with the detection thresholds of a healthy arm."""
 
 from __future__ import annotations
 
@@ -39,33 +39,35 @@ from holdfast.response.faults.log import Log
 
 @check_arguments
 def diagnose(arm: Arm, log: Log, bounds: Bounds, *, sensors: Sensors | None = None) -> Diagnosis:
-    """Diagnose a recording: the first alarm, its joint and kind of fault, and the joints that moved too little for a
-    conclusion.
+    """Diagnose a log: find the first alarm, the faulty joint, its kind of fault, and the inconclusive joints.
 
     Args:
-        arm: The arm.
-        log: What it recorded.
-        bounds: Of the healthy arm, by :func:`holdfast.response.diagnosis.calibrate`.
-        sensors: How good they are.
+        arm: Arm that was recorded.
+        log: Log to diagnose.
+        bounds: Detection thresholds of the healthy arm, from :func:`holdfast.response.diagnosis.calibrate`.
+        sensors: Accuracy of the sensors. Default: ``Sensors()``.
+
+    Returns:
+        The verdict, with the residuals and the joints that moved too little for a conclusion.
 
     Raises:
-        InputError: Bounds of another arm or rate, a record of another arm.
-        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+        InputError: The thresholds are of another arm or rate, or the log is of another arm.
+        ArmError: Torques were recorded, and the arm's inertial data are missing or impossible.
     """
     return Monitor(arm, bounds, sensors=sensors).run(log)
 
 
 class Monitor:
-    """Fault monitor of an arm: :meth:`step` in its control loop, or :meth:`run` for a recording.
+    """Fault monitor of an arm: call :meth:`step` in a control loop, or :meth:`run` for a log.
 
     Args:
-        arm: The arm.
-        bounds: Of the healthy arm.
-        sensors: How good they are.
+        arm: Arm to monitor.
+        bounds: Detection thresholds of the healthy arm; their rate is that of the control loop.
+        sensors: Accuracy of the sensors. Default: ``Sensors()``.
 
     Raises:
-        InputError: Bounds of another arm.
-        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
+        InputError: The thresholds are of another arm.
+        ArmError: The thresholds include torques, and the arm's inertial data are missing or impossible.
     """
 
     def __init__(self, arm: Arm, bounds: Bounds, *, sensors: Sensors | None = None) -> None:
@@ -80,13 +82,16 @@ class Monitor:
         self._momentum_kernel = momentum_kernel(bounds.body(arm)).single_row() if np.isfinite(bounds.torque).all() else None
         self.reset()
 
-    # ---- a record ----------------------------------------------------------------------------------------------------
+    # ---- a log -------------------------------------------------------------------------------------------------------
 
     def run(self, log: Log) -> Diagnosis:
-        """Diagnose a recording as repeated calls of :meth:`step` would; missing rows count as rows of NaN.
+        """Diagnose a log as repeated calls of :meth:`step` would; missing rows count as rows of NaN.
+
+        Args:
+            log: Log of the arm, at the rate of the thresholds.
 
         Raises:
-            InputError: Another rate than that of the bounds, another number of joints, or no row with all of its numbers.
+            InputError: The log has another rate or number of joints, or no row in which every signal has a value.
         """
         bounds = self.bounds
         bounds.require(self.arm, log.rate)
@@ -115,7 +120,7 @@ class Monitor:
     def _decide_from_log(
         self, log: Log, signals: Signals, scaled: ScaledResiduals, row: int, alarmed: tuple[str, ...]
     ) -> FaultVerdict:
-        """Return the verdict on a recording from the cycles after its alarm."""
+        """Return the verdict on a log from the cycles after its alarm."""
         is_calm_row = (scaled.torque[: row + 1] < UNSURE).all(axis=1)
         level_before = slow_residual_component(
             np.concatenate([np.zeros((1, log.n)), signals.torque[: row + 1][is_calm_row]]), signals.dt
@@ -141,13 +146,13 @@ class Monitor:
     # ---- a control cycle ---------------------------------------------------------------------------------------------
 
     def reset(self) -> None:
-        """Reset the monitor, so that the next step is the first."""
+        """Reset the monitor, so that the next step is the first one."""
         self._cycle_count, self._last_fast_cycle, self._pose_count, self._last_pose_cycle = 0, 0, 0, 0
         self._filtered_rates = self._residual = self._last_momentum = self._gravity_torque = self._filtered_torque = (
             self._twice_filtered_torque
         ) = self._residual_level = np.zeros(self.arm.n)
         self._last_q: FloatArray | None = None
-        self._skipped_torque_sum = np.zeros(self.arm.n)  #  torques of cycles that were passed over
+        self._skipped_torque_sum = np.zeros(self.arm.n)  #  torques of skipped cycles
         self._skipped_cycles = self._skipped_with_torque = self._settling_cycles = 0
         self._past_positions = np.full((self._latency_cycles + 1, self.arm.n), np.nan)
         self._last_reference: FloatArray | None = None
@@ -156,9 +161,7 @@ class Monitor:
         self.rearm()
 
     def rearm(self) -> None:
-        """Clear the alarm and the excess that led to it while the arm keeps moving; time and the state of the
-        filters are kept.
-        """
+        """Clear the alarm and its accumulated excess while the arm keeps moving; time and filter states are kept."""
         self._torque_excess, self._tracking_excess, self._tool_excess = np.zeros(self.arm.n), np.zeros(self.arm.n), 0.0
         self._alarm_decision: AlarmDecision | None = None
         self.verdict = FaultVerdict(False)
@@ -166,14 +169,14 @@ class Monitor:
     def exclude(self, joint: str) -> None:
         """Exclude a stopped joint from monitoring until :meth:`reset`, and clear the alarm.
 
-        Its torques are its brake's, and where it is may be known better than by its sensor: what follows the motion begins
-        anew, and for 50 ms the torques tell nothing.
+        The torques of this joint are those of its brake, and its position may be better known than from its sensor.
+        Therefore, the observer restarts, and the torques of all joints are ignored for 50 ms.
 
         Args:
-            joint: Its name.
+            joint: Name of the stopped joint.
 
         Raises:
-            InputError: The arm has no such joint.
+            InputError: The arm has no joint of this name.
         """
         self._is_monitored[self.arm.joint_index(joint)] = False
         self._restart_observer()
@@ -189,10 +192,10 @@ class Monitor:
         """Process one control cycle and return the current verdict.
 
         Args:
-            q: (n,) what the joint sensors tell, rad and m; with NaN the cycle is passed over, and is nobody's fault.
-            reference: (n,) what the servos follow, rad and m.
-            torque: (n,) commanded, N m and N; None: not watched.
-            pose: (4, 4) measured pose of the tool, taken ``sensors.latency`` ago; None, or NaN: no sample in this cycle.
+            q: (n,) measured joint positions, rad and m. A cycle with NaN is skipped and raises no alarm.
+            reference: (n,) references of the servos, rad and m.
+            torque: (n,) commanded torques, N m and N. None: torques are not monitored.
+            pose: (4, 4) measured tool pose, taken ``sensors.latency`` ago. None or NaN: no sample in this cycle.
         """
         position, reference_position = np.asarray(q, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         commanded_torque = None if torque is None or self._momentum_kernel is None else np.asarray(torque, dtype=np.float64)
@@ -206,7 +209,7 @@ class Monitor:
                 self._skipped_torque_sum = self._skipped_torque_sum + commanded_torque
                 self._skipped_with_torque += 1
             return self.verdict
-        elapsed = (self._skipped_cycles + 1) * self._period  # longer after cycles that were passed over
+        elapsed = (self._skipped_cycles + 1) * self._period  # longer after skipped cycles
         self._bridge_skipped_cycles(position, commanded_torque)
         self._update_observer(position, commanded_torque)
         scaled_torque = np.where(self._is_monitored, np.abs(self._residual) / self.bounds.torque, 0.0)
@@ -238,16 +241,12 @@ class Monitor:
 
     @property
     def stale(self) -> tuple[str, ...]:
-        """Signals without a number for 50 ms: ``joints`` (sensors, references, or torques), and ``tool`` once it has been
-        measured.
-        """
+        """Signals without a value for 50 ms: ``joints`` (positions, references, torques), or ``tool`` after its first pose."""
         is_tool_stale = self._pose_count > 0 and self._cycle_count - self._last_pose_cycle > self._max_gap_cycles
         return ("joints",) * (self._skipped_cycles > self._max_gap_cycles) + ("tool",) * is_tool_stale
 
     def _bridge_skipped_cycles(self, q: FloatArray, tau: FloatArray | None) -> None:
-        """Interpolate linearly over skipped cycles; after too many of them restart the observer, and wait until the filters
-        have settled.
-        """
+        """Interpolate linearly over skipped cycles; after too many, restart the observer and wait until the filters settle."""
         if self._last_q is not None and self._skipped_cycles > self._max_gap_cycles:
             self._restart_observer()
         elif self._last_q is not None and self._skipped_cycles:
@@ -262,9 +261,7 @@ class Monitor:
         self._skipped_cycles, self._skipped_with_torque, self._skipped_torque_sum = 0, 0, np.zeros(len(q))
 
     def _scaled_tracking(self, reference: FloatArray, q: FloatArray, elapsed: float, *, alone: bool) -> FloatArray:
-        """Return tracking errors in units of their bounds; with joint sensors alone NaN unless all references were slow for a
-        while.
-        """
+        """Return tracking errors in units of their thresholds; without torques, NaN unless all references were slow lately."""
         if self._last_reference is not None and (np.abs(reference - self._last_reference) >= MAX_SLOW_RATE * elapsed).any():
             self._last_fast_cycle = self._cycle_count
         self._last_reference = reference
@@ -273,7 +270,7 @@ class Monitor:
         return np.asarray(np.abs(reference - q) / self.bounds.tracking)
 
     def _add_pose_sample(self, q: FloatArray, pose: FloatArray) -> tuple[float, FloatArray] | None:
-        """Return the smoothed residual of a tool pose sample in units of the bounds, and the residual of this sample."""
+        """Return the smoothed residual of a tool pose sample in units of the thresholds, and the residual of this sample."""
         if not (np.isfinite(pose).all() and np.isfinite(q).all()):
             return None
         residual = tool_residual(self.arm, q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
@@ -281,7 +278,7 @@ class Monitor:
         mean_residual = self._pose_residuals[: self._pose_count + 1].sum(axis=0) / min(self._pose_count + 1, SMOOTHING_SAMPLES)
         position_error, angle_error = (float(np.linalg.norm(part)) for part in (mean_residual[:3], mean_residual[3:]))
         scaled_residual = max(position_error / self.bounds.position, angle_error / self.bounds.angle)
-        if self._pose_count:  # of a long silence one sample proves nothing
+        if self._pose_count:  # one sample after a long gap is no evidence
             cycles_since = min(self._cycle_count - self._last_pose_cycle, self._max_gap_cycles)
             self._tool_excess = max(0.0, self._tool_excess + (scaled_residual - 1) * cycles_since * self._period)
         self._pose_count, self._last_pose_cycle = self._pose_count + 1, self._cycle_count
@@ -289,7 +286,7 @@ class Monitor:
 
     def _update_observer(self, q: FloatArray, tau: FloatArray | None) -> None:
         period, is_settling = self._period, self._last_q is None or self._settling_cycles > 0
-        if self._last_q is not None:  # the arm moves when it is seen again: its first rate is not filtered
+        if self._last_q is not None:  # after a restart, the arm is already moving: its first rate is not filtered
             bandwidth = np.inf if self._settling_cycles > self._max_gap_cycles else FILTER_BANDWIDTH_RAD_S
             self._filtered_rates = self._filter(self._filtered_rates, (q - self._last_q) / period, bandwidth)
             self._settling_cycles = max(0, self._settling_cycles - 1)

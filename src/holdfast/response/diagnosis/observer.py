@@ -1,10 +1,10 @@
 """Momentum observer, which estimates the torque on each joint that the model of the arm does not explain.
 
-With ``p = M(q) v`` and ``dp/dt = tau + dT/dq - g - F(v) + tau_x`` it follows the momentum, and what it must add is the
-residual: ``s' = tau + dT/dq - g - F(v) + r``, ``r = K_O (p - s)``. The jolt of a joint that locks is on its own row alone.
+With ``p = M(q) v`` and ``dp/dt = tau + dT/dq - g - F(v) + tau_x``, it tracks the momentum. The correction that it needs is the
+residual: ``s' = tau + dT/dq - g - F(v) + r``, ``r = K_O (p - s)``. The impact of a locking joint appears in its own row only.
 
-Source: De Luca et al. 2006; Haddadin, De Luca and Albu-Schaeffer, IEEE T-RO 33(6), 2017. That rate and torque go through the
-same filter is ours: else acceleration shows as torque.
+Source: De Luca et al. 2006; Haddadin, De Luca and Albu-Schaeffer, IEEE T-RO 33(6), 2017. The common filter of rates and torques
+is ours; without it, acceleration would appear as torque.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from holdfast.model.arm.machine import ArmData
 
 OBSERVER_GAIN_PER_S = 40.0  # 1/s, K_O
 FILTER_BANDWIDTH_RAD_S = 2 * np.pi * 20  # rad/s, of the filter on rates and torques
-LEVEL_BANDWIDTH_RAD_S = 1 / 0.15  # rad/s, of the filter that the level of a residual goes through
-FRICTION_TRANSITION_RATE = 0.02  # rad/s or m/s: dry friction has turned its sign within about so much
+LEVEL_BANDWIDTH_RAD_S = 1 / 0.15  # rad/s, of the filter that computes the level of a residual
+FRICTION_TRANSITION_RATE = 0.02  # rad/s or m/s, scale of the rate over which dry friction changes its sign
 
 
 @cached_kernel
@@ -64,7 +64,7 @@ def slow_residual_component(residual: FloatArray, dt: float) -> FloatArray:
 
 
 def filtered_rates(q: FloatArray, dt: float, *, moving: bool = False) -> FloatArray:
-    """Return filtered rates (T, n) of joint positions (T, n), from rest, or from the first rate of a joint that is moving."""
+    """Return filtered rates (T, n) of joint positions (T, n), from rest, or from the first rate if the arm is moving."""
     raw_rates = np.diff(q, axis=0, prepend=q[:1]) / dt
     if moving:
         raw_rates[0] = raw_rates[min(1, len(q) - 1)]
@@ -74,19 +74,19 @@ def filtered_rates(q: FloatArray, dt: float, *, moving: bool = False) -> FloatAr
 def observe_residuals(
     kernel: Kernel, q: FloatArray, tau: FloatArray, *, dt: float, coulomb: FloatArray, viscous: FloatArray, settling: int = 1
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return residuals, filtered rates, gravity torques, and torques through both filters of a recording, (T, n) each.
+    """Return residuals, filtered rates, gravity torques, and torques through both filters of a log, (T, n) each.
 
-    The observer is linear in what the kernel gives, and so a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} - dt u_k)``
-    with ``u = tau + dT/dq - g - F``.
+    The observer is linear in the outputs of the kernel, so it is a filter: ``r_k = (1 - K dt) r_{k-1} + K (p_k - p_{k-1} -
+    dt u_k)`` with ``u = tau + dT/dq - g - F``.
 
     Args:
-        kernel: Of :func:`momentum_kernel`.
-        q: (T, n) rad and m.
-        tau: (T, n) N m and N.
-        dt: s.
+        kernel: Kernel of :func:`momentum_kernel`.
+        q: (T, n) joint positions, rad and m.
+        tau: (T, n) commanded torques, N m and N.
+        dt: Sampling period, s.
         coulomb: (n,) dry friction, N m and N.
-        viscous: (n,) N m s/rad and N s/m.
-        settling: Rows until residuals begin; with more than one the record begins in the midst of motion.
+        viscous: (n,) viscous friction, N m s/rad and N s/m.
+        settling: Number of rows until residuals begin. With more than one, the arm is already moving in the first row.
     """
     from scipy.signal import lfilter
 
@@ -94,7 +94,7 @@ def observe_residuals(
     momentum, energy, gravity = kernel(q, rates)
     known_torque = torque + energy - gravity - friction_torque(rates, coulomb, viscous)
     input_change = np.diff(momentum, axis=0, prepend=momentum[:1]) - dt * known_torque
-    input_change[:settling] = 0.0  # it begins with r = 0
+    input_change[:settling] = 0.0  # the observer starts with r = 0
     residual = np.asarray(lfilter([OBSERVER_GAIN_PER_S], [1, OBSERVER_GAIN_PER_S * dt - 1], input_change, axis=0))
     return residual, rates, gravity, low_pass(torque, dt, OBSERVER_GAIN_PER_S, tau[0])
 

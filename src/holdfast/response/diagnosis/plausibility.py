@@ -17,8 +17,8 @@ from holdfast.response.diagnosis.signals import compute_signals
 from holdfast.response.faults.log import Log
 
 _FULL_TURN_RAD = 2 * np.pi
-_TURN_TOLERANCE_RAD = 0.5  # a leap within this distance of whole turns is a wrapped angle, no motion
-_MIN_TRAVEL = 0.05  # rad or m: a joint that is asked to move less shows no ratio
+_TURN_TOLERANCE_RAD = 0.5  # a jump within this distance of full turns is a wrapped angle, no motion
+_MIN_TRAVEL = 0.05  # rad or m: a joint whose reference moves less gives no ratio
 _KNOWN_RATIOS = {
     180 / np.pi: "q seems to be in degrees and q_ref in radians",
     np.pi / 180: "q_ref seems to be in degrees and q in radians",
@@ -28,26 +28,26 @@ _KNOWN_RATIOS = {
 }
 _RATIO_TOLERANCE = 0.1
 _RATIO_CORRELATION = 0.98
-_FOLLOWING_CORRELATION = 0.9  # least correlation of a joint with its own reference
-_SWAPPED_JOINT_CORRELATION = 0.99  # correlation with another joint's reference that names a swapped order
+_FOLLOWING_CORRELATION = 0.9  # smallest correlation of a joint with its own reference
+_SWAPPED_JOINT_CORRELATION = 0.99  # correlation with another joint's reference that indicates a swapped order
 _TORQUE_CORRELATION = 0.97
 _MIN_TORQUE_SCALE = 0.25  # of a recorded torque to that of the model
 _MAX_TORQUE_SCALE = 4.0
 _MIN_LOAD_FRACTION = 0.15  # of the largest gravity torque of a joint: below, its torque may be mostly friction
-_MIN_GRAVITY_FRACTION = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not judged
-_CONFIGURATION_COUNT = 200  # at which gravity torques are computed
-_CHECKED_S = 60.0  # of the logs: more change nothing
-_UNEXPLAINED_FRACTION = 0.9  # of the squared torques: a model that leaves more of them explains none
+_MIN_GRAVITY_FRACTION = 0.1  # of the largest gravity torque of all joints: a joint that carries less is not checked
+_CONFIGURATION_COUNT = 200  # configurations at which gravity torques are computed
+_CHECKED_S = 60.0  # duration of the logs, s, that is checked; more does not change the result
+_UNEXPLAINED_FRACTION = 0.9  # of the squared torques: a model that leaves more than this explains none
 
 
 def prepare_log(arm: Arm, log: Log) -> Log:
     """Return the log with unwrapped angles, after checking that ``q`` and ``q_ref`` have one unit and sign.
 
-    Angles that were cut off at a half turn are joined again: no joint turns by 360 degrees between two samples.
+    Angles that were wrapped at a half turn are joined, because no joint turns by 360 degrees between two samples.
 
     Raises:
-        InputError: A log of another arm, in other units, without a number of a joint, or with joints of opposite signs; the
-            message names a joint.
+        InputError: The log is of another arm, has other units, lacks all values of a joint, or has joints of opposite signs;
+            the message names a joint.
     """
     log = _unwrap_angles(arm, log) if log.n == arm.n else log
     log.require(arm)
@@ -68,7 +68,7 @@ def require_reference_tracking(arm: Arm, logs: Sequence[Log]) -> None:
     """Raise an error if joints of a healthy arm do not follow their references.
 
     Raises:
-        InputError: A joint that follows none or another joint's reference, or a torque that is missing.
+        InputError: A joint follows no reference or that of another joint, or torques are missing.
     """
     for log in logs:
         moving = [joint for joint in range(arm.n) if np.ptp(log.q_ref[np.isfinite(log.q_ref[:, joint]), joint]) > _MIN_TRAVEL]
@@ -88,10 +88,10 @@ def require_reference_tracking(arm: Arm, logs: Sequence[Log]) -> None:
 def require_explained_torques(arm: Arm, logs: Sequence[Log], *, coulomb: FloatArray, viscous: FloatArray) -> None:
     """Raise an error if the model of a healthy arm does not explain its torques: another sign, unit, or order.
 
-    The observer's residual is the model's torque less the recorded one, and without torques the model's alone.
+        The residual of the observer is the model's torque minus the recorded one; without torques, the model's torque.
 
     Raises:
-        InputError: The message names the joints and the probable cause.
+        InputError: The model does not explain the torques; the message names the joints and the probable cause.
     """
     torque_pairs: list[list[FloatArray]] = []
     checked_s, signals_of = 0.0, partial(compute_signals, arm, coulomb=coulomb, viscous=viscous)

@@ -15,12 +15,13 @@ class Sensors:
 
     Attributes:
         position: Standard deviation of the measured tool point, m.
-        angle: Of its orientation, rad.
-        joint: Of a joint sensor, rad or m.
-        latency: s, by which a pose reaches the monitor after it was taken. Records have it in the row of its time instead.
+        angle: Standard deviation of the measured tool orientation, rad.
+        joint: Standard deviation of a joint sensor, rad or m.
+        latency: Delay from the measurement of a tool pose to its arrival at the monitor, s. In a log, a pose is instead in
+            the row of the time at which it was taken.
 
     Raises:
-        InputError: A deviation that is not above 0, or a latency that is not 0 to 1 s.
+        InputError: A deviation is not above 0, or the latency is not between 0 and 1 s.
     """
 
     position: float = 0.5e-3

@@ -1,6 +1,4 @@
-"""Monitored signals of a recording: residual torques, tracking errors, and the measured tool pose compared with that of the
-joints.
-"""
+"""Monitored signals of a log: residual torques, tracking errors, and measured minus computed tool pose."""
 
 from __future__ import annotations
 
@@ -23,15 +21,15 @@ from holdfast.response.diagnosis.observer import (
 )
 from holdfast.response.faults.log import Log
 
-EXCESS_LIMITS_S = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # s of excess
-SMOOTHING_SAMPLES = 5  # samples of the tool's pose
-MAX_SLOW_RATE = 0.6  # rad/s or m/s; with joint sensors alone, tracking counts while all references are so slow
-CALM_TIME_S = 0.1  # for which they have been slow
+EXCESS_LIMITS_S = {"torque": 0.010, "tracking": 0.020, "tool": 0.050}  # accumulated excess that raises an alarm, s
+SMOOTHING_SAMPLES = 5  # samples of the tool pose over which its residual is averaged
+MAX_SLOW_RATE = 0.6  # rad/s or m/s; without torques, tracking counts while all references are slower than this
+CALM_TIME_S = 0.1  # and have been slower for this time, s
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ScaledResiduals:
-    """Residuals in units of their bounds, and their accumulated excess in seconds."""
+    """Residuals in units of their thresholds, and their accumulated excess in seconds."""
 
     torque: FloatArray  # (T, n)
     tracking: FloatArray  # (T, n)
@@ -42,23 +40,21 @@ class ScaledResiduals:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Signals:
-    """Residuals of a recording, T samples of n joints."""
+    """Residuals of a log, T samples of n joints."""
 
     dt: float  # s
-    seen: NDArray[np.bool_]  # (T,) whether the joints told all of their numbers; where not, what follows has NaN
+    seen: NDArray[np.bool_]  # (T,) True where every joint signal has a value; elsewhere, the arrays below contain NaN
     torque: FloatArray  # (T, n) residual torque r, N m and N; 0 without torques
     tracking: FloatArray  # (T, n) distance from the reference, rad and m; without torques NaN in motion that is not slow
-    tool: FloatArray  # (T, 6) measured pose less that of the joints, m and rad, smoothed; NaN between samples
+    tool: FloatArray  # (T, 6) measured minus computed tool pose, m and rad, smoothed; NaN between samples
     v: FloatArray  # (T, n) filtered rates, rad/s and m/s
     gravity: FloatArray  # (T, n) N m and N; 0 without torques
-    asked: FloatArray  # (T, n) commanded torques through both filters of the residual, likewise
-    levels: tuple[str, ...]  # what of ``torque``, ``tracking`` and ``tool`` is there
+    asked: FloatArray  # (T, n) commanded torques through both filters of the residual, N m and N; 0 without torques
+    levels: tuple[str, ...]  # available signals of ``torque``, ``tracking`` and ``tool``
 
     def largest_residual(self, name: str) -> FloatArray | float:
         """Return the largest ``torque``, its ``change``, or ``tracking``, (n,), or the largest ``position`` or ``angle`` error
-        of the tool.
-
-        Infinite if absent.
+        of the tool; infinite if the signal is absent.
         """
         if name == "change":
             torque = self.torque[self.seen]
@@ -71,7 +67,7 @@ class Signals:
         return float(np.nanmax(np.linalg.norm(part, axis=1))) if "tool" in self.levels else np.inf
 
     def scale_by_bounds(self, torque: FloatArray, tracking: FloatArray, position: float, angle: float) -> ScaledResiduals:
-        """Return the residuals in units of their bounds, with the first alarm."""
+        """Return the residuals in units of their thresholds, with the first alarm."""
         scaled_torque, scaled_tracking = np.abs(self.torque) / torque, np.abs(self.tracking) / tracking
         tool_sizes = [np.linalg.norm(self.tool[:, :3], axis=1) / position, np.linalg.norm(self.tool[:, 3:], axis=1) / angle]
         scaled_tool = np.maximum(*tool_sizes)
@@ -93,9 +89,7 @@ class Signals:
         )
 
     def _tool_excess(self, scaled: FloatArray) -> FloatArray:
-        """Accumulate the tool's excess; each pose sample counts for the time since the previous sample, but for at
-        most 50 ms.
-        """
+        """Accumulate the tool's excess; each sample counts for the time since the previous one, at most 50 ms."""
         sampled_rows = np.flatnonzero(np.isfinite(scaled))
         total = np.zeros(len(scaled))
         if sampled_rows.size > 1:
@@ -107,18 +101,18 @@ class Signals:
 
 
 def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatArray, body: Arm | None = None) -> Signals:
-    """Compute the residuals of a recording.
+    """Compute the residuals of a log.
 
     Args:
-        arm: The arm.
-        log: The record, evenly sampled; missing joint values are nobody's fault.
+        arm: Arm that was recorded.
+        log: Evenly sampled log; missing joint values raise no alarm.
         coulomb: (n,) dry friction, N m and N.
-        viscous: (n,) N m s/rad and N s/m.
-        body: The arm with the masses that it has, if they are known better.
+        viscous: (n,) viscous friction, N m s/rad and N s/m.
+        body: Arm with fitted masses, used for the dynamics. Default: ``arm``.
 
     Raises:
-        InputError: A record of another arm, in other units, or without a row that has all of its numbers.
-        ArmError: Torques are there, and the arm's inertial data are missing or impossible.
+        InputError: The log is of another arm, has other units, or has no complete row.
+        ArmError: Torques were recorded, and the arm's inertial data are missing or impossible.
     """
     period, is_complete = 1 / log.rate, complete_row_mask(log)
     levels, tracking = ["tracking"], np.where(is_complete[:, None], log.q_ref - log.q, np.nan)
@@ -148,7 +142,7 @@ def compute_signals(arm: Arm, log: Log, *, coulomb: FloatArray, viscous: FloatAr
 
 
 def tool_residual(arm: Arm, q: FloatArray, x: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Return measured tool poses less those of the joints, (N, 6): ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
+    """Return measured minus computed tool poses (N, 6): ``(x_m - x(q); log(R_m R(q)'))``, m and rad."""
     poses = arm.forward_kinematics(q)
     rotation_errors = rotation_vectors(rotations @ poses[:, :3, :3].transpose(0, 2, 1))
     return np.concatenate([x - poses[:, :3, 3], rotation_errors], axis=1)

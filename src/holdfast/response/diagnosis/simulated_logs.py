@@ -1,6 +1,4 @@
-"""Recordings of a simulated arm with servos, noise, and masses and friction that deviate from its model, to test
-the monitor.
-"""
+"""Logs of a simulated arm with servos, noise, and masses and friction that deviate from its model, to test the monitor."""
 
 from __future__ import annotations
 
@@ -24,22 +22,22 @@ from holdfast.response.faults.events import FaultEvent
 from holdfast.response.faults.injector import FaultInjector
 from holdfast.response.faults.log import Log
 
-_CYCLE_S = 1e-3  # s
-_MAX_AMPLITUDE = 0.6  # rad or m to either side of the middle, at most; and half of the room to the limits
+_CYCLE_S = 1e-3  # control period, s
+_MAX_AMPLITUDE = 0.6  # largest amplitude of a sine, rad or m; it uses at most half of the range to the limits
 _POSE_RATE_HZ = 100.0  # Hz
-_ROBOTS_PER_BATCH = 10  # robots: more leave the processor's cache
+_ROBOTS_PER_BATCH = 10  # more robots exceed the processor's cache
 
 
 @dataclass(frozen=True)
 class ExternalForce:
-    """External force on a link for a limited time, which is no joint's fault.
+    """External force on a link for a limited time, which is not a fault of a joint.
 
     Attributes:
         joint: Name of the joint that carries the link.
-        force: N, world.
-        onset: s.
-        end: s.
-        point: Where it acts, m, in the moving frame of the joint.
+        force: Force vector in the world frame, N.
+        onset: Time at which the force begins, s.
+        end: Time at which the force ends, s. Default: the end of the log.
+        point: Point of application, m, in the moving frame of the joint.
     """
 
     joint: str
@@ -52,7 +50,7 @@ class ExternalForce:
 
 @check_arguments
 @silence_mujoco()
-@reports_progress("simulating a record")
+@reports_progress("simulating a log")
 def simulate_log(
     arm: Arm,
     duration: float | None = None,
@@ -68,38 +66,38 @@ def simulate_log(
     viscous: float = 0.3,
     pose: bool = True,
 ) -> Log:
-    """Simulate a recording of an arm that swings each joint to and fro, with noise (needs ``holdfast-arms[physics]``).
+    """Simulate a log of an arm whose joints swing, with measurement noise (needs ``holdfast-arms[physics]``).
 
-    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a motion. Each
-    drive closes its velocity loop faster than the control cycle of 1 kHz; at random configurations of every built-in arm with
-    inertial data the linearised cycle has no eigenvalue above 0.98 in magnitude. The body is not quite the arm's model: masses
-    and friction are off by up to ``mismatch``. Faults begin and end as their events say.
+    Servos of 10 Hz with the gravity torque of the arm's model follow sines about the middle of the range, or a given motion.
+    Each drive closes its velocity loop faster than the control cycle of 1 kHz. At random configurations of every built-in arm
+    with inertial data, the linearised cycle has no eigenvalue above 0.98 in magnitude. The simulated body differs from the
+    arm's model: its masses and friction are off by up to ``mismatch``. Faults begin and end as their events state.
 
     Args:
-        arm: The arm, with inertial data.
-        duration: s; None with a motion.
-        motion: (T, n) references, rad and m, 1000 a second, from rest; None: sines.
-        faults: Events in it; times are those of the record.
-        external_forces: Forces from outside, likewise.
-        seed: Of the motion and the noise.
-        robot: Seed of the simulated robot. Use one value for all recordings of the same robot. Default: ``seed``.
-        speed: Of the references, rad/s and m/s, at most.
-        mismatch: Fraction by which masses and friction may be off.
+        arm: Arm with inertial data.
+        duration: Duration of the log, s. None if ``motion`` is given.
+        motion: (T, n) references from rest, rad and m, 1000 per second. None: sines.
+        faults: Fault events, with times in the log.
+        external_forces: External forces, with times in the log.
+        seed: Seed of the motion and of the noise.
+        robot: Seed of the simulated robot. Use one value for all logs of the same robot. Default: ``seed``.
+        speed: Largest rate of the references, rad/s and m/s.
+        mismatch: Largest relative error of the model's masses and friction.
         coulomb: Dry friction of every joint, N m and N.
-        viscous: Viscous friction, N m s/rad and N s/m.
-        pose: Whether the tool's pose is measured, 100 times a second.
+        viscous: Viscous friction of every joint, N m s/rad and N s/m.
+        pose: Record the tool pose, 100 times a second.
 
     Returns:
-        A record of 1000 samples a second. Everything in it is simulated.
+        A simulated log with 1000 samples per second.
 
     Raises:
-        InputError: Not a finite time above 0, both or none of time and motion, an unknown joint, a fault that the model cannot
-            have, or numbers that :class:`holdfast.Body` refuses.
+        InputError: The duration is not finite and above 0, both or none of ``duration`` and ``motion`` are given, a joint is
+            unknown, the model cannot represent a fault, or :class:`holdfast.Body` rejects a number.
         ArmError: Inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """
     if (duration is None) == (motion is None):
-        raise InputError("give the duration or the motion of the record, one of them")
+        raise InputError("give either the duration or the motion of the log")
     rng = np.random.default_rng(seed)
     reference = _sine_references(arm, duration, speed, rng) if motion is None else arm.check_configurations(motion)
     body = Body(seed if robot is None else robot, mismatch=mismatch, coulomb=coulomb, viscous=viscous)
@@ -108,7 +106,7 @@ def simulate_log(
 
 @check_arguments
 @silence_mujoco()
-@reports_progress("simulating records")
+@reports_progress("simulating logs")
 def simulate_logs(
     arm: Arm,
     duration: float,
@@ -123,30 +121,30 @@ def simulate_logs(
     viscous: float = 0.3,
     pose: bool = True,
 ) -> tuple[Log, ...]:
-    """Simulate the recordings of :func:`holdfast.response.diagnosis.simulate_log` several at a time, in about half the time.
+    """Simulate several logs as :func:`holdfast.response.diagnosis.simulate_log` does, together and in about half the time.
 
     Args:
-        arm: The arm, with inertial data.
-        duration: Of each, s.
-        seeds: One for each record.
-        faults: Events of each; None: healthy.
-        external_forces: Forces from outside of each.
-        robots: Seeds of the simulated robots, one for each recording. Default: ``seeds``.
-        speed: Of the references, rad/s and m/s, at most.
-        mismatch: Fraction by which masses and friction may be off.
+        arm: Arm with inertial data.
+        duration: Duration of each log, s.
+        seeds: Seeds of motion and noise, one for each log.
+        faults: Fault events of each log. None: healthy.
+        external_forces: External forces of each log. None: no forces.
+        robots: Seeds of the simulated robots, one for each log. Default: ``seeds``.
+        speed: Largest rate of the references, rad/s and m/s.
+        mismatch: Largest relative error of the model's masses and friction.
         coulomb: Dry friction of every joint, N m and N.
-        viscous: Viscous friction, N m s/rad and N s/m.
-        pose: Whether the tools' poses are measured.
+        viscous: Viscous friction of every joint, N m s/rad and N s/m.
+        pose: Record the tool poses, 100 times a second.
 
     Raises:
-        InputError: As there, or not one of something for each record.
+        InputError: As for :func:`holdfast.response.diagnosis.simulate_log`, or a sequence lacks entries for some logs.
         ArmError: Inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """
     count = len(seeds)
     for name, values in (("faults", faults), ("external_forces", external_forces), ("robots", robots)):
         if values is not None and len(values) != count:
-            raise InputError(f"{name} are of {len(values)} records and seeds of {count}; give one for each record")
+            raise InputError(f"{name} has entries for {len(values)} logs and there are {count} seeds; give one for each log")
     deviations = {"mismatch": mismatch, "coulomb": coulomb, "viscous": viscous}
     recordings = []
     for index, (rng, body_seed) in enumerate(zip(map(np.random.default_rng, seeds), robots or seeds, strict=True)):
@@ -222,7 +220,7 @@ def _simulate_robots(robots: SimulatedRobots, recordings: Sequence[_Recording]) 
     shape, cycle_count = reference[:, 0].shape, len(reference)
     noise = np.stack([recording.rng.normal(0, recording.body.joint, shape) for recording in recordings], axis=1)
     rates = np.diff(reference, axis=0, append=reference[-1:]) / _CYCLE_S
-    rates[-1] = rates[max(-2, -cycle_count)]  # the motion goes on after the record
+    rates[-1] = rates[max(-2, -cycle_count)]  # the motion continues after the log
     measured = np.empty_like(reference)
     commands = np.empty_like(reference)
     q = np.empty((cycle_count + 1, *reference.shape[1:]))

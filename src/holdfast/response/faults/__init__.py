@@ -1,4 +1,4 @@
-"""Timed joint faults: drawn for each episode identically on every machine, and injected into simulators."""
+"""Timed joint faults: sampled for each episode identically on every machine, and injected into simulators."""
 
 from holdfast.core._lazy import offer
 

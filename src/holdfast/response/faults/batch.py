@@ -17,18 +17,18 @@ from holdfast.response.faults.kind import MAX_PARAMETERS, find_kind
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FaultBatch(Result):
-    """Faults of N episodes, at most one for each of the n joints in an episode: the first.
+    """Faults of N episodes as arrays, with at most one fault per joint and episode: the first.
 
     Attributes:
         joints: Names of the n joints.
-        seed: Of the draws.
-        first: Number of the first episode.
-        episodes: The faults of each, all of them.
-        kind: (N, n) index into ``holdfast.response.faults.KINDS``, -1 where the joint has no fault.
-        onset: (N, n) s, infinite where there is none.
-        end: (N, n) s, infinite where it stays or there is none.
-        parameter: (N, n, 3) numbers of the kind in the order of its function's arguments, NaN where there is none.
-        left_out: Faults that are not in the arrays, because the joint had one before.
+        seed: Seed of all random numbers.
+        first: Index of the first episode.
+        episodes: All faults of each episode, including those that are not in the arrays.
+        kind: (N, n) index into ``holdfast.response.faults.KINDS``; -1 where the joint has no fault.
+        onset: (N, n) time of the onset, s; infinite without a fault.
+        end: (N, n) time of the end, s; infinite for a permanent fault or without a fault.
+        parameter: (N, n, 3) parameters of the kind in the order of its function's arguments; NaN where there is none.
+        left_out: Number of faults that are not in the arrays, because the joint had an earlier one.
     """
 
     joints: tuple[str, ...]
@@ -45,10 +45,13 @@ class FaultBatch(Result):
         return len(self.episodes)
 
     def times_of(self, joints: Sequence[str]) -> FloatArray:
-        """Return the times (N, n) at which these joints lock, s: an episode for each run of :func:`holdfast.simulate`.
+        """Return the lock times (N, n) of these joints, s, one row per run of :func:`holdfast.simulate`.
+
+        Args:
+            joints: Names of the n joints, in the order of the columns.
 
         Raises:
-            InputError: See :meth:`holdfast.response.faults.FaultEvents.times_of`.
+            InputError: The faults are not locks; see :meth:`holdfast.response.faults.FaultEvents.times_of`.
         """
         return np.array([events.times_of(joints) for events in self.episodes])
 

@@ -31,7 +31,7 @@ class _Column(Strict):
     @model_validator(mode="before")
     @classmethod
     def _parse_name_alone(cls, data: Any) -> Any:
-        """Accept a column in its usual unit by its name alone."""
+        """Accept a column name alone, which means the default unit."""
         return {"column": data} if isinstance(data, (str, list)) else data
 
 
@@ -48,11 +48,11 @@ def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]
     """Read the arrays of a table (.csv, .parquet) in SI units, by their names in a log; missing optional columns are left out.
 
     Args:
-        path: The file.
-        columns: A YAML file, see :meth:`holdfast.response.faults.Log.load`; None: names and units of a log.
+        path: Path of the table.
+        columns: YAML file of columns, see :meth:`holdfast.response.faults.Log.load`. None: names and units of a log.
 
     Raises:
-        InputError: Either cannot be read, a column is not there, or it does not hold numbers.
+        InputError: A file cannot be read, a column is missing, or a column contains other data than numbers.
     """
     layout = _Columns() if columns is None else _read_layout(columns)
     with reading.guard_reading(advice="give an .npz, .csv or .parquet file"):
@@ -88,7 +88,7 @@ def _read_layout(columns: str | Path) -> _Columns:
 
 
 def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str]:
-    """Return the columns of a list, or of a pattern in which ``*`` is a joint's number, from 0 or 1 without gaps."""
+    """Return the columns of a list, or of a pattern in which ``*`` is the joint's number, from 0 or 1 without gaps."""
     if not isinstance(column, str) or "*" not in column:
         return [column] if isinstance(column, str) else column
     pattern = re.compile(r"(\d+)".join(map(re.escape, column.split("*", 1))))
@@ -100,13 +100,13 @@ def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str
 
 
 def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
-    """Return the names and a function for the numbers of a column; empty cells are NaN."""
+    """Return the column names and a function that returns the numbers of a column; empty cells are NaN."""
     lines = raw.decode("utf-8-sig", "replace").splitlines()
-    delimiter = max(",;\t", key=(lines[0] if lines else "").count)  # the first line decides
+    delimiter = max(",;\t", key=(lines[0] if lines else "").count)  # the most frequent one in the first line
     try:
         rows = [(line_number, row) for line_number, row in enumerate(csv.reader(lines, delimiter=delimiter), start=1) if row]
     except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
-        raise InputError(f"it is no table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
+        raise InputError(f"it is not a table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error
     if len(rows) < 2:
         raise InputError("it has no rows of numbers; give a header and a line for each sample")
     header = [name.strip() for name in rows[0][1]]
@@ -130,7 +130,7 @@ def import_pyarrow() -> tuple[Any, Any]:
     """Import pyarrow and its Parquet reader.
 
     Raises:
-        InputError: It is not installed.
+        InputError: pyarrow is not installed.
     """
     try:
         import pyarrow
@@ -143,10 +143,10 @@ def import_pyarrow() -> tuple[Any, Any]:
 def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
     pyarrow, parquet = import_pyarrow()
     try:
-        # Threads of pyarrow end the whole process where they still run when Python ends.
+        # One thread: threads of pyarrow that still run when Python exits would crash the process.
         table = parquet.read_table(io.BytesIO(raw), use_threads=False, pre_buffer=False)
-    except Exception as error:  # damaged files raise many kinds
-        raise InputError("it is no Parquet file that can be read; give one with columns t, q_ref_1, ..., q_1, ...") from error
+    except Exception as error:  # damaged files raise errors of many types
+        raise InputError("it is not a readable Parquet file; give one with columns t, q_ref_1, ..., q_1, ...") from error
     names = []
     for field in table.schema:
         lengths = _get_list_length(pyarrow, table[field.name]) if pyarrow.types.is_nested(field.type) else 0
@@ -169,7 +169,7 @@ def _parse_parquet(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
 
 
 def _get_list_length(pyarrow: Any, column: Any) -> int:
-    """Return the length of the lists in a column, 0 where it holds single values."""
+    """Return the length of the lists in a column, 0 where it contains single values."""
     if not pyarrow.types.is_nested(column.type) or not len(column):
         return 0
     first = column[0].as_py()

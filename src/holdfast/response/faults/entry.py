@@ -16,21 +16,21 @@ _ACCEPTED_FORMS = "a number, uniform: [a, b], loguniform: [a, b], exponential: M
 
 @dataclass(frozen=True)
 class ParameterDistribution:
-    """Number, or the law from which it is drawn."""
+    """Fixed number, or the distribution from which it is sampled."""
 
     law: str  # ``number`` or one of :data:`DISTRIBUTION_LAWS`
-    numbers: tuple[float, ...]  # the number; both ends; the mean; what is chosen from
+    numbers: tuple[float, ...]  # the number; both ends; the mean; the choices
 
     @classmethod
     def from_value(cls, value: Any, quantity_name: str) -> ParameterDistribution:
         """Return the distribution from a number, two numbers in a tuple (uniform), or ``{law: numbers}``.
 
         Args:
-            value: From a caller or a file.
-            quantity_name: What an error calls it.
+            value: Number, tuple, or mapping from a caller or a file.
+            quantity_name: Name of the quantity in error messages.
 
         Raises:
-            InputError: Another form, numbers that are not finite, ends upside down.
+            InputError: The value has another form, a number is not finite, or the ends are reversed.
         """
         if isinstance(value, ParameterDistribution):
             return value
@@ -62,11 +62,11 @@ class ParameterDistribution:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and greatest number that may be drawn."""
+        """Smallest and largest number that may be sampled."""
         return (0.0, math.inf) if self.law == "exponential" else (min(self.numbers), max(self.numbers))
 
     def at(self, uniform_value: float) -> float:
-        """Return the number that a uniform number of [0, 1) draws."""
+        """Return the sample that belongs to a uniform number of [0, 1)."""
         lower, upper = self.numbers[0], self.numbers[-1]
         match self.law:
             case "uniform":
@@ -86,7 +86,7 @@ class ParameterDistribution:
 
 
 def exponential_quantile(mean: float, uniform_value: float) -> float:
-    """Return the number that a uniform number of [0, 1) draws from the exponential law."""
+    """Return the sample of the exponential distribution that belongs to a uniform number of [0, 1)."""
     return -mean * math.log1p(-uniform_value)
 
 
@@ -94,8 +94,8 @@ def _parse_number(value: Any, quantity_name: str) -> float:
     try:
         if isinstance(value, bool):
             raise ValueError
-        number = float(value)  # text too: YAML 1.1 reads 1e-3 as text
-    except OverflowError as error:  # a whole number of Python may have any number of digits
+        number = float(value)  # accepts text, because YAML 1.1 reads 1e-3 as text
+    except OverflowError as error:  # integers of Python may have any number of digits
         raise InputError(f"{quantity_name} is a whole number beyond 1e308; it must be finite") from error
     except (TypeError, ValueError) as error:
         raise InputError(f"{quantity_name} is {value!r}; it must be {_ACCEPTED_FORMS}") from error
@@ -124,25 +124,26 @@ class FaultTiming(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Fault:
-    """Entry of a fault model: a family of faults. Functions such as :func:`holdfast.response.faults.locked` make one.
+    """Entry of a fault model: a family of faults. Functions such as :func:`holdfast.response.faults.locked` create one.
 
-    A number may be drawn in every episode: a tuple ``(a, b)`` and ``{"uniform": [a, b]}`` are even between a and b,
-    ``{"loguniform": [a, b]}`` even in the logarithm, ``{"exponential": mean}``, and ``{"choice": [a, b, ...]}``.
+    A number may be random, with a new sample in every episode. A tuple ``(a, b)`` and ``{"uniform": [a, b]}`` are uniform
+    between a and b, ``{"loguniform": [a, b]}`` is uniform in the logarithm, ``{"exponential": mean}`` is exponential, and
+    ``{"choice": [a, b, ...]}`` takes one of the numbers.
 
     Attributes:
-        kind: See :func:`holdfast.response.faults.locked` and the others.
-        parameters: The kind's, by name: rad, N m, rad/s (m, N, m/s of prismatic joints).
-        joints: Which it may be, by name; None: any.
-        weights: How likely each of ``joints`` is, relative to the others; None: all alike.
-        probability: That it happens in an episode.
-        onset: When it begins, s.
-        duration: For how long, s; None: for ever.
-        rate_per_hour: Of a fault that comes at any time alike, in place of ``onset``.
-        together: Joints that have it at once.
-        on, off: Of a fault that comes and goes: mean times with and without it, s; None: it stays.
+        kind: Name of the kind of fault; see :func:`holdfast.response.faults.locked` and the others.
+        parameters: Parameters of the kind by name, in rad, N m, rad/s (m, N, m/s for prismatic joints).
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        weights: Relative probability of each of ``joints``. None: all equal.
+        probability: Probability of the fault in an episode.
+        onset: Time of the onset, s.
+        duration: Duration of the fault, s. None: permanent.
+        rate_per_hour: Constant failure rate, 1/h, instead of ``onset``.
+        together: Number of joints that have the fault at once.
+        on, off: Mean times with and without an intermittent fault, s. None: not intermittent.
 
     Raises:
-        InputError: An unknown kind, parameter or law, numbers out of bounds, or what does not go together.
+        InputError: A kind, parameter or distribution is unknown, a number is out of bounds, or options exclude each other.
     """
 
     kind: str
@@ -195,7 +196,7 @@ class Fault:
         alternatives = [[parameter.name for parameter in alternative] for alternative in kind.parameters]
         if alternatives and not any(given and set(given) <= set(names) for names in alternatives):
             raise InputError(f"'{self.kind}' must have {' or '.join(' and '.join(names) for names in alternatives)}")
-        # In the order of the kind: which uniform number draws which does not depend on the caller's order.
+        # In the order of the kind, so that the random numbers do not depend on the order of the caller.
         return {
             name: parameter.word if given[name] == parameter.word else self._parse_bounded(parameter, given[name])
             for name, parameter in known.items()
@@ -215,7 +216,7 @@ class Fault:
             expected_text = "0 or more" if parameter.includes_ends else f"above {minimum:g}"
             if math.isfinite(maximum):
                 expected_text = f"between {minimum:g} and {maximum:g}"
-            sign_text = "; its sign is drawn" if parameter.has_random_sign else ""
+            sign_text = "; its sign is random" if parameter.has_random_sign else ""
             range_text = f"{lower:g}" if lower == upper else f"from {lower:g} to {upper:g}"
             raise InputError(f"{name} of '{self.kind}' is {range_text}; it must be {expected_text}{sign_text}")
         return distribution
@@ -228,7 +229,7 @@ class Fault:
             if value is not None and not (math.isfinite(value) and value > 0):
                 raise InputError(f"{name} of '{self.kind}' is {value:g}; it must be a finite number above 0")
         if self.rate_per_hour is not None and self.onset is not None:
-            raise InputError(f"'{self.kind}' has both onset and rate_per_hour; the rate says when it begins: give one of them")
+            raise InputError(f"'{self.kind}' has both onset and rate_per_hour; give one of them, as the rate sets the onset")
         if (self.on is None) != (self.off is None):
             raise InputError(f"'{self.kind}' has only one of on and off; a fault that comes and goes has both")
         onset = 0.0 if self.onset is None else self.onset

@@ -21,11 +21,11 @@ class FaultEvent:
     """Fault of one joint in one episode.
 
     Attributes:
-        kind: One of the kinds, as ``locked``.
-        joint: Its name.
-        onset: When it begins, s.
-        end: When it is over, s; infinite if it stays.
-        parameters: Those of the kind by name, with their sign: rad, N m, rad/s (m, N, m/s of prismatic joints).
+        kind: Name of the kind of fault, such as ``locked``.
+        joint: Name of the joint.
+        onset: Time of the onset, s.
+        end: Time of the end, s; infinite for a permanent fault.
+        parameters: Parameters of the kind by name, with their sign, in rad, N m, rad/s (m, N, m/s for prismatic joints).
     """
 
     kind: str
@@ -36,7 +36,7 @@ class FaultEvent:
     parameters: Mapping[str, float | str] = field(default_factory=dict, hash=False)
 
     def active(self, time: float) -> bool:
-        """Return True if the fault is present at a time, s."""
+        """Return True if the fault is present at ``time``, s."""
         return self.onset <= time < self.end
 
     def to_stored(self) -> dict[str, Any]:
@@ -46,7 +46,7 @@ class FaultEvent:
 
     @classmethod
     def from_stored(cls, data: Mapping[str, Any]) -> FaultEvent:
-        """Return the event from the data of :meth:`to_stored`."""
+        """Return the event from ``data`` of :meth:`to_stored`."""
         parameters = {name: value for name, value in data.items() if name not in ("kind", "joint", "onset", "end")}
         end = math.inf if data["end"] is None else data["end"]
         return cls(data["kind"], data["joint"], data["onset"], end=end, parameters=parameters)
@@ -67,17 +67,20 @@ class FaultEvents(tuple[FaultEvent, ...]):
         return super().__new__(cls, sorted(events, key=lambda event: (event.onset, event.joint, event.kind, event.end)))
 
     def times_of(self, joints: Sequence[str]) -> NDArray[np.float64]:
-        """Return the times (n,) at which these joints lock, s, infinite for never: for :func:`holdfast.simulate`.
+        """Return the lock times (n,) of these joints, s, infinite for joints that do not lock, for :func:`holdfast.simulate`.
+
+        Args:
+            joints: Names of the n joints, in the order of the result.
 
         Raises:
-            InputError: Another joint, a fault of another kind, or a lock that is over again or elsewhere than at the joint.
+            InputError: A joint is unknown, or a fault is not a permanent lock at the position of the joint at the onset.
         """
         times = np.full(len(joints), np.inf)
         for event in self:
             kind = find_kind(event.kind)
             if not kind.holds_joint or kind.is_delayed(event.parameters) or math.isfinite(event.end):
                 raise InputError(
-                    f"'{event.sentence()}' is not a lock for good, where the joint is: bodies and motors are needed; add "
+                    f"'{event.sentence()}' is not a permanent lock at the joint's position, so it needs bodies and motors; add "
                     "--physics, or use holdfast.simulate_faults"
                 )
             if event.joint not in joints:

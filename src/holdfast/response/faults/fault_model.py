@@ -1,4 +1,4 @@
-"""Fault model: its entries and its seed, with episodes, batches, files, and draws that are identical on every machine."""
+"""Fault model: entries and a seed, from which episodes are sampled identically on every machine, with batches and files."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from holdfast.response.faults.events import FaultEvent, FaultEvents
 from holdfast.response.faults.kind import fault_kinds, find_kind
 
 _SECONDS_PER_HOUR = 3600.0
-_WORDS_PER_ENTRY = 8  # of an entry before its dwell times
-_MAX_INTERVALS = 10_000  # times that a fault comes and goes in an episode
+_WORDS_PER_ENTRY = 8  # random words of an entry before its dwell times
+_MAX_INTERVALS = 10_000  # largest number of intervals of an intermittent fault in an episode
 
 
 class HasJointNames(Protocol):
@@ -73,11 +73,11 @@ class FaultModel:
     """Fault model: possible faults of the joints in an episode.
 
     Attributes:
-        entries: Families of faults, as :func:`holdfast.response.faults.locked` makes them.
-        seed: Of all draws.
+        entries: Families of faults, from functions such as :func:`holdfast.response.faults.locked`.
+        seed: Seed of all random numbers.
 
     Raises:
-        InputError: Something else than entries, or a seed below 0.
+        InputError: An entry is not a :class:`holdfast.response.faults.Fault`, or the seed is below 0.
     """
 
     entries: Sequence[Fault]
@@ -88,20 +88,20 @@ class FaultModel:
         invalid = next((entry for entry in entries if not isinstance(entry, Fault)), None)
         if invalid is not None:
             raise InputError(
-                f"an entry of the faults is {invalid!r}; make it by holdfast.response.faults.locked(...) or another kind"
+                f"an entry of the faults is {invalid!r}; create it with holdfast.response.faults.locked(...) or another kind"
             )
         object.__setattr__(self, "entries", entries)
 
     def draw(self, joints: HasJointNames | Sequence[str], *, episode: int = 0, horizon: float = math.inf) -> FaultEvents:
-        """Draw the faults of one episode, identical on every machine.
+        """Sample the faults of one episode, identically on every machine.
 
         Args:
-            joints: An arm, or the names of its joints.
-            episode: From 0.
-            horizon: Its end, s: a fault with a rate per hour does not come later, one that comes and goes ends there.
+            joints: Arm, or the names of its joints.
+            episode: Index of the episode, from 0.
+            horizon: End of the episode, s. A fault with a rate begins before it, and an intermittent fault ends there.
 
         Raises:
-            InputError: An entry names an unknown joint; a number below 0.
+            InputError: An entry names an unknown joint, the episode is below 0, or the horizon is not above 0.
         """
         if isinstance(episode, bool) or episode != int(episode) or episode < 0:
             raise InputError(f"episode is {episode}; it must be a whole number of 0 or more")
@@ -119,10 +119,16 @@ class FaultModel:
     def batch(
         self, joints: HasJointNames | Sequence[str], *, episodes: int, first: int = 0, horizon: float = math.inf
     ) -> FaultBatch:
-        """Draw episodes ``first``, ``first`` + 1, ... as arrays, for simulators that run many at once.
+        """Sample episodes ``first``, ``first`` + 1, ... as arrays, for simulators that run many episodes at once.
+
+        Args:
+            joints: Arm, or the names of its joints.
+            episodes: Number of episodes.
+            first: Index of the first episode, from 0.
+            horizon: End of each episode, s, as for :meth:`draw`.
 
         Raises:
-            InputError: As :meth:`draw`, or fewer than one episode.
+            InputError: As for :meth:`draw`, or there is less than one episode.
         """
         if isinstance(episodes, bool) or episodes != int(episodes) or episodes < 1:
             raise InputError(f"episodes is {episodes}; it must be a whole number above 0")
@@ -130,18 +136,18 @@ class FaultModel:
         return make_batch(list_joint_names(joints), drawn_episodes, seed=self.seed, first=first)
 
     def with_seed(self, seed: int | None) -> FaultModel:
-        """Return the fault model with another seed, or unchanged where it is None.
+        """Return the fault model with another ``seed`` of 0 or more, or unchanged if it is None.
 
         Raises:
-            InputError: No whole number of 0 or more.
+            InputError: The seed is not an integer of 0 or more.
         """
         return self if seed is None else FaultModel(self.entries, seed)
 
     def save(self, file: str | Path) -> Path:
-        """Write a YAML file that :func:`holdfast.response.faults.load` reads.
+        """Write the YAML file ``file`` that :func:`holdfast.response.faults.load` reads, and return its path.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         data = {"seed": self.seed, "faults": [entry.to_stored() for entry in self.entries]}
         path = Path(file)
@@ -152,20 +158,20 @@ class FaultModel:
 
 
 def load(file: str | Path) -> FaultModel:
-    """Load a fault model from a YAML file.
+    """Load a fault model from the YAML file with the path ``file``.
 
     .. code-block:: yaml
 
-        seed: 7                       # of all draws; 0 if not given
+        seed: 7                       # of all random numbers; default 0
         faults:
           - {kind: locked, onset: {uniform: [0.3, 1.5]}, probability: 0.5}
           - {kind: weak, joints: [panda_joint2, panda_joint4], gain: {uniform: [0.2, 0.7]}, onset: {exponential: 4.0}}
           - {kind: friction, joints: [panda_joint2], coulomb: 3.0, rate_per_hour: 0.5}
 
-    Keys, units and laws are those of :class:`holdfast.response.faults.Fault`.
+    Keys, units and distributions are those of :class:`holdfast.response.faults.Fault`.
 
     Raises:
-        InputError: Unreadable, or something that is unknown, missing or wrong; the message names it.
+        InputError: The file cannot be read, or an entry is unknown, missing or wrong; the message names it.
     """
     try:
         model: Any = _FaultModelFile.model_validate(read_mapping(Path(file), "holdfast.response.faults.load", "faults"))
@@ -194,14 +200,14 @@ def list_joint_names(joints: HasJointNames | Sequence[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-# ---- draws -------------------------------------------------------------------------------------------------------
+# ---- random numbers ----------------------------------------------------------------------------------------------
 #
-# NumPy promises no stream for the methods of its ``Generator``; the words of a counter-based bit generator are fixed by its
-# definition (Salmon et al. 2011). Entry f of episode e has the words of its own key, so that adding an entry changes no other.
+# NumPy guarantees no stream for the methods of its ``Generator``, but the words of a counter-based bit generator are fixed by
+# its definition (Salmon et al. 2011). Entry f of episode e has its own key, so adding an entry does not change the others.
 
 
 def generate_uniforms(seed: int, episode: int, entry: int) -> Iterator[float]:
-    """Yield uniform numbers of [0, 1), of 53 bits, for one entry of one episode, without end."""
+    """Yield an infinite stream of uniform numbers of [0, 1), with 53 bits, for one entry of one episode."""
     key = np.array([seed % 2**64, (65536 * episode + entry) % 2**64], dtype=np.uint64)
     generator = np.random.Philox(key=key, counter=0)
     while True:
@@ -212,7 +218,7 @@ def generate_uniforms(seed: int, episode: int, entry: int) -> Iterator[float]:
 def _draw_events(
     entry: Fault, joints: Sequence[str], *, seed: int, episode: int, entry_index: int, horizon: float = math.inf
 ) -> list[FaultEvent]:
-    """Draw the events of one entry in one episode that ends at a horizon in s; a fault with a rate does not come later."""
+    """Sample the events of one entry in an episode that ends at ``horizon``, s; faults with a rate begin before it."""
     if entry.joints is not None:
         unknown = next((name for name in entry.joints if name not in joints), None)
         if unknown is not None:
@@ -272,7 +278,7 @@ def _draw_intervals(entry: Fault, onset: float, end: float, stream: Iterator[flo
     assert entry.on is not None
     assert entry.off is not None
     if math.isinf(end):
-        raise InputError(f"'{entry.kind}' comes and goes for ever; give the horizon of the episode, or its duration")
+        raise InputError(f"'{entry.kind}' is intermittent without an end; give the horizon of the episode, or its duration")
     start = onset
     for _ in range(_MAX_INTERVALS):
         if start >= end:
@@ -280,4 +286,6 @@ def _draw_intervals(entry: Fault, onset: float, end: float, stream: Iterator[flo
         time_on, time_off = exponential_quantile(entry.on, next(stream)), exponential_quantile(entry.off, next(stream))
         yield start, round(min(start + time_on, end), 6)
         start = round(start + time_on + time_off, 6)
-    raise InputError(f"'{entry.kind}' comes and goes more than {_MAX_INTERVALS} times in an episode; make them longer")
+    raise InputError(
+        f"'{entry.kind}' is intermittent with more than {_MAX_INTERVALS} intervals in an episode; increase on or off"
+    )

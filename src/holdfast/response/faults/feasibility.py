@@ -1,4 +1,4 @@
-"""Feasibility of a goal for an arm with faults, because success counts relative to the feasible episodes."""
+"""Feasibility of a goal for an arm with faults. A success rate is meaningful relative to the feasible episodes."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from holdfast.response.recovery.task_rows import make_row_solver
 
 Answer = Literal["yes", "no", "not found", "unknown"]
 
-_STOP_COMPLIANCE = 0.02  # rad or m, of a stop
-_EXACT_TOLERANCE = 1e-6  # m and rad: what a motion to the goal itself may be off
-_GRAVITY_TEST_CONFIGURATIONS = 64  # of a goal at which a weak motor is asked to carry the arm
+_STOP_COMPLIANCE = 0.02  # compliance of a stop, rad or m
+_EXACT_TOLERANCE = 1e-6  # tolerance of a motion to the exact goal, m and rad
+_GRAVITY_TEST_CONFIGURATIONS = 64  # configurations of a goal in which the torque of a weak motor is checked
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class Feasibility:
     """Feasibility of a goal.
 
     Attributes:
-        answer: ``yes``; ``no``, which is proved; ``not found``, which proves nothing; or ``unknown``.
-        why: One sentence.
-        q: (n,) a configuration at the goal, rad and m; None but for ``yes``.
+        answer: ``yes``; ``no``, which is proved; ``not found``, which is no proof; or ``unknown``.
+        why: Reason, one sentence.
+        q: (n,) configuration at the goal, rad and m; None unless the answer is ``yes``.
     """
 
     answer: Answer
@@ -58,26 +58,26 @@ def feasible(
 ) -> Feasibility:
     """Check if the tool of an arm with faults can reach a goal within the joint limits. Obstacles are ignored.
 
-    A locked joint stays where it is; a free-swinging joint, and one whose sensor cannot be trusted, is locked by its brake. A
-    weak motor must carry the arm against gravity at some configuration of the goal. Friction and speed make a goal late, not
-    infeasible. Given where the arm is, a motion from there must exist as well, and what is then proved to be impossible is a
-    ``no``.
+    A locked joint keeps its position. A free-swinging joint, and a joint whose sensor cannot be trusted, is locked by its
+    brake. A weak motor must carry the arm against gravity in some configuration of the goal. Friction and speed limits delay
+    the motion but do not make a goal infeasible. If ``at`` is given, a motion from there to the goal is required as well, and
+    the answer is ``no`` if this motion is proved impossible.
 
     Args:
         arm: The healthy arm.
         goal: (3,) position or (4, 4) pose of the tool in the world, m.
-        places: The faults that are there, with where their joints were at the onset, rad or m.
-        task: Rows of the pose that matter; position or pose by the goal if not given.
-        within: Angle in rad by which the tool's z axis may be off that of the pose, any turn about it allowed; see
+        places: Active faults, with the positions of their joints at the onset, rad or m.
+        task: Task whose rows must reach the goal. Default: position or pose, by the shape of the goal.
+        within: Angle in rad by which the tool's z axis may deviate from that of the pose, with any rotation about it; see
             :func:`holdfast.recover`.
-        at: (n,) where the arm is, rad and m; None: a configuration at the goal is enough.
-        brakes: Whether the joints have brakes.
-        restarts: Random starts of the search.
+        at: (n,) current configuration, rad and m. None: a configuration at the goal suffices.
+        brakes: True if the joints have brakes.
+        restarts: Number of random starts of the search.
         tolerance: Largest distance from the goal that counts as success, m, and rad for a pose; at most 1. A motion from ``at``
-            is searched for to the goal itself, so what is then proved impossible within a larger tolerance is ``not found``.
+            is searched to the exact goal, so an impossibility proof with a larger tolerance counts as ``not found``.
 
     Raises:
-        InputError: A goal of another shape, or an unknown joint.
+        InputError: The goal has another shape, or a joint is unknown.
     """
     target = np.asarray(goal, dtype=np.float64)
     if target.shape not in ((3,), (4, 4)):
@@ -105,7 +105,7 @@ def feasible(
         if remaining_range is not None:
             ranges[event.joint] = max(remaining_range[0], joint.lower), min(remaining_range[1], joint.upper)
     if weak_gains and locked_values:
-        return Feasibility("unknown", "locks and weak motors together are not looked at")
+        return Feasibility("unknown", "locks and weak motors together are not checked")
     if weak_gains:
         return _check_weak_motor_torques(arm, pose, task_rows, within, weak_gains, tolerance)
     conditions = [f"{joint} locked" for joint in locked_values] + [f"{joint} within its reduced range" for joint in ranges]
@@ -120,7 +120,7 @@ def feasible(
         is_unproved = recovered.answer == "no" and tolerance > _EXACT_TOLERANCE
         return replace(recovered, answer="not found") if is_unproved else recovered
     if locked_values and ranges:
-        return Feasibility("unknown", "locks and reduced ranges together need where the arm is: give at")
+        return Feasibility("unknown", "locks and reduced ranges together need the current configuration; give at")
     if within is not None:
         degraded_arm = Degraded(arm, locked=locked_values, ranges=ranges) if conditions else None
         tilted = _solve_in_cone(arm, degraded_arm, pose, as_task(arm, task_rows), within, restarts, tolerance)
@@ -198,5 +198,5 @@ def _check_weak_motor_torques(
     overloads = (np.abs(arm.gravity_torque(q)[:, joints]) - efforts).max(axis=1)
     best, names = int(overloads.argmin()), " and ".join(gains)
     if overloads[best] > 0:
-        return Feasibility("not found", f"gravity asks more of {names} in each of {len(q)} configurations of the goal")
+        return Feasibility("not found", f"gravity exceeds the torque of {names} in each of {len(q)} configurations of the goal")
     return Feasibility("yes", f"{names} can carry the arm at the goal", q[best])

@@ -1,6 +1,6 @@
-"""Inject faults into any MuJoCo model: only fields of the model change, it is not recompiled, and every change can be undone.
+"""Inject faults into any MuJoCo model. Only fields of the model change, it is not recompiled, and every change can be undone.
 
-Source: derived here; how the ways of locking a joint compare was measured in simulation (see the how-to page).
+Source: derived here; the methods of locking a joint were compared in simulation (see the how-to page).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from holdfast.response.faults.fault_model import FaultModel, HasJointNames, list
 from holdfast.response.faults.kind import find_kind
 from holdfast.response.faults.model_joint import ActiveFault, ModelJoint, SensorReading, find_actuators
 
-TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is not left to the next one
+TIME_TOLERANCE_S = 1e-9  # a fault that begins this close to the time of a step takes effect in this step, s
 
 
 class FaultInjector:
@@ -30,27 +30,27 @@ class FaultInjector:
     The caller's loop is ``reset(episode)``, then for each step ``before_step(time)``, after the controller has written
     ``data.ctrl``, ``mujoco.mj_step``, and ``restore()``. Between ``restore`` and the next ``before_step`` no field of the model
     shows the fault, so a controller that reads limits, gains or damping from the model reads those of the healthy robot. A
-    controller that should see sensor faults takes its joint values from ``read_sensors``. A locked joint is held by
-    a pair of limits that overlap there, and its momentum goes into the others as in an impact without rebound, unless the
-    model has active equality constraints. MuJoCo's implicit damping comes after its constraints and would move the joint by
-    what the others' damping gives: the joint gets so much of its own that it does not.
+    controller that should see sensor faults takes its joint values from ``read_sensors``. A pair of limits that overlap at the
+    position of a locked joint holds it, and its momentum is transferred to the others as in an impact without rebound, unless
+    the model has active equality constraints. MuJoCo applies implicit damping after its constraints, which would move the
+    locked joint through the damping of the others. Therefore, the locked joint gets a damping that is large enough.
 
     Args:
-        model: ``mujoco.MjModel``; its joints are hinges or slides.
+        model: ``mujoco.MjModel`` with hinge and slide joints.
         data: ``mujoco.MjData``.
-        joints: An arm, names of joints in the model, or None: hinges and slides that have a name and an actuator, or hang on a
-            machine that has some; so neither a goal nor the base of what walks. All, where there is no actuator on a joint.
-        faults: A fault model, or the events of one episode.
-        horizon: s, the end of an episode, see :meth:`holdfast.response.faults.FaultModel.draw`.
+        joints: Arm, names of joints in the model, or None. None: named hinges and slides that have an actuator or belong to a
+            mechanism with actuators, which excludes a goal and a floating base; all of them, if no joint has an actuator.
+        faults: Fault model, or the events of one episode.
+        horizon: End of an episode, s; see :meth:`holdfast.response.faults.FaultModel.draw`.
 
     Attributes:
         joints: Names of the n joints.
-        events: Of this episode.
-        applied: Of the events that have begun the time of the step at which they took effect, s.
-        is_inserted: Whether the model has the active faults now.
+        events: Events of the current episode.
+        applied: Time, s, of the step at which each event took effect; only for events that have begun.
+        is_inserted: True while the active faults are in the model.
 
     Raises:
-        InputError: A joint that the model does not have; a fault that it cannot have, as a weak motor without a motor.
+        InputError: The model lacks a joint, or cannot have a fault, such as a weak motor of a joint without a motor.
         HoldfastError: MuJoCo is not installed.
     """
 
@@ -102,17 +102,17 @@ class FaultInjector:
         self._check_entries()
 
     def reset(self, episode: int = 0) -> FaultEvents:
-        """Undo all changes and draw the events of an episode; given events occur in each.
+        """Undo all changes and sample the events of ``episode``, an index from 0; given events occur in every episode.
 
         Raises:
-            InputError: A fault that the model cannot have.
+            InputError: The model cannot have a fault.
         """
         self.restore()
         for joint in self._model_joints:
             joint.read_effort(self._mujoco)
         faults = self.faults
         if isinstance(faults, (str, Path)):
-            raise InputError(f"the faults are '{faults}'; read a file of them by holdfast.response.faults.load")
+            raise InputError(f"the faults are '{faults}'; read a file with holdfast.response.faults.load first")
         if isinstance(faults, FaultModel):
             self.events = faults.draw(self.joints, episode=episode, horizon=self.horizon)
         else:
@@ -147,12 +147,12 @@ class FaultInjector:
         self.is_inserted = False
 
     def actuators_of(self, joint: str) -> NDArray[np.int64]:
-        """Return the numbers of the actuators of a joint, given by name."""
+        """Return the indices of the actuators of ``joint``, given by name."""
         return self._model_joints[self.joints.index(joint)].actuators
 
     @property
     def dofs(self) -> NDArray[np.int64]:
-        """Numbers (n,) of the joints' degrees of freedom in the model."""
+        """Indices (n,) of the joints' degrees of freedom in the model."""
         return np.asarray(self._dofs)
 
     @property
@@ -171,7 +171,7 @@ class FaultInjector:
         return FaultEvents(self._active)
 
     def brake(self, joint: str) -> None:
-        """Brake a joint at once, until the next reset; this is no fault and does not appear in ``active``."""
+        """Brake ``joint`` (name) at once, until the next reset. A brake is not a fault and does not appear in ``active``."""
         model_joint = self._model_joints[self.joints.index(joint)]
         braked = ActiveFault("locked", model_joint, {}, self.time, model_joint.q)
         self._stop_with_impact(braked)
@@ -179,18 +179,18 @@ class FaultInjector:
         self._apply_brake_change()
 
     def release(self, joint: str) -> None:
-        """Release a joint that was braked."""
+        """Release ``joint`` (name), which was braked."""
         self._brakes = [braked for braked in self._brakes if braked.joint.name != joint]
         self._apply_brake_change()
 
     def before_step(self, time: float) -> None:
-        """Begin and end the faults that are due at a time, s, and insert the active ones into the model."""
+        """Begin and end the faults that are due at ``time``, s, and insert the active ones into the model."""
         self.advance(time)
         if not self.is_inserted:
             self.insert()
 
     def advance(self, time: float) -> None:
-        """Begin and end the faults that are due at a time, s, without inserting them into a model that has none."""
+        """Begin and end the faults that are due at ``time``, s, without inserting them into a model that has none."""
         self.time, inserted = time, self.is_inserted
         if time >= self._next_change_s:
             self.insert()
@@ -204,11 +204,11 @@ class FaultInjector:
         """Return the readings of the joint sensors.
 
         Args:
-            q: (n,) true values, rad and m.
-            reference: (n,) what the servos follow, which is what the sensor before a slipping clutch shows.
+            q: (n,) true joint positions, rad and m.
+            reference: (n,) references of the servos, rad and m, which the sensor of a slipping clutch follows.
 
         Returns:
-            (n,) readings.
+            (n,) sensor readings, rad and m.
         """
         readings = np.array(q, dtype=np.float64)
         references = None if reference is None else np.asarray(reference, dtype=np.float64)
@@ -219,7 +219,7 @@ class FaultInjector:
             readings[index] = find_kind(fault.kind).read_sensor(reading, fault)
         return readings
 
-    # ---- inside ------------------------------------------------------------------------------------------------------
+    # ---- internal ----------------------------------------------------------------------------------------------------
 
     def _check_event(self, event: FaultEvent) -> None:
         if event.joint not in self.joints:
@@ -227,7 +227,7 @@ class FaultInjector:
         find_kind(event.kind).check(self._model_joints[self.joints.index(event.joint)], event.parameters)
 
     def _check_entries(self) -> None:
-        """Raise an error for a fault model with a fault that a later episode could draw and the model cannot have."""
+        """Raise an error if the model cannot have a fault that a later episode could contain."""
         for entry in self.faults.entries if isinstance(self.faults, FaultModel) else ():
             names = entry.joints or self.joints
             weights = entry.weights or (1.0,) * len(names)
@@ -264,7 +264,7 @@ class FaultInjector:
         self._schedule_changes()
 
     def _apply_brake_change(self) -> None:
-        """Apply a change of the brakes where the model currently has the faults."""
+        """Apply a change of the brakes to the model if it currently contains the faults."""
         if self.is_inserted:
             self.insert()
 

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from holdfast.response.faults.step_symbols import StepSymbols
 
 Numbers = Mapping[str, float | str]
-MAX_PARAMETERS = 3  # of a kind; a batch stores so many for each fault
-_MAX_ALTERNATIVE = 2  # parameters of an alternative: so many uniform numbers are drawn for them
+MAX_PARAMETERS = 3  # parameters of a kind, for each of which a batch has a column
+_MAX_ALTERNATIVE = 2  # parameters of an alternative, for each of which a uniform number is sampled
 _KINDS_PACKAGE = "holdfast.response.faults.kinds."
 
 
@@ -37,8 +37,8 @@ class FaultParameter:
     low: float = -math.inf  # lower bound of the number
     high: float = math.inf  # upper bound of the number
     includes_ends: bool = True  # True if the bounds are allowed
-    has_random_sign: bool = False  # True if the sign of the number is drawn in every episode
-    word: str | None = None  # text that is accepted in place of a number, and the default; None if a number is required
+    has_random_sign: bool = False  # True if the sign of the number is random in every episode
+    word: str | None = None  # text that is accepted instead of a number, and the default; None if a number is required
     absent: float = 0.0  # number in the step kernel where the parameter is not given
 
 
@@ -81,7 +81,7 @@ class FaultKind:
 
     @property
     def needs_torques(self) -> bool:
-        """True if the kind has no effect on joint rates and sensors alone, so that bodies and motors are needed."""
+        """True if the kind affects neither joint rates nor sensors, so that it requires bodies and motors."""
         return not (self.holds_joint or self._overrides("change_motion") or self._overrides("change_reading"))
 
     def _overrides(self, method: str) -> bool:

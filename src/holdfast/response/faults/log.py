@@ -16,35 +16,35 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.response.faults import columns as tables
 
-_ARRAY_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one for each joint
+_ARRAY_WIDTHS = {"t": 0, "q_ref": -1, "q": -1, "tau": -1, "x": 3, "quat": 4}  # -1: one column per joint
 _REQUIRED_ARRAYS = ("t", "q_ref", "q")
-_MIN_CLOCK_TIME_S = 1e6  # s: later times are those of a clock
-_MIN_RATE_HZ = 40.0  # Hz: the observer's own rate, below which it says nothing
-_MAX_GAP_FACTOR = 20  # times as many samples as there are: longer gaps are between records, not in one
-_UNEVEN_FRACTION = 0.01  # of the period: time stamps that differ less from even ones are even
-_MAX_LIMIT_EXCESS = 0.5  # rad or m beyond a limit; a reference farther beyond is in other units
-_MAX_SPEED_FACTOR = 2.0  # of a speed limit, likewise
+_MIN_CLOCK_TIME_S = 1e6  # s: later times are clock times
+_MIN_RATE_HZ = 40.0  # Hz: the rate of the observer; it is meaningless below
+_MAX_GAP_FACTOR = 20  # ratio of expected to present samples; beyond it, the gaps separate several logs
+_UNEVEN_FRACTION = 0.01  # of the period: time stamps that deviate less from even ones count as even
+_MAX_LIMIT_EXCESS = 0.5  # rad or m beyond a limit; a reference further beyond has other units
+_MAX_SPEED_FACTOR = 2.0  # of a speed limit; a faster reference has other units
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Log:
     """Log of T samples of n joints, evenly spaced.
 
-    Where times leap, rows of NaN stand for the samples that are missing. Where the clock is uneven and the references are
-    smooth over its times, the joint signals are interpolated to even times; where they are smooth over the sample number,
-    only the time stamps are uneven, and the signals stay as they are.
+    Gaps in time are filled with rows of NaN for the missing samples. If the clock is uneven and the references are smooth over
+    its times, the joint signals are interpolated to even times. If they are smooth over the sample number, only the time stamps
+    are uneven, and the signals are kept.
 
     Attributes:
-        t: (T,) s, increasing.
-        q_ref: (T, n) what the servos are to follow, rad and m.
-        q: (T, n) what the joint sensors tell, rad and m; NaN where there is no sample.
-        tau: (T, n) commanded torques of the motors, N m and N; None: not recorded.
-        x: (T, 3) measured tool point in the world, m, NaN where there is no sample, in the row of the time at which it was
-            taken; None: not measured.
-        quat: (T, 4) measured orientation of the tool, a quaternion x, y, z, w; with ``x``.
+        t: (T,) increasing times, s.
+        q_ref: (T, n) references of the servos, rad and m.
+        q: (T, n) measured joint positions, rad and m; NaN where there is no sample.
+        tau: (T, n) commanded torques of the motors, N m and N. None: not recorded.
+        x: (T, 3) measured tool point in the world frame, m, in the row of the time at which it was taken; NaN where there is no
+            sample. None: not measured.
+        quat: (T, 4) measured orientation of the tool in the world frame, quaternion x, y, z, w; given together with ``x``.
 
     Raises:
-        InputError: Shapes that do not fit, time that does not increase, or nearly all samples missing.
+        InputError: The shapes do not match, time does not increase, or nearly all samples are missing.
     """
 
     t: FloatArray
@@ -78,7 +78,7 @@ class Log:
         if count > _MAX_GAP_FACTOR * len(times):
             raise InputError(
                 f"nearly all samples are missing: {len(times)} in {self.duration:.4g} s, at {count / self.duration:.4g} a "
-                "second; give its parts as records of their own"
+                "second; give its parts as separate logs"
             )
         if count > len(times):
             object.__setattr__(self, "t", np.interp(np.arange(count), rows, times))
@@ -113,23 +113,24 @@ class Log:
         return float(self.t[-1] - self.t[0])
 
     def require(self, arm: Arm) -> None:
-        """Raise an error for a log that cannot belong to an arm in these units.
+        """Raise an error if the log cannot be one of ``arm`` in rad, m and s.
 
         Raises:
-            InputError: Another number of joints, fewer than 40 samples a second, or references far beyond what joints can.
+            InputError: The number of joints differs, there are fewer than 40 samples a second, or references are far beyond the
+                limits of the joints.
         """
         if self.n != arm.n:
             raise InputError(
-                f"the record has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded, or name the "
+                f"the log has {self.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded, or name the "
                 "columns of its joints"
             )
         if self.rate < _MIN_RATE_HZ:
             raise InputError(
-                f"the record has {self.rate:.4g} samples a second; it must have {_MIN_RATE_HZ:g} or more, with t in s"
+                f"the log has {self.rate:.4g} samples a second; it must have {_MIN_RATE_HZ:g} or more, with t in s"
             )
         for joint, reference in zip(arm.joints, self.q_ref.T, strict=True):
             lower, upper = np.fmin.reduce(reference), np.fmax.reduce(reference)
-            # A reference may leap, but not all the time.
+            # A reference may jump, but not in most samples.
             speed = float(np.quantile(np.nan_to_num(np.abs(np.diff(reference))), 0.9)) * self.rate
             if (
                 lower < joint.lower - _MAX_LIMIT_EXCESS
@@ -140,14 +141,14 @@ class Log:
                 raise InputError(
                     f"q_ref of '{joint.name}' is from {lower:.4g} to {upper:.4g} {unit} at {speed:.3g} {unit}/s, and the "
                     f"joint's limits are {joint.lower:.4g}, {joint.upper:.4g} {unit} and {joint.velocity:.3g} {unit}/s; give a "
-                    f"record in {unit} and s, its joints in the arm's order"
+                    f"log in {unit} and s, its joints in the arm's order"
                 )
 
     @classmethod
     def load(cls, file: str | Path, *, columns: str | Path | None = None, latency: float = 0.0) -> Log:
-        """Load ``.npz`` with arrays of these names, or CSV or Parquet with columns ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
+        """Load an ``.npz`` file with arrays of these names, or CSV or Parquet with ``t, q_ref_1, ..., q_1, ..., x_1, ...``.
 
-        Columns of other names or units are described in a YAML file; what it leaves out is as above.
+        A YAML file describes columns of other names or units; columns that it does not contain have the default names.
 
         .. code-block:: yaml
 
@@ -157,12 +158,13 @@ class Log:
             tau: "A* torque"
 
         Args:
-            file: By its name. Times beyond 1e6 s are those of a clock: they are counted from the first.
-            columns: That file.
-            latency: s, by which the tool's pose is in the file after it was taken: its samples go to the rows of their times.
+            file: Path; its ending selects the format. Times beyond 1e6 s are clock times and are counted from the first.
+            columns: Path of the YAML file. None: default names and units.
+            latency: Delay of the tool pose in the file, s. The poses are moved to the rows of the times at which they were
+                taken.
 
         Raises:
-            InputError: Unreadable, or something is missing or wrong; the message names it.
+            InputError: The file cannot be read, or an array is missing or wrong; the message names it.
         """
         path = Path(file)
         try:
@@ -185,7 +187,7 @@ class Log:
         """Shift the pose to the rows of the times at which it was taken."""
         rows = round(latency * self.rate)
         if not 0 <= latency < self.duration:
-            raise InputError(f"latency is {latency:g} s; it must be 0 or more and shorter than the record")
+            raise InputError(f"latency is {latency:g} s; it must be 0 or more and shorter than the log")
         if rows == 0 or self.x is None or self.quat is None:
             return self
         missing = np.full((rows, 7), np.nan)
@@ -193,15 +195,15 @@ class Log:
         return replace(self, x=shifted[:, :3], quat=shifted[:, 3:])
 
     def save(self, file: str | Path, **more: FloatArray) -> Path:
-        """Write ``.npz`` (single precision except for the time) or, by its name, CSV or Parquet.
+        """Write an ``.npz`` file (single precision except for the time), CSV or Parquet, and return its path.
 
         Args:
-            file: Path.
-            more: Other arrays of an ``.npz`` file, which :meth:`load` passes over.
+            file: Path; its ending selects the format.
+            **more: Additional arrays of an ``.npz`` file, which :meth:`load` ignores.
 
         Raises:
-            InputError: Parquet without pyarrow.
-            StoreError: It cannot be written.
+            InputError: The format is Parquet, and pyarrow is not installed.
+            StoreError: The file cannot be written.
         """
         path = Path(file)
         available = {name: value for name in _ARRAY_WIDTHS if (value := getattr(self, name)) is not None}
@@ -225,7 +227,7 @@ class Log:
 def _assign_even_rows(t: FloatArray) -> NDArray[np.int64]:
     """Return the row of each sample on an even grid; rows between them are missing samples.
 
-    An uneven clock shifts times to and fro about their grid, a gap shifts all later ones; the closer grid is taken.
+    An uneven clock shifts times in both directions about their grid, and a gap shifts all later ones; the closer grid is used.
     """
     steps = np.diff(t)
     even_rows = np.arange(len(t), dtype=np.int64)
@@ -251,5 +253,5 @@ def _read_npz(path: Path) -> dict[str, FloatArray]:
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as data, np.errstate(invalid="ignore"):  # a signaling NaN
             return {name: np.asarray(data[name], dtype=np.float64) for name in data.files if name in _ARRAY_WIDTHS}
-    except Exception as error:  # zipfile, zlib and NumPy have many ways of saying no
-        raise InputError("it is no .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error
+    except Exception as error:  # zipfile, zlib and NumPy raise errors of many types
+        raise InputError("it is not an .npz file of numbers; give one with t, q_ref and q, or a .csv file") from error

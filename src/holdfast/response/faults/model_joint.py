@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 
-LOCK_OVERLAP = 1e-3  # rad or m that a lock's two limits overlap: both act at every step, not one after it was passed
-_LOCK_DAMPING_FACTOR = 1e6  # of a locked joint's inertia a time step: its damping where MuJoCo integrates damping implicitly
-_NO_LIMIT = 1e9  # rad or m: a stop where there is none
-_STIFF_TIME_STEPS = 2.0  # time steps: the shortest time constant that MuJoCo's contacts keep stable
+LOCK_OVERLAP = 1e-3  # overlap of the two limits of a lock, rad or m, so that both act at every step
+_LOCK_DAMPING_FACTOR = 1e6  # damping of a locked joint over inertia per time step, if MuJoCo integrates damping implicitly
+_NO_LIMIT = 1e9  # position of a missing stop, rad or m
+_STIFF_TIME_STEPS = 2.0  # shortest stable time constant of MuJoCo's contacts, in time steps
 _STOP_IMPEDANCE = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 
 
 def find_actuators(mujoco: ModuleType, model: Any) -> dict[int, NDArray[np.int64]]:
-    """Return the numbers of the actuators of each driven joint, by the number of the joint in the model."""
+    """Return the indices of the actuators of each driven joint, by the index of the joint in the model."""
     on_joint = [int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)]
     joints = np.asarray(model.actuator_trnid).reshape(-1, 2)[:, 0]
     drives_joint = np.isin(np.asarray(model.actuator_trntype), on_joint)
@@ -90,7 +90,7 @@ class ModelJoint:
         """Raise an error for a motor fault of a joint without an actuator.
 
         Raises:
-            InputError: The joint has no actuator of its own.
+            InputError: The joint has no actuator.
         """
         if not self.actuators.size:
             raise InputError(f"'{kind}' is a fault of a motor, and '{self.name}' has none; choose another")
@@ -99,7 +99,7 @@ class ModelJoint:
         """Return the total effort of all motors, N m or N.
 
         Raises:
-            InputError: Nothing in the model limits them.
+            InputError: The model does not limit the effort of a motor.
         """
         if self._effort is None:
             raise InputError(

@@ -23,7 +23,7 @@ from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.arm.task import Task
 from holdfast.model.collision.clearance import Clearance
 
-_SAMPLED_CONFIGURATIONS = 8  # configurations, drawn, at which it is asked whether self-motion changes what is kept
+_SAMPLED_CONFIGURATIONS = 8  # random configurations at which the effect of self-motion on a constraint is tested
 _UNCHANGED_TOLERANCE = 1e-9  # m and rad per rad
 _STANDSTILL_TOLERANCE = 1e-9  # m and rad
 
@@ -33,11 +33,11 @@ class MotionConditions:
     """Conditions on every configuration of a motion.
 
     Attributes:
-        arm, task: What moves, and which rows the path sets.
-        required_clearance: A clearance and the margin to keep, m; None: nothing is kept clear of.
-        constraints: What is kept, through the first pose of the path.
-        set_by_path: The parts of these that the rows of the path decide alone.
-        left_to_arm: The others, which the path leaves to the arm: cones that self-motion can leave.
+        arm, task: Arm, and the rows that the path sets.
+        required_clearance: Collision model and margin, m. None: collisions are not checked.
+        constraints: Tool constraints, anchored at the first pose of the path.
+        set_by_path: Parts of the constraints that the rows of the path alone decide.
+        left_to_arm: Remaining parts, which the path leaves to the arm: cones that self-motion can leave.
     """
 
     arm: Arm
@@ -54,7 +54,7 @@ class MotionConditions:
         """Return the conditions of an arm on a path whose rows are those of the task.
 
         Raises:
-            InputError: A row that is kept exactly and that the path leaves free.
+            InputError: An exact constraint is on a row that the path leaves free.
         """
         parts = [part for constraint in constraints for part in _split_constraint(constraint)]
         set_by_path = tuple(part for part in parts if _is_decided_by_path(arm, task, part))
@@ -62,7 +62,7 @@ class MotionConditions:
         exact_part = next((part for part in left_to_arm if len(part.normals) or part.turned or not part.angle), None)
         if exact_part is not None:
             raise InputError(
-                f"the task '{task.name}' leaves free what is to be kept exactly ({exact_part}): prescribe it by the path and a "
+                f"the task '{task.name}' leaves an exact constraint free ({exact_part}); prescribe it by the path and a "
                 "task with more rows, such as pointing or pose"
                 + (", or give an angle" if exact_part.direction is not None else "")
             )
@@ -115,8 +115,8 @@ class MotionConditions:
         """Explain in a sentence why a pose has no configuration."""
         if self.manifold is None or self_motion.status != Status.INFEASIBLE:
             return self_motion.summary
-        clearance_text = "" if self.required_clearance is None else ", clear of what is around it,"
-        return f"no configuration that was found{clearance_text} keeps this: {'; '.join(map(str, self.left_to_arm))}"
+        clearance_text = "" if self.required_clearance is None else "collision-free "
+        return f"no {clearance_text}configuration that was found meets the constraint: {'; '.join(map(str, self.left_to_arm))}"
 
     def restrict_curves(self, tracer: ManifoldTracer, self_motion: SelfMotion) -> SelfMotion:
         """Restrict the curves of configurations to the parts that meet the constraints left to the arm."""
@@ -202,7 +202,7 @@ def compute_task_jacobian(arm: Arm, task: Task, q: FloatArray) -> FloatArray:
 def fix_tool_axis(task: Task, path: TimedPath, axis: FloatArray, direction: FloatArray) -> tuple[Task, TimedPath] | None:
     """Return the task and path with an axis (3,) of the tool fixed along a direction (3,) in the world, unit vectors.
 
-    None where the task prescribes other rows than the position, or the path waits or turns in a place.
+    None where the task prescribes other rows than the position, or the path waits or rotates in place.
     """
     legs = path.path
     is_stationary = np.linalg.norm(legs.shift, axis=1) + np.linalg.norm(legs.sweep, axis=1) <= _STANDSTILL_TOLERANCE

@@ -17,9 +17,9 @@ from holdfast.model.arm.model import Arm
 from holdfast.response.lock_survival.grid import CurveNodes, compute_squared_distances
 from holdfast.response.lock_survival.tables import LockTable
 
-# Moves between the nodes of two poses that are all looked at; of more, those nearby are found by a tree.
+# Largest number of node pairs of two poses that are all evaluated; of more pairs, a tree finds the close ones.
 _MAX_DENSE_MOVES = 1 << 20
-_MAX_CURVE_SHIFT_RAD = 0.15  # rad along its curve is the most that a configuration is moved
+_MAX_CURVE_SHIFT_RAD = 0.15  # largest shift of a configuration along its curve, rad
 _SMOOTHING_ROUNDS = 3
 
 
@@ -28,16 +28,16 @@ class SearchBounds:
     """Results of a search over all motions of the grid.
 
     Attributes:
-        bound: No motion survives more, up to the grid: what the best motion over the nodes would survive if it found at each
-            the best of all places up to halfway to its neighbours, with the spacing on top of the velocity limits.
-        interval: The most that motions over the nodes survive: of those that keep to the velocity limits, and of those that may
-            exceed them by the spacing from pose to pose, as nodes are no finer. NaN: no such motion.
-        spacing: Of the nodes, rad (and m).
-        nodes: T arrays (P, n) of configurations, all that were found.
-        curve: T arrays (P,) with the number of their curve.
-        survives: T arrays (P, n): True where a lock there is survivable.
-        moved: (n,) how far the self-motion moves each joint, at most, along one curve of one pose, rad and m.
-        held: Joints that the motions looked at do not move, and where they are, rad and m; none with one degree of redundancy.
+        bound: Upper bound on the survival of every motion, up to the grid: survival of the best motion over the nodes if each
+            node had the best value up to halfway to its neighbours, with the spacing added to the velocity limits.
+        interval: Largest survival of motions over the nodes within the velocity limits, and with one ``spacing`` more per step,
+            because the grid is not finer. NaN: no such motion.
+        spacing: Distance of neighbouring nodes, rad (and m).
+        nodes: T arrays (P, n) of all configurations that were found, rad and m.
+        curve: T arrays (P,) with the index of the curve of each node.
+        survives: T arrays (P, n): True where a lock of the joint is survivable.
+        moved: (n,) largest range of each joint along one curve of one pose, rad and m.
+        held: Joints that all evaluated motions keep fixed, with their values, rad and m; empty with one degree of redundancy.
     """
 
     bound: float
@@ -55,9 +55,9 @@ def advance_tables(arm: Arm, nodes: list[CurveNodes], max_steps: FloatArray, pat
 
     Args:
         arm: The arm.
-        nodes: Of each pose.
-        max_steps: (n,) largest motion of each joint from pose to pose, rad and m; infinite where none is known.
-        path_tables: At the first pose.
+        nodes: Nodes of each pose.
+        max_steps: (n,) largest motion of each joint from pose to pose, rad and m; infinite where there is no limit.
+        path_tables: Tables at the first pose, which are updated.
     """
     allowed_excess = max(path_table.allowed_excess for path_table in path_tables)
     for nodes_before, nodes_after in track("poses", list(pairwise(nodes)), whole=True):
@@ -109,7 +109,7 @@ def _find_close_pairs(
     from scipy.spatial import KDTree
 
     padded_reach = max_differences * (1 + 1e-9)
-    boxes = np.where(joint_space.is_unlimited(arm), 2 * np.pi * (1 + 1e-12) / padded_reach, 0.0)  # rounding stays inside
+    boxes = np.where(joint_space.is_unlimited(arm), 2 * np.pi * (1 + 1e-12) / padded_reach, 0.0)  # above rounded angles
     trees = [
         KDTree(joint_space.wrap_joints_to_positive(arm, configurations) / padded_reach, boxsize=boxes)
         for configurations in (first_q, second_q)
@@ -133,8 +133,8 @@ def smooth_motion(
     """Smooth the motion q (T, n) over the chosen nodes (T,) so that the sum of its squared steps is smallest.
 
     Each configuration moves along its self-motion curve by at most ``_MAX_CURVE_SHIFT_RAD``, and only as far as it loses no
-    gain; with ``start_is_fixed`` the first one stays. A step is nearly linear in these moves, so a least-squares problem with
-    bounds is solved a few times.
+    gain. With ``start_is_fixed`` the first one does not move. A step is nearly linear in these shifts, so a few least-squares
+    problems with bounds are solved.
     """
     from scipy.optimize import lsq_linear
 
@@ -149,7 +149,7 @@ def smooth_motion(
     movable = np.flatnonzero((upper - lower > 1e-9) & ~(start_is_fixed & (np.arange(len(q)) == 0)))
     if not movable.size:
         return q
-    # The curve of a node may run against the null vector that comes with it.
+    # The direction of a curve may be opposite to its null vector.
     curve_directions = np.array(
         [
             pose_nodes.pieces[node] if pose_nodes.following[node] != node else pose_nodes.pieces[pose_nodes.previous[node]]

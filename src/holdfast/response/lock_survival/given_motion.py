@@ -1,6 +1,6 @@
 """Evaluate the single locks that a given motion survives, and compare other motions with the best one.
 
-These are least norm, gradient projection of a measure, and its best at every pose.
+The other motions are least norm, gradient projection of a measure, and the best value of the measure at every pose.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ LEAST_NORM = "least-norm"
 
 
 @check_arguments
-@reports_progress("looking at what the motion survives")
+@reports_progress("evaluating locks of the motion")
 def evaluate_motion(
     arm: Arm,
     motion: Trajectory | ArrayLike,
@@ -54,28 +54,29 @@ def evaluate_motion(
     margin: float = 0.0,
     keep: KeepLike | None = None,
 ) -> LockSurvival:
-    """Return the single locks that a motion along a path survives, for a motion from any source.
+    """Evaluate which single locks a motion along a path survives; the motion may come from any source.
 
     Args:
-        arm: The arm.
-        motion: What :func:`holdfast.follow` gives, or (S, n) configurations evenly spaced in time, rad and m.
-        path: Where the tool is to be, and when.
-        rates: How often each joint locks, (n,) or by joint: relative weights. Default: all alike.
-        per_second: The rates are in 1/s.
+        arm: Arm that executes the motion.
+        motion: Result of :func:`holdfast.follow`, or (S, n) configurations evenly spaced in time, rad and m.
+        path: Pose of the tool as a function of time.
+        rates: Failure rates, (n,) or by joint name, as relative weights. Default: all equal.
+        per_second: True if the rates are in 1/s.
         mode: ``on-path`` or ``detour``; see :func:`holdfast.plan_motion`.
-        task: Rows of the poses to keep; by default as of :func:`holdfast.plan_motion`.
-        samples: Times at which locks are tried, evenly spaced; between those of the motion it is interpolated.
-        spacing: Of the points on the self-motion curves that detours need, rad.
-        seed: Of the search for these.
-        starts: Of the same.
-        clearance: Of the arm from itself.
-        cell: Objects around the arm, or their file, to keep clear of after the lock.
-        margin: m; from an object beyond what the cell keeps from it.
-        keep: What the tool keeps beside the path, before the lock and after it; see :func:`holdfast.plan_motion`.
+        task: Task whose rows the tool follows. Default: as for :func:`holdfast.plan_motion`.
+        samples: Number of evenly spaced times at which locks are evaluated; the motion is interpolated between its samples.
+        spacing: Distance of the points on the self-motion curves, which detours need, rad.
+        seed: Seed of the search for these curves.
+        starts: Random starts of that search per pose.
+        clearance: Self-collision model of the arm. None: self-collisions are not checked.
+        cell: Objects around the arm, or their file, to avoid after the lock.
+        margin: Smallest distance of the links, m; from an object, in addition to the margin that the cell states for it.
+        keep: Tool constraints before and after the lock; see :func:`holdfast.plan_motion`.
 
     Raises:
-        InputError: A motion that is not on the path or breaks what is kept, rates or options that do not fit.
-        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
+        InputError: The motion is off the path or violates a constraint, or rates or options are invalid.
+        TaskError: The arm is not redundant; or it has more than one degree of redundancy, and ``detour`` is combined with
+            obstacles or constraints.
     """
     problem = make_problem(
         arm,
@@ -101,19 +102,17 @@ def evaluate_motion(
     if len(configurations) < 2 or not np.isfinite(configurations).all():
         raise InputError(f"the motion of '{arm.name}' must be 2 or more configurations of finite numbers")
     if abs(times[-1] - path.duration) > 1e-9 * path.duration:
-        raise InputError(
-            f"the motion takes {times[-1]:.4g} s and the path {path.duration:.4g} s; give those that belong together"
-        )
+        raise InputError(f"the motion takes {times[-1]:.4g} s and the path {path.duration:.4g} s; give a motion of this path")
     q = np.column_stack([np.interp(problem.time, times, positions) for positions in configurations.T])
     off_path = is_off_path(problem, q)
     if off_path.any():
         raise InputError(
             f"the motion is off the path by more than 1 mm or 1 mrad, first at {problem.time[off_path.argmax()]:.4g} s; give "
-            "one along this path"
+            "a motion along this path"
         )
     broken = problem.conditions.find_violation(q)
     if broken is not None:
-        raise InputError(f"the motion breaks what is kept: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
+        raise InputError(f"the motion violates a constraint: at {problem.time[broken[0]]:.4g} s the tool is {broken[1]}")
     return LockSurvival.for_motion(problem, q, survives=find_survived_locks(problem, q))
 
 
@@ -123,14 +122,14 @@ def with_baselines(
     """Return the result with baseline motions for comparison, each from its own best start.
 
     Raises:
-        InputError: An unknown word, or a measure of another arm.
+        InputError: A baseline is unknown, or a measure is of another arm.
     """
     comparisons: list[BaselineMotion] = []
     for baseline in baselines:
         if isinstance(baseline, str):
             if baseline != LEAST_NORM:
                 raise InputError(
-                    f"compare holds '{baseline}'; give '{LEAST_NORM}', or a measure such as relative manipulability"
+                    f"compare contains '{baseline}'; give '{LEAST_NORM}', or a measure such as relative manipulability"
                 )
             least_norm = _plan_baseline_motion(problem, relative_manipulability(problem.arm, problem.task), "none", False, seed)
             comparisons.append(_evaluate_baseline(problem, "least norm", least_norm.q))

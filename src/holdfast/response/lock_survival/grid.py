@@ -1,4 +1,4 @@
-"""Self-motion curves of every pose of a path as numbered nodes with their neighbors."""
+"""Self-motion curves of every pose of a path as numbered nodes with their neighbours."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CurveNodes:
-    """Points of all self-motion curves of one pose, P of them.
+    """The P nodes of all self-motion curves of one pose.
 
     Attributes:
         arm: The arm.
-        q: (P, n) rad and m.
-        curve: (P,) the number of its curve.
+        q: (P, n) configurations, rad and m.
+        curve: (P,) index of the curve of each node.
         previous, following: (P,) neighbours along the curve; at an open end the node itself.
-        pieces: (P, n) from each node to the one after it, rad and m.
-        embedded: (P, e) where straight distances are those between configurations: (cos, sin) of joints without limits.
-        spacing: How far apart neighbours may be, rad (and m).
+        pieces: (P, n) difference from each node to the following one, rad and m.
+        embedded: (P, e) coordinates whose Euclidean distance is that of configurations: (cos, sin) of joints without limits.
+        spacing: Largest distance between neighbours, rad (and m).
     """
 
     arm: Arm

@@ -15,23 +15,23 @@ from holdfast.response.lock_survival import tables
 from holdfast.response.lock_survival.lock_evaluation import MAX_CHANGING_SETS, can_reach_remaining_poses, is_off_path
 from holdfast.response.lock_survival.problem import SurvivalProblem
 
-_ARC_STEP = 0.02  # rad, m and so many 5ths of the duration, along the branch
-_DURATION_WEIGHT_RAD = 5.0  # what the duration counts beside joints, rad
-_MAX_ARC_LENGTH = 60.0  # of a branch
-_FINAL_ERROR_TOLERANCE = 1e-3  # m and rad at the end: the integration went wrong
+_ARC_STEP = 0.02  # step along the branch, in rad, m, and fifths of the duration
+_DURATION_WEIGHT_RAD = 5.0  # weight of the duration relative to joints, rad
+_MAX_ARC_LENGTH = 60.0  # largest length of a branch, in the same unit
+_FINAL_ERROR_TOLERANCE = 1e-3  # m and rad at the end; a larger error means that the integration failed
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LockTests:
-    """Locks at random times, N of them.
+    """Results of N locks at random times.
 
     Attributes:
-        time: (N,) s.
+        time: (N,) times of the locks, s.
         joint: (N,) index of the locked joint.
         survived: (N,) True where the failed arm finished the path.
-        expected: (N,) what the motion says at the sample before.
-        told: (N,) True where it says the same at the sample behind; between samples that differ it says nothing.
-        interval: Of the probability that a lock is survived.
+        expected: (N,) prediction at the last sample before the lock.
+        told: (N,) True where the next sample has the same prediction; between samples that differ there is no prediction.
+        interval: Confidence interval of the probability that a lock is survived.
     """
 
     time: FloatArray
@@ -48,7 +48,7 @@ class LockTests:
 
     @property
     def disagreements(self) -> list[tuple[float, int]]:
-        """Time in s and joint of the other locks with a predicted outcome."""
+        """Time in s and joint index of the locks with a predicted outcome that the test contradicts."""
         is_different = self.told & (self.survived != self.expected)
         return list(zip(self.time[is_different].tolist(), self.joint[is_different].tolist(), strict=True))
 
@@ -78,7 +78,7 @@ def can_finish_path(
     if problem.redundancy == 1:
         return _reaches_last_pose(problem, q, lock_times, locked_joints, tuple(problem.immobile_joints))
     survived = np.zeros(len(q), dtype=bool)
-    for fixed_joints in problem.fixed_joint_sets:  # the failed arm may hold any of them
+    for fixed_joints in problem.fixed_joint_sets:  # the failed arm may fix any of these sets
         undecided = np.flatnonzero(~survived & ~np.isin(locked_joints, fixed_joints))
         survived[undecided] = _reaches_last_pose(
             problem, q[undecided], lock_times[undecided], locked_joints[undecided], (*problem.immobile_joints, *fixed_joints)
@@ -138,10 +138,10 @@ def _follow_branch(
     stopped_joints: tuple[IndexArray, tuple[int, ...]],
     end_time: float,
 ) -> tuple[FloatArray, BoolArray]:
-    """Follow the branch through (joints, time) to a time; return its end and whether it gets there.
+    """Follow the branch through (joints, time) to a time; return its end, and True where it reaches that time.
 
-    It is followed by its arc length, with Runge and Kutta's steps of fourth order. Where time turns back on it the branch ends:
-    nothing goes on from there along the path.
+    The branch is followed by its arc length, with fourth-order Runge-Kutta steps. A branch ends where time reverses on it,
+    because there is no continuation along the path.
     """
     arm, scale = problem.arm, _DURATION_WEIGHT_RAD / problem.path.duration
     locked_joints, fixed_joints = stopped_joints
@@ -163,7 +163,7 @@ def _follow_branch(
             state = state + _ARC_STEP / 6 * (first + 2 * second + 2 * third + fourth)
             tangent = fourth
             is_past_end = (state[:, -1] >= scaled_end) & (fourth[:, -1] > 0)
-            # What has passed the end is judged there, not where its step went.
+            # A branch that has passed the end is evaluated at the end, not at the end of its step.
             overshoot = np.where(is_past_end, (state[:, -1] - scaled_end) / np.where(is_past_end, fourth[:, -1], 1.0), 0.0)
             configurations = state[:, :-1] - overshoot[:, None] * fourth[:, :-1]
             is_valid = ((configurations >= arm.lower - 1e-9) & (configurations <= arm.upper + 1e-9)).all(axis=1) & (
@@ -220,9 +220,9 @@ def _compute_tangent(
 
 
 def interpolate_motion(problem: SurvivalProblem, q: FloatArray, times: FloatArray) -> FloatArray:
-    """Return a motion (T, n) at times (N,), brought to the pose of that time and back within the joint limits.
+    """Return a motion (T, n) at times (N,), projected to the pose at that time and to the joint limits.
 
-    A motion that holds the axis of a cone at its samples does so between them.
+    A motion that keeps the axis of a cone fixed at its samples does so between them.
     """
     narrower = problem.with_axis_at(q[0])
     if narrower is not None and not is_off_path(narrower, q).any():
@@ -236,7 +236,7 @@ def interpolate_motion(problem: SurvivalProblem, q: FloatArray, times: FloatArra
     inside = np.clip(corrected_q, arm.lower, arm.upper)
     if problem.redundancy > 1:
         return problem.conditions.project_configurations(inside, poses)
-    beyond = np.flatnonzero((corrected_q != inside).any(axis=1))  # of a motion along a limit
+    beyond = np.flatnonzero((corrected_q != inside).any(axis=1))  # for a motion along a limit
     limiting_joints = np.abs(corrected_q - inside)[beyond].argmax(axis=1)
     limited_q, is_solved = problem.lock.solve_poses(inside[beyond], limiting_joints, poses[beyond])
     corrected_q[beyond[is_solved]] = limited_q[is_solved]

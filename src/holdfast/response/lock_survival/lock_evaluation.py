@@ -9,11 +9,11 @@ from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.response.lock_survival import tables
 from holdfast.response.lock_survival.problem import SurvivalProblem
 
-PATH_TOLERANCE = 1e-3  # m and rad by which a given configuration may be off the path
-MAX_CHANGING_SETS = 8  # sets of fixed joints between which a failed arm may change on its way
-_STANDSTILL_TOLERANCE = 1e-9  # rad and m of a joint that does not move in a motion
-_LOCKED_IK_RESTARTS = 30  # of inverse kinematics with a joint locked
-_LOCKED_IK_TOLERANCE = 1e-6  # rad, and lengths in units of the arm's own
+PATH_TOLERANCE = 1e-3  # largest error of a given configuration on the path, m and rad
+MAX_CHANGING_SETS = 8  # sets of fixed joints between which a failed arm may change along the path
+_STANDSTILL_TOLERANCE = 1e-9  # largest motion of a joint that does not move, rad and m
+_LOCKED_IK_RESTARTS = 30  # restarts of inverse kinematics with a joint locked
+_LOCKED_IK_TOLERANCE = 1e-6  # rad, and lengths in units of the arm's length
 
 
 def find_survived_locks(problem: SurvivalProblem, q: FloatArray) -> BoolArray:
@@ -106,7 +106,7 @@ def is_off_path(problem: SurvivalProblem, q: FloatArray, poses: FloatArray | Non
     Args:
         problem: The problem.
         q: Configurations in rad and m.
-        poses: (N, 4, 4) or (1, 4, 4) poses of the tool in the world; those of the problem's path if not given.
+        poses: (N, 4, 4) or (1, 4, 4) poses of the tool in the world. Default: the poses of the problem's path.
     """
     poses = np.broadcast_to(problem.lock.poses if poses is None else poses, (len(q), 4, 4))
     position, rotation = solver(problem.arm, problem.task).position_and_rotation_errors(q, poses)

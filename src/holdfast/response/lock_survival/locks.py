@@ -13,28 +13,28 @@ from holdfast.kinematics.solvers.curve_tracing import ManifoldTracer
 from holdfast.model.arm.model import Arm
 
 _MAX_NEWTON_STEPS = 10
-_POSE_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own
-_MAX_JOINT_STEP = 0.35  # rad or m of one joint from pose to pose, and in a Newton step: more may be another branch
-_ZERO_NULL_ENTRY = 1e-7  # of a unit null vector: what a self-motion does not move
-_MIN_NULL_COSINE = 0.3  # least cosine between the null vectors at the two ends of a step
-_SUBSTEPS = 8  # steps in place of one that seems to lead off its branch
+_POSE_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's length
+_MAX_JOINT_STEP = 0.35  # rad or m of one joint from pose to pose, and in a Newton step; a larger step may change the branch
+_ZERO_NULL_ENTRY = 1e-7  # entry of a unit null vector below which a self-motion does not move the joint
+_MIN_NULL_COSINE = 0.3  # smallest cosine between the null vectors at the two ends of a step
+_SUBSTEPS = 8  # steps that replace one step that seems to leave its branch
 
 
 @dataclass(frozen=True, eq=False)
 class LockedFollower:
-    """Follower of a path with one joint locked, each row its own; with one degree of redundancy no freedom is left.
+    """Follower of a path with one locked joint per row; with one degree of redundancy no freedom is left.
 
-    A Newton step of the locked arm is the least-norm step of the whole one, moved along the null vector until the locked
-    joint does not move: one kernel serves every lock. A branch ends where the Jacobian without the locked column is singular:
-    its determinant is, but for a positive factor, the locked joint's entry of the null vector (Cramer's rule), which changes
-    its sign there and nowhere else.
+    A Newton step of the locked arm is the least-norm step of the whole arm, shifted along the null vector until the locked
+    joint does not move, so that one kernel serves every lock. A branch ends where the Jacobian without the locked column is
+    singular. Its determinant equals the locked joint's entry of the null vector except for a positive factor (Cramer's rule),
+    so this entry changes its sign there and nowhere else.
 
     Attributes:
         arm: The arm.
-        tracer: Of the arm and task.
-        poses: (T, 4, 4) of the path.
-        intermediate_poses: (T - 1, K, 4, 4) evenly between each and the next, and the next.
-        conditions_met: Whether configurations (N, n) meet what is asked of them beside the path.
+        tracer: Tracer of the arm and task.
+        poses: (T, 4, 4) poses of the path.
+        intermediate_poses: (T - 1, K, 4, 4) evenly spaced poses after each pose, up to and including the next one.
+        conditions_met: Function that returns True for configurations (N, n) that meet the other conditions.
     """
 
     arm: Arm
@@ -60,10 +60,9 @@ class LockedFollower:
         )
 
     def step(self, q: FloatArray, locked_joints: IndexArray, pose_index: int | IndexArray) -> tuple[FloatArray, BoolArray]:
-        """Step from q (N, n) on pose t, one or (N,), with joint (N,) locked to the next pose; return the result and its
-        success.
+        """Step from q (N, n) on pose t, one or (N,), with joint (N,) locked, to the next pose; return the result and success.
 
-        Not if the branch ends on the way, or leaves the limits or what else it must meet.
+        The step fails if the branch ends on the way, or leaves the joint limits or another condition.
         """
         targets = np.broadcast_to(self.poses[np.asarray(pose_index) + 1], (len(q), 4, 4))
         return self._step_with_retries(
@@ -101,7 +100,7 @@ class LockedFollower:
         targets: FloatArray,
         evaluation: tuple[FloatArray, FloatArray, FloatArray],
     ) -> tuple[FloatArray, BoolArray]:
-        """Take the step at once, and in smaller steps where that seems to leave the branch."""
+        """Take the step at once, and in smaller steps if it seems to leave the branch."""
         next_q, has_arrived = self._solve_newton(q, locked_joints, targets, evaluation)
         retried = np.flatnonzero(~has_arrived & (np.abs(evaluation[2][np.arange(len(q)), locked_joints]) > _ZERO_NULL_ENTRY))
         current_q = q[retried]
@@ -152,14 +151,14 @@ class LockedFollower:
             has_converged = errors <= _POSE_TOLERANCE
             is_on_pose[active[has_converged]] = True
             final_null_vectors[active[has_converged]] = current_null[has_converged]
-            # What has run away is another branch, and not worth another evaluation.
+            # A row that has diverged is on another branch and is not evaluated again.
             is_active = ~has_converged & (np.abs(next_q[active] - q[active]).max(axis=1) <= 3 * _MAX_JOINT_STEP)
             active, steps_back, current_null = active[is_active], steps_back[is_active], current_null[is_active]
         rows = np.arange(len(q))
         cosines = np.einsum("ij,ij->i", null_vectors, final_null_vectors)
         first_entries, last_entries = null_vectors[rows, locked_joints], final_null_vectors[rows, locked_joints]
         same_branch = (first_entries * last_entries * cosines > 0) & (np.abs(cosines) >= _MIN_NULL_COSINE)
-        # The self-motion does not move this joint anywhere.
+        # The self-motion never moves this joint.
         is_unaffected = (np.abs(first_entries) <= _ZERO_NULL_ENTRY) & (np.abs(last_entries) <= _ZERO_NULL_ENTRY)
         return next_q, np.asarray(
             is_on_pose & (same_branch | is_unaffected) & (np.abs(next_q - q).max(axis=1) <= _MAX_JOINT_STEP)

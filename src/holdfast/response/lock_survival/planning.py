@@ -29,7 +29,7 @@ from holdfast.response.lock_survival.problem import Kind, Mode, SurvivalProblem
 from holdfast.response.lock_survival.rates import FailureRates
 from holdfast.response.lock_survival.timed_motion import VelocityJump, make_trajectory
 
-_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
+_PROBABILITY_TOLERANCE = 1e-9  # differences of probabilities below this are rounding errors
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -37,11 +37,11 @@ class BaselineMotion:
     """Survival of another motion along the same path.
 
     Attributes:
-        name: What made it.
-        survival: As of :class:`LockSurvival`.
-        curve: (T,) as there, at the same times.
-        off: Fraction of the samples at which it is off the path, breaks what is kept, or has no configuration; nothing is
-            survived there.
+        name: Method that planned the motion.
+        survival: Survival as in :class:`LockSurvival`.
+        curve: (T,) survival of a lock at each time, as from ``LockSurvival.curve()``.
+        off: Fraction of the samples at which the motion is off the path, violates a constraint, or has no configuration; a
+            lock there counts as lost.
     """
 
     name: str
@@ -54,27 +54,27 @@ class BaselineMotion:
 class LockSurvival(Result):
     """Single locks that a motion along a path survives, at T times.
 
-    A lock stops a joint at once and for good; it is survived if the rest of the path can still be followed. Later locks are
+    A lock stops a joint at once and permanently. It is survived if the rest of the path can still be followed. Later locks are
     not counted.
 
     Attributes:
-        arm, task: What moves, and which rows of the path it keeps.
-        path: Where the tool is to be, and when.
-        mode: ``on-path``: the failed arm goes on from where it is, at its own pace, and its tool never leaves the path.
-            ``detour``: it may leave the path and come back to it.
-        rates: Of the joints.
-        time: (T,) s.
-        poses: (T, 4, 4) of the tool in the world.
-        q: (T, n) the motion, rad and m.
+        arm, task: Arm, and the rows of the path that it follows.
+        path: Pose of the tool as a function of time.
+        mode: ``on-path``: the failed arm continues from its configuration, at its own pace, and its tool never leaves the path.
+            ``detour``: the tool may leave the path and return to it.
+        rates: Failure rates of the joints.
+        time: (T,) samples, s.
+        poses: (T, 4, 4) poses of the tool in the world, m.
+        q: (T, n) configurations of the motion, rad and m.
         survives: (T, n) True where a lock of the joint at that time is survived.
-        kept: What the motion and the failed arm keep clear of, and by how much, m; or None.
-        keep: What the tool keeps beside the path, before the lock and after it, through the first pose.
-        found: What the search for the best motion knows; None for a motion that was given.
-        kind: Of every probability: ``exact``, up to the grid; ``upper bound``, of detours among obstacles or with something
-            kept, which are not looked for; ``lower bound``, with more than one degree of redundancy, where not every way on
-            after a lock is looked at.
+        kept: Collision model and margin, m, of the motion and the failed arm; None if collisions are not checked.
+        keep: Tool constraints before and after the lock, anchored at the first pose.
+        found: Results of the search for the best motion; None for a given motion.
+        kind: Kind of every probability: ``exact``, up to the grid; ``upper bound``, because detours among obstacles or with
+            constraints are not searched for; ``lower bound``, because with more than one degree of redundancy not every
+            continuation after a lock is evaluated.
         comparisons: Other motions along the path.
-        injected: Locks that were tried on it, if somebody did; see :meth:`test_locks`.
+        injected: Results of :meth:`test_locks`, or None.
     """
 
     arm: Arm
@@ -98,7 +98,14 @@ class LockSurvival(Result):
     def for_motion(
         cls, problem: SurvivalProblem, q: FloatArray, *, survives: BoolArray, found: SearchBounds | None = None
     ) -> LockSurvival:
-        """Return the result for a motion (T, n) and the survival (T, n) of its locks."""
+        """Return the result for a motion.
+
+        Args:
+            problem: Problem of the path.
+            q: (T, n) configurations of the motion, rad and m.
+            survives: (T, n) True where a lock is survived.
+            found: Results of the search. None: the motion was given.
+        """
         return cls(
             arm=problem.arm,
             task=problem.task,
@@ -181,9 +188,9 @@ class LockSurvival(Result):
 
     @cached_property
     def never(self) -> tuple[float, str] | None:
-        """First sample in s at which no configuration survives every lock, and the joint that is lost.
+        """First sample in s at which no configuration survives every lock, and a joint whose lock is lost there.
 
-        So no motion at all is guaranteed. None if there is no such sample, or if the motion was given, or of a lower bound.
+        No motion at all then survives every lock. None if there is no such sample, for a given motion, or for a lower bound.
         """
         if self.found is None or self.kind == "lower bound":
             return None
@@ -228,16 +235,16 @@ class LockSurvival(Result):
     def test_locks(self, locks: int = 1000, *, seed: int = 1) -> LockTests:
         """Test the motion with joints that lock at random times, and count how often the failed arm finishes.
 
-        On the path the failed arm is followed by another integrator than the table's, along the arc of its branch with steps of
-        Runge and Kutta; with detours, inverse kinematics must find a configuration of every sample still to come. Joints are
-        drawn by their rates, and times evenly; with rates per second, as failures come that come before the end.
+        On the path, another integrator than that of the lock tables follows the failed arm along the arc of its branch with
+        Runge-Kutta steps. With detours, inverse kinematics must find a configuration of every remaining sample. Joints are
+        sampled by their rates and times uniformly; with rates per second, as first failures within the duration.
 
         Args:
-            locks: How many.
-            seed: Of the draws.
+            locks: Number of locks.
+            seed: Seed of the random times and joints.
 
         Raises:
-            InputError: Fewer than one lock.
+            InputError: ``locks`` is below 1.
         """
         if locks < 1:
             raise InputError(f"locks is {locks}; it must be 1 or more")
@@ -259,10 +266,10 @@ class LockSurvival(Result):
         )
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as rows: time, joints, and the probability that a lock at that time is survived.
+        """Write the motion to the CSV file ``file``: time, joints, and survival of a lock at that time; return its path.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         header = ["time_s", *(f"{joint.name}_{joint.unit}" for joint in self.arm.joints), "survival"]
         rows = np.column_stack([self.time, self.q, self.curve()])
@@ -270,7 +277,7 @@ class LockSurvival(Result):
 
     def _weighted_mean(self, values: FloatArray) -> float:
         weights = self.rates.weights(self.time)
-        return round(float(weights @ values / weights.sum()), 12)  # all of them are 1, not almost
+        return round(float(weights @ values / weights.sum()), 12)  # exactly 1 if all values are 1
 
     @property
     def conditions(self) -> MotionConditions:

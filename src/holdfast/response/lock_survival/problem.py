@@ -1,4 +1,4 @@
-"""The problem of finding the locks that a motion along a path survives, which ``lock_evaluation`` judges."""
+"""Problem of finding the locks that a motion along a path survives, which ``lock_evaluation`` evaluates."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from holdfast.response.lock_survival.rates import FailureRates, RatesLike
 Mode = Literal["on-path", "detour"]
 Kind = Literal["exact", "upper bound", "lower bound"]
 
-_IMMOBILE_RANGE = 1e-9  # rad and m between the limits of a joint that does not move
-_MAX_FIXED_SETS = 24  # of joints that a failed arm may hold
-_COARSE_SPACING_RAD = 0.15  # between nodes of a problem that is only tried
-_MIN_COARSE_POSES = 11  # poses of a problem that is only tried
+_IMMOBILE_RANGE = 1e-9  # distance of the limits of a joint that does not move, rad and m
+_MAX_FIXED_SETS = 24  # sets of joints that a failed arm may fix
+_COARSE_SPACING_RAD = 0.15  # spacing of the nodes of a coarse trial problem
+_MIN_COARSE_POSES = 11  # smallest number of poses of a coarse trial problem
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -102,8 +102,8 @@ class SurvivalProblem:
     def with_axis_at(self, q: FloatArray) -> SurvivalProblem | None:
         """Return the problem with the tool axis that a cone leaves free fixed in its direction at q (n,).
 
-        The task has two rows more, so the search is smaller, and every motion of the new problem is one of this problem too.
-        None without such a cone, with a path that prescribes turns, and without remaining redundancy.
+        The task has two rows more, so the search is smaller, and every motion of the new problem is also one of this problem.
+        None without such a cone, with a path that prescribes rotations, or without remaining redundancy.
         """
         if not self.conditions.left_to_arm or self.redundancy < 3:
             return None
@@ -157,24 +157,25 @@ def make_problem(
     """Return the problem after a check of its options.
 
     Raises:
-        InputError: Options that do not fit, or a row that is kept exactly and that the path leaves free.
-        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
+        InputError: An option is invalid, or an exact constraint is on a row that the path leaves free.
+        TaskError: The arm is not redundant; or it has more than one degree of redundancy, and ``detour`` is combined with
+            obstacles or constraints.
     """
     if mode not in ("on-path", "detour"):
         raise InputError(f"mode is '{mode}'; use 'on-path' or 'detour'")
     if samples < 3:
         raise InputError(f"samples is {samples}; it must be 3 or more")
     if not np.isfinite(margin):
-        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
+        raise InputError(f"margin is {margin:g}; it must be a finite number, m")
     task_rows = as_task(arm, default_path_task(arm, path.path.oriented) if task is None else task)
     clearance_model = chosen_clearance(arm, clearance, cell, looks=False)
     if clearance_model is None and margin:
-        raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
+        raise InputError("margin has no effect, because collisions are not checked; give a cell, or a clearance")
     required_clearance = None if clearance_model is None else (clearance_model, margin)
     time = np.linspace(0.0, path.duration, samples)
     constraints = _anchor_constraints(keep, path)
     for constraint in constraints:
-        if constraint.direction is not None and not constraint.angle:  # kept exactly: rows of the task, where they can be
+        if constraint.direction is not None and not constraint.angle:  # exact: becomes rows of the task where possible
             task_rows, path = fix_tool_axis(task_rows, path, constraint.axis, constraint.direction) or (task_rows, path)
     conditions = MotionConditions.for_task(arm, task_rows, required_clearance, constraints)
     problem = SurvivalProblem(
@@ -193,15 +194,15 @@ def make_problem(
     if problem.redundancy < 1:
         immobile_text = f", {len(problem.immobile_joints)} of which cannot move," if problem.immobile_joints else ""
         raise TaskError(
-            f"'{arm.name}' has {arm.n} joints{immobile_text} and the task '{task_rows.name}' {task_rows.m} rows: without "
-            "redundancy almost every lock loses the path; choose a task with fewer rows"
+            f"'{arm.name}' has {arm.n} joints{immobile_text} and the task '{task_rows.name}' {task_rows.m} rows; without "
+            "redundancy almost every lock loses the path, so choose a task with fewer rows"
         )
     if problem.redundancy == 1:
         return problem.with_fixed_joints({}) if problem.immobile_joints else problem
     if mode == "detour" and conditions.is_restrictive:
         raise TaskError(
-            f"'{arm.name}' has {problem.redundancy} degrees of redundancy for the task '{task_rows.name}'; detours among "
-            "obstacles or with something kept are looked at with one: use the mode on-path, or choose a task with more rows"
+            f"'{arm.name}' has {problem.redundancy} degrees of redundancy for the task '{task_rows.name}', and detours among "
+            "obstacles or with constraints need exactly one; use the mode on-path, or choose a task with more rows"
         )
     return problem
 
@@ -211,5 +212,5 @@ def _anchor_constraints(keep: KeepLike | None, path: TimedPath) -> tuple[ToolCon
     constraints = read_constraints(keep)
     for constraint in constraints:
         if constraint.frame == "tool" and not path.path.oriented:
-            raise InputError(f"keep '{constraint}' goes by the tool's axes at the start, and the path has positions only")
+            raise InputError(f"keep '{constraint}' uses the tool's axes at the start, and the path has only positions")
     return tuple(constraint.anchor(path.pose(0.0)) for constraint in constraints)

@@ -2,8 +2,8 @@
 
 .. code-block:: yaml
 
-    unit: relative            # or 1/s; relative if not given
-    rates:                    # by joint; those that are missing never lock
+    unit: relative            # or 1/s; default: relative
+    rates:                    # by joint; missing joints never lock
       panda_joint2: 2.0
       panda_joint4: 1.0
 """
@@ -39,10 +39,10 @@ class FailureRates:
     """Failure rates of the n joints of an arm.
 
     Attributes:
-        each: (n,) 0 or more, not all 0.
-        per_second: True: 1/s; False: relative weights.
+        each: (n,) failure rates, 0 or more and not all 0.
+        per_second: True if the rates are in 1/s; False if they are relative weights.
 
-    Source: a constant rate gives exponential times of failure.
+    Source: a constant rate gives exponentially distributed failure times.
     """
 
     each: FloatArray
@@ -54,11 +54,11 @@ class FailureRates:
 
         Args:
             arm: The arm.
-            rates: (n,), or by joint, those missing 0; None: all joints alike.
-            per_second: They are in 1/s, else relative.
+            rates: (n,) rates, or rates by joint name, 0 for missing joints. None: all equal.
+            per_second: True if the rates are in 1/s, else they are relative.
 
         Raises:
-            InputError: No such joint, a wrong shape, rates below 0 or not finite, or all 0.
+            InputError: A joint is unknown, the shape is wrong, a rate is below 0 or not finite, or all rates are 0.
         """
         if isinstance(rates, FailureRates):
             values, per_second = rates.each, rates.per_second
@@ -75,15 +75,17 @@ class FailureRates:
         if values.shape != (arm.n,):
             raise InputError(f"rates have shape {values.shape}; '{arm.name}' takes {arm.n}, one for each joint")
         if not (np.isfinite(values) & (values >= 0)).all() or not values.any():
-            raise InputError(f"rates are {values.tolist()}; each must be 0 or more, and one above 0")
+            raise InputError(f"rates are {values.tolist()}; each must be 0 or more, and one must be above 0")
         return cls(values, per_second)
 
     @classmethod
     def load(cls, arm: Arm, file: str | Path) -> FailureRates:
-        """Load rates from a YAML file; the format is in :mod:`holdfast.response.lock_survival.rates`.
+        """Load rates of an ``arm`` from the YAML file with the path ``file``.
+
+        :mod:`holdfast.response.lock_survival.rates` describes its format.
 
         Raises:
-            InputError: Unreadable, a key that is unknown, missing or wrong, or no such joint; the message names it.
+            InputError: The file cannot be read, or a key or joint is unknown, missing or wrong; the message names it.
         """
         try:
             model = _RatesFile.model_validate(
@@ -101,7 +103,7 @@ class FailureRates:
         return float(self.each.sum())
 
     def weights(self, time: FloatArray) -> FloatArray:
-        """Return the weights (T,) of instants (T,), s: the trapezoid rule, times the probability of no earlier failure."""
+        """Return the weights (T,) of ``time`` (T,), s: the trapezoidal rule, times the probability of no earlier failure."""
         weight = np.zeros(len(time))
         half_steps = np.diff(time) / 2
         weight[:-1] += half_steps

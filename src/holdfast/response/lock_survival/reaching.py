@@ -20,21 +20,21 @@ from holdfast.response.lock_survival.rates import FailureRates, RatesLike
 
 Spans = list[tuple[float, float]]
 
-_REFINED_NODES = 20  # nodes around which the goal is looked for once more
+_REFINED_NODES = 20  # best nodes around which the goal is refined
 _POINTS_PER_SEGMENT = 32
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Approach:
-    """Motion from a start to a goal pose, each joint on its own and at its velocity limit.
+    """Motion from a start to a goal pose in which each joint moves independently at its velocity limit.
 
     Attributes:
-        arm, task: What moves, and which rows of the goal matter.
-        rates: Of the joints.
-        start, goal: (n,) where it begins, and the configuration of the goal pose where it ends, rad and m.
-        outside: (n,) s that each joint spends at values at which a lock loses the goal.
-        ranges: Of each joint, the values at which it may lock and the goal stays within reach, ``(low, high)`` each.
-        velocity: (n,) of the joints, rad/s and m/s.
+        arm, task: Arm, and the rows of the goal that matter.
+        rates: Failure rates of the joints.
+        start, goal: (n,) first configuration, and final configuration at the goal pose, rad and m.
+        outside: (n,) time in s that each joint spends at values at which a lock loses the goal.
+        ranges: Values of each joint at which it may lock while the goal stays within reach, as intervals ``(low, high)``.
+        velocity: (n,) speeds of the joints, rad/s and m/s.
     """
 
     arm: Arm
@@ -48,9 +48,7 @@ class Approach:
 
     @property
     def exposure(self) -> float:
-        """Exposure ``sum rate_i outside_i``: with rates in 1/s, the expected number of locks that lose the goal; else s, of
-        weight 1.
-        """
+        """Exposure ``sum rate_i outside_i``: with rates in 1/s the expected number of locks that lose the goal, else in s."""
         return float(self.rates.each @ self.outside)
 
     @property
@@ -59,14 +57,14 @@ class Approach:
         return float((np.abs(self.goal - self.start) / self.velocity).max())
 
     def positions_at(self, time: ArrayLike) -> FloatArray:
-        """Return the joints (n,) or (N, n) at times, s: each moves straight to its goal as fast as possible, and waits."""
+        """Return the joints (n,) or (N, n), rad and m, at ``time``, one or (N,), s; each moves to its goal and waits there."""
         travels = np.asarray(time, dtype=np.float64)[..., None] * self.velocity
         displacement = self.goal - self.start
         return np.asarray(self.start + np.sign(displacement) * np.minimum(travels, np.abs(displacement)))
 
 
 @check_arguments
-@reports_progress("looking for the safest way to the goal")
+@reports_progress("searching for the safest motion to the goal")
 def plan_motion_to(
     arm: Arm,
     start: ArrayLike,
@@ -82,26 +80,26 @@ def plan_motion_to(
 ) -> Approach:
     """Plan the motion to a goal pose with the least exposure to locks after which the goal is out of reach.
 
-    Without obstacles a lock of joint i at a value that it has in some configuration of the goal loses nothing. A joint must
-    cover the way from its start to its goal whatever the others do, so that the least time outside such values is that of
-    the way at its velocity limit, and joints that all move at their own limits attain it: the optimum over all motions is a
-    minimum over the goal's configurations.
+    Without obstacles, a lock of joint i loses nothing if some configuration of the goal has the locked value. Each joint must
+    travel from its start to its goal independently of the others, so its shortest time outside such values is that at its
+    velocity limit. All joints attain this time if each moves at its own limit. The optimum over all motions is therefore a
+    minimum over the configurations of the goal.
 
     Args:
-        arm: The arm; with obstacles in the way the exposure is a lower bound.
-        start: (n,) a configuration, rad and m; or (4, 4) a pose, of which the best configuration is chosen.
-        goal: (m,) for tasks without angular rows, or (4, 4), as of :func:`holdfast.self_motion`.
-        rates: How often each joint locks, (n,) or by joint: relative weights. Default: 1 each.
-        per_second: The rates are in 1/s.
-        task: Rows of the goal that matter.
+        arm: Arm that moves; with obstacles in the way the exposure is a lower bound.
+        start: (n,) configuration, rad and m, or (4, 4) pose, for which the best configuration is chosen.
+        goal: (m,) for tasks without angular rows, or (4, 4), as for :func:`holdfast.self_motion`.
+        rates: Failure rates, (n,) or by joint name, as relative weights. Default: 1 each.
+        per_second: True if the rates are in 1/s.
+        task: Task whose rows must reach the goal.
         velocity: (n,) or one number, rad/s and m/s. Default: the joints' velocity limits.
-        spacing: Of the points on the self-motion curves, rad.
-        seed: Of the search for these.
-        starts: Of the same.
+        spacing: Distance of the points on the self-motion curves, rad.
+        seed: Seed of the search for these curves.
+        starts: Random starts of that search per pose.
 
     Raises:
-        InputError: A start, goal, rates or velocities that do not fit, or joints without a velocity limit.
-        TaskError: No redundancy, or more than one degree of it.
+        InputError: The start, goal, rates or velocities are invalid, or a joint has no velocity limit.
+        TaskError: The arm has no or more than one degree of redundancy.
         HoldfastError: No configuration of the goal, or of the start, was found.
 
     Source: ranges of a joint over a self-motion manifold, Lewis and Maciejewski 1997; the closed form is ours.
@@ -154,10 +152,10 @@ def _require_configuration(self_motion: SelfMotion, end_name: str) -> SelfMotion
 
 
 class _JointExposure:
-    """Lengths that joints travel at values that lose the goal.
+    """Lengths that joints travel at values at which a lock loses the goal.
 
     Attributes:
-        safe_ranges: Of each joint, the values that do not.
+        safe_ranges: Values of each joint at which a lock does not lose the goal.
     """
 
     def __init__(self, arm: Arm, safe_ranges: list[Spans], weights: FloatArray) -> None:

@@ -32,16 +32,16 @@ from holdfast.response.lock_survival.planning import LockSurvival
 from holdfast.response.lock_survival.problem import Mode, SurvivalProblem, make_problem
 from holdfast.response.lock_survival.rates import FailureRates, RatesLike
 
-_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
-_MAX_FINE_CHOICES = 3  # choices of joints that are held, of which the motion is looked for on the whole grid
+_PROBABILITY_TOLERANCE = 1e-9  # differences of probabilities below this are rounding errors
+_MAX_FINE_CHOICES = 3  # choices of fixed joints for which the motion is searched on the full grid
 _FIRST_CONFIGURATIONS = 3  # configurations of the first pose that are tried
 _FIRST_POSE_STARTS = 64  # random starts of the search for them
 _RANK_TOLERANCE = 1e-6  # of the largest singular value
-_MAX_CONE_AXES = 2  # along which the tool is held in a cone; its middle is where many arms are singular
+_MAX_CONE_AXES = 2  # axes along which the tool is fixed in a cone; many arms are singular at its middle
 
 
 @check_arguments
-@reports_progress("looking for the motion that survives most locks")
+@reports_progress("searching for the motion that survives most locks")
 def plan_motion(
     arm: Arm,
     path: TimedPath,
@@ -61,54 +61,53 @@ def plan_motion(
     keep: KeepLike | None = None,
     compare: Sequence[Objective | str] = (),
 ) -> LockSurvival:
-    """Plan the motion along a path for which most locks, of any joint at any time, leave the rest of the path feasible.
+    """Plan the motion along a path after most of whose possible locks, of any joint at any time, the arm can finish the path.
 
-    With one degree of redundancy every configuration of every pose is looked at (its self-motion curves, at points ``spacing``
-    apart), with the question whether the path can be finished if joint i locks there. Dynamic programming then finds the
-    motion over these points that survives most: the best there is, up to the grid. Of motions that are equal it takes the
-    shortest, and smooths it where that costs nothing. A motion within the velocity limits comes first.
+    With one degree of redundancy, all configurations of every pose are evaluated (points on the self-motion curves, ``spacing``
+    apart): can the path be finished if joint i locks there? Dynamic programming then finds the motion over these points with
+    the highest survival, which is the optimum up to the grid. Among equal motions the shortest is chosen, and smoothed as far
+    as this costs no survival. A motion within the velocity limits is preferred.
 
-    With more redundancy the result is a lower bound: of the motions only those are looked at that hold further joints where
-    they are, or the axis that is kept in a cone, and of a failed arm only the ways on that do; which joints, and where, is
-    drawn and tried.
+    With more redundancy the result is a lower bound. The search considers only motions that keep further joints fixed, or the
+    axis in a cone, and only such continuations of a failed arm. It samples and tries these joints and their values.
 
     Args:
-        arm: The arm.
-        path: Where the tool is to be, and when.
-        rates: How often each joint locks, (n,) or by joint: relative weights. Default: all alike.
-        per_second: The rates are in 1/s: an instant then counts by the probability that nothing has failed before.
-        mode: ``on-path``: after a lock the tool follows its path without leaving it, at its own pace. ``detour``: it may
-            leave it and come back. That only asks for the locked joint's value at every pose still to come: without obstacles
-            the straight way to a configuration that has it lies within the joint limits. Among obstacles it is an upper bound.
-            With more than one degree of redundancy inverse kinematics looks for these configurations.
-        task: Rows of the poses to keep. Default: ``position`` for a path of positions, else ``pose``; of an arm that moves in a
-            plane those in it.
-        samples: Poses, evenly spaced in time.
-        spacing: Of the points on the self-motion curves, rad.
-        start: (n,) where the motion must begin, on the first pose. Default: anywhere.
-        seed: Of the search for the curves; see :func:`holdfast.kinematics.solvers.fibres`.
+        arm: Arm that executes the motion.
+        path: Pose of the tool as a function of time.
+        rates: Failure rates, (n,) or by joint name, as relative weights. Default: all equal.
+        per_second: True if the rates are in 1/s. A time is then weighted by the probability of no earlier failure.
+        mode: ``on-path``: after a lock the tool follows its path without leaving it, at its own pace. ``detour``: it may leave
+            the path and return. A detour only needs a configuration with the locked value at every remaining pose, because
+            without obstacles the straight line to it stays within the joint limits. Among obstacles it is an upper bound.
+            With more than one degree of redundancy inverse kinematics searches for these configurations.
+        task: Task whose rows the tool follows. Default: ``position`` for a path of positions, else ``pose``; for planar arms
+            the rows of their plane.
+        samples: Number of poses, evenly spaced in time.
+        spacing: Distance of the points on the self-motion curves, rad.
+        start: (n,) first configuration, on the first pose, rad and m. Default: any.
+        seed: Seed of the search for the curves; see :func:`holdfast.kinematics.solvers.fibres`.
         starts: Random starts of inverse kinematics per pose.
-        clearance: Keep the links of the arm apart; not looked at if not given. See :func:`holdfast.follow`.
-        cell: Objects around the arm, or their file, to keep clear of before the lock and after it, at every sample.
-        margin: m; from an object beyond what the cell keeps from it.
-        keep: What the tool keeps at every sample, before the lock and after it:
+        clearance: Self-collision model of the arm; see :func:`holdfast.follow`. None: self-collisions are not checked.
+        cell: Objects around the arm, or their file, to avoid before and after the lock, at every sample.
+        margin: Smallest distance of the links, m; from an object, in addition to the margin that the cell states for it.
+        keep: Tool constraints at every sample, before and after the lock:
             :func:`holdfast.kinematics.tool_constraints.upright`, :func:`holdfast.kinematics.tool_constraints.rail`,
-            :func:`holdfast.kinematics.tool_constraints.plane`, a label (``"upright:10deg"``), or several. Rows that the task
-            prescribes are those of the path, and it is checked that they keep it. Of the others a cone limits what the arm may
-            do; an axis kept exactly along a path of positions becomes two rows of the task.
-        compare: Motions along the same path that the result is to be compared with: ``least-norm``, and for every index or
-            susceptibility the motion by gradient projection and the best continuous one at every pose (:func:`holdfast.follow`
-            with ``best``).
+            :func:`holdfast.kinematics.tool_constraints.plane`, a label (``"upright:10deg"``), or several. Rows of the task are
+            set by the path, which must meet the constraint. Of the other rows, a cone limits the arm, and an exact axis along
+            a path of positions becomes two rows of the task.
+        compare: Other motions along the path for comparison: ``least-norm``, and for every index or susceptibility the motions
+            by gradient projection and by the best continuous value at every pose (:func:`holdfast.follow` with ``best``).
 
     Returns:
         A :class:`holdfast.response.lock_survival.LockSurvival` with the motion, its survival, the bound and the interval of the
         grid.
 
     Raises:
-        InputError: Rates, a start or options that do not fit, a path that breaks what is kept, or a row kept exactly that the
-            task leaves free.
-        TaskError: No redundancy, or more than one degree of it and detours among obstacles or with something kept.
-        HoldfastError: A pose without a (clear) configuration, or no continuous motion along the path.
+        InputError: Rates, the start or an option are invalid, the path violates a constraint, or an exact constraint is on a
+            row that the task leaves free.
+        TaskError: The arm is not redundant; or it has more than one degree of redundancy, and ``detour`` is combined with
+            obstacles or constraints.
+        HoldfastError: A pose has no (collision-free) configuration, or there is no continuous motion along the path.
 
     Source: sets of values that a joint may be locked at, Lewis and Maciejewski 1997; survival over a whole path, its optimum
     and its bound are ours.
@@ -141,8 +140,8 @@ class _CurveSearch:
     """Search for motions over the self-motion curves of every pose, for one remaining degree of redundancy.
 
     Attributes:
-        survival_interval: What the best of them survives, of those within the velocity limits, and with the spacing on top;
-            NaN: none.
+        survival_interval: Largest survival of motions within the velocity limits, and with the spacing added to the limits;
+            NaN: no such motion.
     """
 
     def __init__(self, problem: SurvivalProblem, q_start: FloatArray | None) -> None:
@@ -157,7 +156,7 @@ class _CurveSearch:
         path_violation = problem.conditions.find_path_violation(np.array([pose_nodes.q[0] for pose_nodes in self._nodes]))
         if path_violation is not None:
             violation_time, violation = problem.time[path_violation[0]], path_violation[1]
-            raise InputError(f"the path itself breaks what is kept: at {violation_time:.4g} s the tool is {violation}")
+            raise InputError(f"the path itself violates a constraint: at {violation_time:.4g} s the tool is {violation}")
         if q_start is not None:
             self._nodes[0] = CurveNodes.from_configuration(arm, q_start, problem.spacing)
         stays_on_path = problem.mode == "on-path"
@@ -223,23 +222,23 @@ class _CurveSearch:
             result = LockSurvival.for_motion(requested, smooth, survives=find_survived_locks(requested, smooth), found=bounds)
             if (
                 result.survival < expected_survival - _PROBABILITY_TOLERANCE or result.speed > 1 + _PROBABILITY_TOLERANCE
-            ):  # smoothing may have cost something
+            ):  # smoothing may have reduced the survival
                 unsmoothed = LockSurvival.for_motion(requested, q, survives=find_survived_locks(requested, q), found=bounds)
                 result = max(result, unsmoothed, key=_rank_result)
             results.append(result)
-        return max(results, key=_rank_result)  # of equals the first
+        return max(results, key=_rank_result)  # the first one of equal results
 
 
 def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -> LockSurvival:
     """Return the best of motions that fix all joints except those that leave one degree of redundancy.
 
-    Which joints, and where, is looked for on a coarse grid; the best few are then looked at on the grid that was asked for.
+    The joints and their values are searched on a coarse grid; the best few are then evaluated on the requested grid.
     """
     attempts = []
     for variant, q in track("configurations of the first pose", list(_list_starts(problem, q_start))):
         coarse = variant.with_coarse_grid()
         for joints in variant.fixed_joint_sets:
-            if not _leaves_one_redundancy(variant, q, joints):  # no curves, and their tracing has no end
+            if not _leaves_one_redundancy(variant, q, joints):  # more redundancy has no curves, and tracing would not end
                 continue
             values = {joint: float(q[joint]) for joint in joints}
             try:
@@ -251,15 +250,15 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
             attempts.append((not np.isnan(survival), relaxed_survival if np.isnan(survival) else survival, variant, values))
     if not attempts:
         raise HoldfastError(
-            f"no continuous motion along the path was found that holds {problem.redundancy - 1} joints: slow the path "
-            "down, or give another start"
+            f"no continuous motion along the path was found that keeps {problem.redundancy - 1} joints fixed; slow the "
+            "path down, or give another start"
         )
     attempts.sort(key=lambda attempt: attempt[:2], reverse=True)
     results, last_error = [], None
     for _, _, variant, values in attempts[:_MAX_FINE_CHOICES]:
         try:
             results.append(_CurveSearch(variant.with_fixed_joints(values), q_start).find_best_motion(variant))
-        except HoldfastError as error:  # the finer grid of poses holds one that the coarse one had not
+        except HoldfastError as error:  # the finer grid has a pose without a solution, which the coarse grid lacks
             last_error = error
     if not results:
         assert last_error is not None
@@ -267,7 +266,7 @@ def _search_fixed_joints(problem: SurvivalProblem, q_start: FloatArray | None) -
     best = max(results, key=_rank_result)
     if not problem.conditions.left_to_arm:
         return best
-    # Maybe a narrower one's.
+    # The result may be one of a problem with a fixed axis.
     return LockSurvival.for_motion(problem, best.q, survives=find_survived_locks(problem, best.q), found=best.found)
 
 
@@ -304,7 +303,7 @@ def _find_first_configurations(problem: SurvivalProblem) -> FloatArray:
 def _leaves_one_redundancy(problem: SurvivalProblem, q: FloatArray, fixed_joints: Sequence[int]) -> bool:
     """Return True if one degree of redundancy remains at q (n,) if other joints are fixed there.
 
-    More are left where one of them could not move anyway, such as a roll joint that the tool's axis sets.
+    More remain if one of these joints could not move anyway, such as a roll joint that the tool axis determines.
     """
     mobile = [joint for joint in range(problem.arm.n) if joint not in problem.immobile_joints and joint not in fixed_joints]
     singular_values = np.linalg.svd(compute_task_jacobian(problem.arm, problem.task, q[None])[0][:, mobile], compute_uv=False)
@@ -312,22 +311,22 @@ def _leaves_one_redundancy(problem: SurvivalProblem, q: FloatArray, fixed_joints
 
 
 def _project_start_to_path(problem: SurvivalProblem, start: ArrayLike) -> FloatArray:
-    """Return the start (n,) brought to the first pose."""
+    """Return the start (n,) projected to the first pose."""
     arm, first_pose = problem.arm, problem.lock.poses[:1]
     q = arm.check_configurations(start)
     if q.ndim != 1 or not np.isfinite(q).all():
         raise InputError(f"the start of '{arm.name}' must be one configuration of {arm.n} finite numbers")
     if not solver(arm, problem.task).check_solutions(q[None], first_pose, PATH_TOLERANCE)[0]:
         raise InputError(
-            "the start is not on the first pose of the path, or outside the joint limits; leave it out to have one"
+            "the start is not on the first pose of the path, or outside the joint limits; leave it out for an automatic start"
         )
     required_clearance = problem.conditions.required_clearance
     if required_clearance is not None and float(required_clearance[0].margin_left(q)) < required_clearance[1]:
         raise InputError(
-            f"at the start the arm {required_clearance[0].too_close(required_clearance[1], q)}; leave it out to have one"
+            f"at the start the arm {required_clearance[0].too_close(required_clearance[1], q)}; choose another start or none"
         )
     violation = problem.conditions.find_violation(q[None])
     if violation is not None:
-        raise InputError(f"at the start the tool is {violation[1]}; leave it out to have one")
+        raise InputError(f"at the start the tool is {violation[1]}; choose another start or none")
     on_pose: FloatArray = problem.lock.tracer.project_onto_poses(q[None], first_pose)[0][0]
     return on_pose

@@ -17,10 +17,10 @@ from holdfast.response.lock_survival.locks import LockedFollower
 
 Spans = list[tuple[float, float]]
 
-_PARTS_PER_SEGMENT = 16  # of a piece of a curve in which a verdict changes: in two rounds the place is known to a 256th
+_PARTS_PER_SEGMENT = 16  # parts of a curve segment in which survival changes: two rounds locate the change to 1/256
 
 _RANGE_TOLERANCE = 1e-9  # rad and m
-MAX_RETAINED_BRANCHES = 4  # of the configurations that a failed arm with redundancy left may be in
+MAX_RETAINED_BRANCHES = 4  # configurations of a redundant failed arm that are followed
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +28,9 @@ class LockTable:
     """Survivable locks at the P nodes of one pose.
 
     Attributes:
-        survives: (P, n) True where a lock of the joint is.
-        switch_fractions: (P, n) where between a node and the next along its curve the verdict changes, 0 to 1; only of use
-            where it does. NaN where nobody looked.
+        survives: (P, n) True where a lock of the joint is survivable.
+        switch_fractions: (P, n) fraction, 0 to 1, between a node and the next along its curve at which survival changes; used
+            only if it does. NaN where it was not computed.
     """
 
     survives: BoolArray
@@ -39,7 +39,7 @@ class LockTable:
     def survives_between_nodes(
         self, nodes: CurveNodes, nodes_behind: IndexArray, fractions: FloatArray, joints: IndexArray
     ) -> BoolArray:
-        """Return (N,) the survival for joint (N,) between the nodes, located by :meth:`CurveNodes.locate`."""
+        """Return (N,) the survival for joint (N,) between nodes, located by :meth:`CurveNodes.locate_on_curves`."""
         decisive_nodes = np.where(
             fractions < self.switch_fractions[nodes_behind, joints], nodes_behind, nodes.following[nodes_behind]
         )
@@ -49,8 +49,8 @@ class LockTable:
         """Return (P,) the largest sum of rates (n,) of survived locks at each node and up to halfway to its neighbors."""
         survives_here, survives_next = self.survives, self.survives[nodes.following]
         is_known = np.isfinite(self.switch_fractions)
-        best_ahead, best_behind = np.zeros((2, len(survives_here)))  # of each piece in its first half, and in its second
-        # Along a piece verdicts change one after the other: with each change, and in the middle, something new may be had.
+        best_ahead, best_behind = np.zeros((2, len(survives_here)))  # in the first and second half of each segment
+        # Along a segment, survival changes joint by joint, so it is evaluated at each change and in the middle.
         for fractions in (np.zeros(len(survives_here)), np.full(len(survives_here), 0.5), *self.switch_fractions.T):
             sums = (
                 np.where(
@@ -77,15 +77,15 @@ class LockTable:
 def compute_path_tables(follower: LockedFollower, nodes: list[CurveNodes]) -> list[LockTable]:
     """Return for every pose the locks at its nodes after which the failed arm can follow the rest of the tool path.
 
-    One step of the locked arm leads to the next pose, between nodes there whose verdicts are known, and where between them they
-    change. Where it does not lead to a known curve the arm is followed on until it does.
+    One step of the locked arm leads to the next pose, between nodes there with known survival and a known location of its
+    change between them. If the step does not lead to a known curve, the arm is followed further until it does.
     """
     n = follower.arm.n
     sizes = [len(pose_nodes.q) for pose_nodes in nodes[:-1]]
     all_q = np.concatenate([pose_nodes.q for pose_nodes in nodes[:-1]])
     landed, reached = follower.step_with_each_lock(all_q, np.repeat(np.arange(len(sizes)), sizes))
     offsets = np.cumsum([0, *sizes])
-    shape = (len(nodes[-1].q), n)  # of the last pose, at which every lock is survived
+    shape = (len(nodes[-1].q), n)  # at the last pose every lock is survived
     table = [LockTable(np.ones(shape, dtype=bool), np.ones(shape))]
     for pose in track("poses", range(len(nodes) - 2, -1, -1)):
         rows = slice(offsets[pose], offsets[pose + 1])
@@ -117,7 +117,7 @@ def _locate_survival_changes(
         has_arrived &= is_on_pose
         verdict = np.zeros(len(q), dtype=bool)
         verdict[has_arrived] = _evaluate_steps(follower, nodes, table, pose + 1, q[has_arrived], repeated_joints[has_arrived])
-        # Up to the first part that differs from the node behind.
+        # Up to the first part that differs from the node behind it.
         differs = np.column_stack(
             [verdict.reshape(fractions.shape) != survives_behind[:, None], np.ones(node_indices.size, dtype=bool)]
         )
@@ -150,8 +150,8 @@ def _evaluate_steps(
 def compute_detour_tables(nodes: list[CurveNodes], self_motions: list[SelfMotion]) -> list[LockTable]:
     """Return for every pose the locks at its nodes for which all later poses have a configuration with the locked value.
 
-    Then a failed arm without obstacles gets back to the path from wherever it is: a locked value is common to both ends of the
-    straight way, and joint limits are a box.
+    A failed arm without obstacles then returns to the path from any configuration, because both ends of the straight line have
+    the locked value, and joint limits are a box.
 
     Source: Lewis and Maciejewski 1997, ranges of a joint over a self-motion manifold.
     """
@@ -205,7 +205,7 @@ def _intersect_spans(a: Spans, b: Spans) -> Spans:
 def follow_motion_locks(follower: LockedFollower, q: FloatArray, requested: BoolArray | None = None) -> BoolArray:
     """Return (T, n) True where a lock of a motion q (T, n) is survived: every lock is followed to the end.
 
-    Only those ``requested`` (T, n) if given; where q is NaN none is.
+    Only locks in ``requested`` (T, n), if given, are followed; where q is NaN no lock is survived.
     """
     survives = np.zeros(q.shape, dtype=bool)
     is_defined = np.isfinite(q).all(axis=1, keepdims=True)
@@ -224,10 +224,9 @@ def follow_motion_locks(follower: LockedFollower, q: FloatArray, requested: Bool
 
 
 def find_switching_survived_locks(followers: Sequence[LockedFollower], q: FloatArray, requested: BoolArray) -> BoolArray:
-    """Return (T, n) True where a redundant arm survives a lock, with other joints fixed, those of another follower, at every
-    pose.
+    """Return (T, n) True where a redundant arm survives a lock if it may fix the joints of another follower at every pose.
 
-    Of all configurations that this leads to a few are followed on, far apart.
+    A few of the resulting configurations, far apart, are followed further.
     """
     survives = np.zeros(q.shape, dtype=bool)
     survives[-1] = requested[-1]
@@ -252,7 +251,7 @@ def find_switching_survived_locks(followers: Sequence[LockedFollower], q: FloatA
 
 
 def select_farthest_by_owner(q: FloatArray, owners: IndexArray) -> IndexArray:
-    """Return the indices of q (N, n) to retain: of each owner (N,) the first and then the few farthest from those retained."""
+    """Return the indices of q (N, n) to retain: for each owner (N,) the first, then the few farthest from those retained."""
     _, first_indices, groups = np.unique(owners, return_index=True, return_inverse=True)
     retained, distances = [first_indices], np.full(len(q), np.inf)
     for _ in range(MAX_RETAINED_BRANCHES - 1):

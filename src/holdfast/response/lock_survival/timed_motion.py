@@ -22,8 +22,8 @@ class VelocityJump:
     """Twist of the end effector that vanishes when one joint stops at once, ``J_i q_i'``.
 
     Attributes:
-        linear, angular: (T, n) its sizes, m/s and rad/s, for the lock of each joint at each time.
-        mean_linear, mean_angular: Means over time and joints, weighted by the failure rates.
+        linear, angular: (T, n) magnitudes, m/s and rad/s, for the lock of each joint at each time.
+        mean_linear, mean_angular: Means over time and joints, m/s and rad/s, weighted by the failure rates.
 
     Source: the jump of the end effector's velocity at a lock, Abdi et al., Robotica 30, 2012 (read as an abstract).
     """

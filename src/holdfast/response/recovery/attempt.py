@@ -92,7 +92,7 @@ class RecoveryAttempt:
     @property
     def _search_count_before_proof(self) -> int:
         """Number of searches before a proof is tried."""
-        return max(1, self.search_count // 4)  # of 385 routes found in six searches, the first search found all
+        return max(1, self.search_count // 4)  # the first of six searches found all of 385 routes
 
     def run(self, q_start: FloatArray, target: RecoveryGoal | None, path: Path | None) -> Recovery:
         """Return the recovery from a valid configuration (n,): along the path, if there is one, then to the goal."""
@@ -133,7 +133,7 @@ class RecoveryAttempt:
     def _plan_rest_of_path(self, q_current: FloatArray, path: Path) -> RestOfPath:
         """Follow the path if possible; return the first motion that can be reached, the shortest first."""
         rest, motions = follow_rest_of_path(self.search, path, q_current, self.recovery.starts, self.rng)
-        self._record_timeout_step("following the tool path")
+        self._record_timeout_step("while following the tool path")
         if not rest.finished:
             rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
@@ -145,7 +145,7 @@ class RecoveryAttempt:
             ):
                 self.recovery = replace(self.recovery, unknown=f"{rest.why}; {shape_doubt}")
             rest, motions = follow_with_relaxed_rows(rest, self.search, path, q_current, self.rng)
-            self._record_timeout_step("looking for rows of the tool path to give up")
+            self._record_timeout_step("while searching for rows of the tool path to relax")
         if not motions:
             return rest
         joined_rest = self._connect_start_to_path(q_current, path, rest, motions)
@@ -155,7 +155,7 @@ class RecoveryAttempt:
         return self._connect_start_to_path(q_current, path, rest, motions) if motions else rest
 
     def _extend_path(self, rest: RestOfPath, path: Path, q_current: FloatArray) -> tuple[RestOfPath, list[FloatArray]]:
-        """Extend the motion along the path as far as possible; also return the motion if it gets to the end."""
+        """Extend the motion along the path as far as possible; also return the motion if it reaches the end."""
         return follow_to_furthest_point(rest, self.search, path, q_current, self.recovery.starts, self.rng)
 
     def _connect_start_to_path(
@@ -165,7 +165,7 @@ class RecoveryAttempt:
         route, proof = self._find_route_or_proof(
             q_current, np.stack([candidate[0] for candidate in motions]), path.pose(rest.share[:1])
         )
-        self._record_timeout_step("looking for a route to the tool path")
+        self._record_timeout_step("while searching for a route to the tool path")
         if route is None:
             if proof is not None and not self.recovery.proof_kind:
                 reason = f"at the beginning of the tool path: {proof[0]}"
@@ -179,7 +179,7 @@ class RecoveryAttempt:
             if refinement is None and len(motions) > 1 and not self.search.space.is_time_over:
                 return self._connect_start_to_path(q_current, path, rest, motions[: route.goal] + motions[route.goal + 1 :])
             rest, motion = refinement or (add_motion_with_deviation(rest, self.search.solver, path, motion), motion)
-        motion = motion + (route.q[-1] - motion[0])  # whole turns
+        motion = motion + (route.q[-1] - motion[0])  # full revolutions
         if route.length > LOCK_TOLERANCE:
             self._add_leg("to the path", route.q, route.lower_bound, route.straight)
         else:
@@ -246,13 +246,13 @@ class RecoveryAttempt:
         if not len(goal.configurations):
             q, pose_indices, proofs = enumerate_collision_free(recovery, self.search.solver, space, target.poses)
             goal = replace(goal, configurations=q, pose_indices=pose_indices, box_proofs=tuple(proofs))
-        self._record_timeout_step("looking for configurations of the goal")
+        self._record_timeout_step("while searching for configurations of the goal")
         recovery = replace(recovery, found=len(goal.configurations))
         if target.mismatched_locks is None:
             return replace(goal, recovery=recovery)
-        proof = f"{' and '.join(target.mismatched_locks.names)} cannot be where {target.description} has it"
+        proof = f"{' and '.join(target.mismatched_locks.names)} cannot have the value of {target.description}"
         recovery = replace(recovery, relaxed=target.mismatched_locks, proof=proof, proof_kind="limits")
-        return replace(goal, recovery=recovery, reasons=(f"{proof}; the end effector's pose there is aimed at",))
+        return replace(goal, recovery=recovery, reasons=(f"{proof}; the goal is the end effector's pose there instead",))
 
     def _find_route_to_goals(self, goal: UndecidedGoal) -> Recovery | UndecidedGoal:
         """Decide a goal with configurations by a route to one of them, a proof that there is none, or failed searches."""
@@ -264,7 +264,7 @@ class RecoveryAttempt:
             self._add_leg("to the goal", route.q, route.lower_bound, route.straight)
             pose = target.poses[goal.pose_indices[route.goal]]
             return replace(recovery, ending=goal.success, goal_pose=pose, reason="; ".join(goal.reasons))
-        self._record_timeout_step("looking for a route to the goal")
+        self._record_timeout_step("while searching for a route to the goal")
         if separation is not None and target.mismatched_locks is None:
             decided = replace(recovery, proof=separation[0], reason=separation[0], proved_within=separation[1])
             return replace(decided, proof_kind="disconnected", ending=RecoveryOutcome.PROVED_DISCONNECTED)
@@ -283,7 +283,7 @@ class RecoveryAttempt:
         )
 
     def _prove_unreachable(self, goal: UndecidedGoal) -> UndecidedGoal:
-        """Add the proof that no configuration meets the goal, or what is unknown where there is no proof."""
+        """Add the proof that no configuration meets the goal, or the unknown property where there is no proof."""
         recovery, target, space = goal.recovery, goal.target, self.search.space
         reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
         proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(reach_proofs, goal.box_proofs, strict=True)]
@@ -296,13 +296,13 @@ class RecoveryAttempt:
             recovery = replace(recovery, proof=proof, proof_kind=kind, proved_within=within)
             return replace(goal, recovery=recovery, reasons=(*goal.reasons, proof), is_proved_unreachable=True)
         pair = name_blocking_pair(self.search, target.poses, goal.q_start, recovery.seed)
-        finding_text = "no clear configuration" if pair else "no configuration"
-        blocking_text = f"; what is most often in the way where it is met: {pair}" if pair else ""
+        finding_text = "no collision-free configuration" if pair else "no configuration"
+        blocking_text = f"; the most frequent collision where the goal is met: {pair}" if pair else ""
         reason = f"{finding_text} of the goal was found in {recovery.starts} starts, which proves nothing{blocking_text}"
         if pair and (shape_doubt := describe_unknown_shape(space.clearance)):
             recovery = replace(recovery, unknown=f"the goal is met where {pair} may be too close; {shape_doubt}")
         elif recovery.within is not None:
-            recovery = replace(recovery, unknown=f"{reason}; a proof would have to cover the whole cone, and there is none")
+            recovery = replace(recovery, unknown=f"{reason}; no available proof covers the whole cone")
         return replace(goal, recovery=recovery, reasons=(*goal.reasons, reason))
 
     def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:
@@ -312,7 +312,7 @@ class RecoveryAttempt:
         offers = [(choice, pose) for choices, pose in relaxed_goals for choice in choices]
         offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = tuple(choice.relaxed_rows for choice, _ in offers)
-        self._record_timeout_step("looking for rows to give up")
+        self._record_timeout_step("while searching for rows to relax")
         for choice, pose in offers:
             route = self._search_route(goal.q_start, choice.q)
             if route is None:
@@ -324,7 +324,7 @@ class RecoveryAttempt:
             relaxed = choice.relaxed_rows if locks is None else locks + choice.relaxed_rows
             recovery = replace(recovery, relaxed=relaxed, choices=choices, reason="; ".join(goal.reasons))
             return replace(recovery, ending=RecoveryOutcome.GOAL_REACHED_WITH_RELAXED_ROWS)
-        no_motion = "rows could be given up, but no motion was found to a configuration without them"
+        no_motion = "rows could be relaxed, but no motion was found to a configuration without them"
         return replace(
             recovery,
             ending=RecoveryOutcome.PROVED_UNREACHABLE if goal.is_proved_unreachable else RecoveryOutcome.NOTHING_FOUND,

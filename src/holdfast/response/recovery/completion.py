@@ -31,12 +31,12 @@ def verify_and_time_recovery(
     """Verify a recovery that has a motion, and time the motion if that is requested.
 
     Args:
-        recovery: With its motion.
-        space: In which it was planned.
-        rows: That count.
-        aim: The goal, if there is one.
-        path: The tool path, if there is one.
-        timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s.
+        recovery: Recovery with its motion.
+        space: Free space in which the motion was planned.
+        rows: Task rows that the motion must meet.
+        aim: Goal, if there is one.
+        path: Tool path, if there is one.
+        timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s. None: not timed.
     """
     leg = next((leg for leg in recovery.legs if leg.name == "along the path"), None)
     path_samples = None
@@ -65,7 +65,7 @@ def verify_and_time_recovery(
     if timing_limits is None:
         return replace(recovery, verified=verified)
     column_name, column_values = time_or_length_column(space.arm, recovery.q)
-    for cautious in (False, True):  # a corner whose rounding other code refuses is not rounded
+    for cautious in (False, True):  # if the independent check rejects a rounded corner, no corner is rounded
         timed_result = time_motion(
             space,
             recovery.degraded,

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
 
-_SAMPLE_SPACING = 0.01  # m or rad of the end effector between samples
-_MIN_SAMPLES = 20  # samples of a path
-_MAX_SAMPLES = 400  # samples of a path
+_SAMPLE_SPACING = 0.01  # distance of the end effector between samples, m or rad
+_MIN_SAMPLES = 20  # smallest number of samples of a path
+_MAX_SAMPLES = 400  # largest number of samples of a path
 _STARTS_PER_SET = 12
-_REFINEMENT_FACTOR = 8  # times as many samples, where joints move so fast that what is one motion seems to jump
-_INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # between two waypoints: where the motion is looked at
-_MAX_WAYPOINT_BISECTIONS = 8  # times what is between two waypoints is, until it is near the path
+_REFINEMENT_FACTOR = 8  # ratio of the number of samples where joints move so fast that one motion seems to jump
+_INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # points between two waypoints at which the motion is checked
+_MAX_WAYPOINT_BISECTIONS = 8  # bisections of the segment between two waypoints until it is near the path
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,18 +34,18 @@ class RestOfPath:
     """Result of the search for a motion along the rest of a tool path.
 
     Attributes:
-        furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row, to 0.001; it begins in a
+        furthest: Fraction of the path, 0 to 1, to 0.001, that a motion completes with every row met. The motion begins in a
             configuration of the first pose to which a motion of the arm was found.
-        begin: (n,) that configuration, rad and m; None if none was found.
+        begin: (n,) first configuration of that motion, rad and m; None if none was found.
         share: (S,) samples of the path, 0 to 1.
-        found: (S,) True where a configuration of that pose was found at all, each sample on its own.
-        q: (S, n) the motion, without the rows given up if there are any; (0, n) if none was found; rad and m.
-        deviation: Largest error of the rows kept half-way between waypoints, m and rad.
-        given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
+        found: (S,) True where a configuration of that pose was found, independently of the other samples.
+        q: (S, n) motion along the path, without the relaxed rows if there are any, rad and m; (0, n) if none was found.
+        deviation: Largest error of the met rows half-way between waypoints, m and rad.
+        given_up: Rows relaxed over the whole path, with their largest errors; None if all are met.
         starts: Configurations of the first pose from which the path was followed.
-        cut_off: Configurations of the beginning were found, but no route to any of them; ``q`` is then empty.
-        graph: Configurations of a graph through all poses that was searched where following the path from each start ended
-            early; 0 if it was not needed, or if the arm has no self-motion left.
+        cut_off: True if configurations of the first pose were found, but no route to any of them; ``q`` is then empty.
+        graph: Number of configurations of the graph through all poses that is searched if every motion from the first pose ends
+            early; 0 if no graph was needed, or if the arm has no self-motion left.
     """
 
     furthest: float
@@ -74,11 +74,11 @@ class RestOfPath:
     def why(self) -> str:
         """Reason why the path was not finished, a phrase."""
         if self.cut_off:
-            return "configurations of its beginning exist, but no route from here to any of them was found"
+            return "configurations of its first pose exist, but no route from here to any of them was found"
         if self.first_lost is not None:
             return f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
-        graph_text = f" among {self.graph:,} configurations joined from pose to pose" if self.graph else ""
-        return f"each of its poses is reached on its own, but no continuous motion through all of them was found{graph_text}"
+        graph_text = f" among {self.graph:,} configurations connected from pose to pose" if self.graph else ""
+        return f"each of its poses has a configuration, but no continuous motion through all of them was found{graph_text}"
 
     def describe(self) -> str:
         """Return the result in one or two sentences."""
@@ -87,12 +87,12 @@ class RestOfPath:
                 f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
                 f"{self.deviation:.2g} (m and rad) between them."
             )
-        text = f"The rest of the tool path was not finished: {self.why}; the best motion gets to {100 * self.furthest:.1f} %"
+        text = f"The rest of the tool path was not finished: {self.why}; the best motion completes {100 * self.furthest:.1f} %"
         if self.begin is not None:
             text += f" of it, from the configuration ({', '.join(f'{angle:.4g}' for angle in self.begin)}) of its first pose"
         text += "."
         if self.given_up is not None:
-            text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
+            text += f" It can be followed if these rows are relaxed, with these largest errors: {self.given_up}."
         return text
 
 
@@ -132,9 +132,9 @@ def follow_rest_of_path(
 def follow_to_furthest_point(
     rest: RestOfPath, search: PoseSearch, path: Path, q_start: FloatArray, start_count: int, rng: np.random.Generator
 ) -> tuple[RestOfPath, list[FloatArray]]:
-    """Continue an unfinished path to its furthest reachable point; also return the motion if it gets to the end.
+    """Continue an unfinished path to its furthest reachable point; also return the motion if it reaches the end.
 
-    Followed are all configurations of the first pose that were found and to which a motion leads.
+    Motions start from all configurations of the first pose that were found and that a motion of the arm reaches.
     """
     rest = replace(rest, furthest=0.0)
     pose = path.pose(rest.share[:1])[0]
@@ -175,7 +175,7 @@ def _follow_samples(
     complete = np.flatnonzero(last_samples == len(fractions) - 1)
     if complete.size:
         rest = replace(rest, share=fractions, found=np.ones(len(fractions), dtype=bool))
-    # A pose on the way is found where a motion passes it.
+    # A pose that a motion passes counts as found.
     rest = replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest) & (last_samples.max(initial=-1) >= 0))
     motions = [q[:, index] for index in complete]
     return rest, sorted(motions, key=lambda motion: float(search.metric.cumulative_length(motion)[-1]))
@@ -193,7 +193,7 @@ def follow_with_relaxed_rows(
             relaxed_rows, motion = solution
             row_mask = search.make_row_masks(1, relaxed_rows)[0]
             relaxed_rows = tuple(np.flatnonzero(search.solver.find_violated_rows(motion, poses).any(axis=0)).tolist())
-            if not relaxed_rows:  # a row that is met all the way is not given up
+            if not relaxed_rows:  # a row that is met along the whole path is not relaxed
                 return add_motion_with_deviation(rest, search.solver, path, motion), [motion]
             row_errors = np.abs(solver.compute_errors(motion, poses)).max(axis=0)[list(relaxed_rows)]
             names, units = (
@@ -249,7 +249,7 @@ def _track_poses(
         targets = np.repeat(poses[sample][None], len(active), axis=0)
         after = search.solver.solve_required_rows(before, targets, row_masks[active], search.space.free)
         is_jump = np.abs(after - before).max(axis=1) > MAX_JOINT_STEP
-        if is_jump.any():  # rows that are given up must not pull the others onto another branch
+        if is_jump.any():  # relaxed rows must not pull the others to another branch
             after[is_jump] = search.solver.solve(
                 before[is_jump], targets[is_jump], row_masks[active][is_jump], search.space.free
             )
@@ -300,7 +300,7 @@ def add_motion_with_deviation(
 def refine_waypoints(rest: RestOfPath, search: PoseSearch, path: Path, q: FloatArray) -> tuple[RestOfPath, FloatArray] | None:
     """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
 
-    Where joints move fast, as beside a singular configuration, straight lines in joint space are no straight lines of the tool.
+    Near a singular configuration joints move fast, and straight lines in joint space are not straight lines of the tool.
     """
     tolerances = np.where(
         np.array(search.solver.rows.units) == "m",
@@ -323,7 +323,7 @@ def refine_waypoints(rest: RestOfPath, search: PoseSearch, path: Path, q: FloatA
         poses, row_masks = path.pose(middle_fractions), search.make_row_masks(len(segments))
         new_waypoints = search.solve(midpoints, poses, row_masks)
         is_valid = search.meets_rows(new_waypoints, poses, row_masks)
-        # Else on another branch.
+        # Otherwise the motion is on another branch.
         is_valid &= np.abs(new_waypoints - midpoints).max(axis=1) <= np.abs(q[segments + 1] - q[segments]).max(axis=1)
         if not (
             is_valid.all()

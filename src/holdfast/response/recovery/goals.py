@@ -17,7 +17,7 @@ _SELF_MOTION_STEPS = 25
 _DUPLICATE_TOLERANCE = 1e-4  # rad and m
 _STARTS_PER_SET = 96
 _SLSQP_OPTIONS: Any = {"ftol": 1e-12, "maxiter": 100}  # the tolerance is a fraction of the squared error at the start
-_POLISHED_CONFIGURATIONS = 4  # of the best configurations of a set, each another one
+_POLISHED_CONFIGURATIONS = 4  # distinct best configurations of a set of rows that are refined
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class RelaxedRows:
     """Rows without which the rest of the goal is met, none of which can be met in addition to the others.
 
     Attributes:
-        names: As people call them: ``about tool z``, ``x``, or a joint.
-        misses: (k,) by how much each misses, absolute, m or rad: at the configurations found at which their norm is least.
-        units: ``m`` or ``rad`` of each.
+        names: Names of the rows, such as ``about tool z`` or ``x``, or of joints.
+        misses: (k,) absolute error of each row, m or rad, at the configurations found with the smallest norm of the errors.
+        units: Unit of each error, ``m`` or ``rad``.
     """
 
     names: tuple[str, ...]
@@ -68,13 +68,13 @@ class PoseSearch:
     metric: JointMetric
 
     def make_row_masks(self, count: int, dropped_rows: tuple[int, ...] = ()) -> FloatArray:
-        """Return masks (N, m) of all rows but those that are dropped."""
+        """Return masks (N, m) of all rows except the dropped ones."""
         row_masks = np.ones((count, self.solver.rows.m))
         row_masks[:, dropped_rows] = 0.0
         return row_masks
 
     def sample_starts(self, q_start: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
-        """Return ``q_start`` (n,) and random configurations, (count + 1, n), with its values of joints that do not move."""
+        """Return ``q_start`` (n,) and random configurations, (count + 1, n), with the locked joints as in ``q_start``."""
         return np.concatenate([q_start[None], self.solver.sample_configurations(count, q_start, self.space.free, rng)])
 
     def solve(self, q: FloatArray, poses: FloatArray, row_masks: FloatArray, **options: int) -> FloatArray:
@@ -119,7 +119,7 @@ def find_goal_configurations(
 ) -> FloatArray:
     """Return configurations (K, n) that meet every row of a pose (4, 4), the nearest to ``q_start`` first; maybe none.
 
-    From random starts and from ``q_start``; each is then moved along the self-motion of the pose towards ``q_start``.
+    The search starts from random configurations and ``q_start``; results move along their self-motion towards ``q_start``.
     """
     q = search.solve_pose(pose, search.sample_starts(q_start, start_count, rng))
     q = q_start + search.space.shortest_difference(q, q_start)
@@ -167,7 +167,7 @@ def find_relaxed_goals(
 ) -> list[RelaxedGoal]:
     """Return every minimal set found of rows to relax so that a pose is met: fewest rows first, orientations before positions.
 
-    A row that is met all the same is not given up; of a set without any row left the configurations meet the whole pose.
+    A row that is met anyway is not relaxed; the configurations of a set without a relaxed row meet the whole pose.
     """
     rows, configurations = search.solver.rows, dict[tuple[int, ...], FloatArray]()
     for size in range(1, rows.m):
@@ -205,7 +205,7 @@ def _reduce_relaxed_rows(
 ) -> dict[tuple[int, ...], FloatArray]:
     """Return configurations by the rows that they violate, from some (N, n) that meet all rows except the relaxed ones.
 
-    Those are moved to where the rows given up are missed least, and to where one of them is met too, if that leads anywhere.
+    They are moved to the smallest error of the relaxed rows, and to where one of these rows is met too, if that is possible.
     """
     configurations, open_sets = dict[tuple[int, ...], FloatArray](), [(dropped_rows, q)]
     while open_sets:

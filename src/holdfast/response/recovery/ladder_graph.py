@@ -1,4 +1,4 @@
-"""Search for motions along a tool path in a ladder graph: many configurations per pose, each joined to the previous pose."""
+"""Search for motions along a tool path in a ladder graph: many configurations per pose, connected to those of the next pose."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
 
-MAX_JOINT_STEP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
+MAX_JOINT_STEP = 0.35  # rad or m of one joint from sample to sample; a larger step changes the branch and is no motion
 _MAX_LAYER_CONFIGURATIONS = 150  # configurations of a pose
-_COPIES_PER_CONFIGURATION = 3  # moved along the self-motion, of each of them
-_PERTURBATION_STD = 0.15  # rad or m, standard deviation of that
-_DUPLICATE_TOLERANCE = 1e-3  # rad or m: configurations that are no nearer count as two
+_COPIES_PER_CONFIGURATION = 3  # copies of each configuration that are moved along the self-motion
+_PERTURBATION_STD = 0.15  # standard deviation of these moves, rad or m
+_DUPLICATE_TOLERANCE = 1e-3  # rad or m: closer configurations count as equal
 _SHORTENING_SWEEPS = 40
 
-MIN_PATH_STEP = 2.5e-4  # of a path: how closely the end of a motion along it is found
-_SELF_MOTION_PATH_STEP = 1e-7  # of a path: a step along the self-motion, nearly in place, so that places increase
-_MAX_CONTINUED_CONFIGURATIONS = 60  # configurations of a place where a path is followed as far as possible
-_MIDPOINT_TOLERANCE = 0.25  # of a step, by which its middle may be off the straight line
-_MAX_SPREADS = 8  # along the self-motion, before the end counts as reached
+MIN_PATH_STEP = 2.5e-4  # fraction of a path to which the end of a motion along it is located
+_SELF_MOTION_PATH_STEP = 1e-7  # fraction of a path: a step along the self-motion, nearly in place, so that fractions increase
+_MAX_CONTINUED_CONFIGURATIONS = 60  # configurations of a pose from which a path is continued
+_MIDPOINT_TOLERANCE = 0.25  # of a step: largest distance of its middle from the straight line
+_MAX_SPREADS = 8  # spreads along the self-motion before the end counts as reached
 _MAX_LAYERS = 4000
 
 
 @dataclass(frozen=True)
 class LadderGraph:
-    """Result of the search through the layers.
+    """Result of the search through the layers of the graph.
 
     Attributes:
-        motions: (S, n) each, the shortest first, no two from one configuration of the first pose; rad and m.
-        last_sample: The last sample that any motion gets to.
-        configuration_count: Configurations in all layers.
+        motions: (S, n) motions, the shortest first, each from another configuration of the first pose; rad and m.
+        last_sample: Index of the last sample that any motion reaches.
+        configuration_count: Number of configurations in all layers.
     """
 
     motions: list[FloatArray]
@@ -56,8 +56,8 @@ def search_ladder_graph(
 ) -> LadderGraph:
     """Search motions along poses (S, 4, 4) from configurations (R, n) of the first pose and others on its self-motion.
 
-    Each configuration leads to the nearest of the next pose and to others on its self-motion, by steps that are proved clear.
-    Of the many of a pose those are kept that are spread widest: a motion through a passage that is narrower than their
+    Each configuration is connected to the nearest of the next pose and to others on its self-motion, by steps that are proved
+    collision-free. The configurations of a pose that are furthest apart are kept, so a passage that is narrower than their
     distance may be missed.
     """
     sampled = search.solver.sample_configurations(start_count, q_start, search.space.free, rng)
@@ -88,12 +88,12 @@ def search_ladder_graph(
 
 @dataclass(frozen=True)
 class PathContinuation:
-    """Furthest motion along a path from configurations of its beginning.
+    """Furthest motion along a path from configurations of its first pose.
 
     Attributes:
-        fractions: (S,) places on the path, 0 to 1, increasing; the last one is where every motion found ends.
-        q: (S, n) the shortest motion to there, rad and m.
-        configuration_count: Configurations of all places together, where self-motion was used; else 0.
+        fractions: (S,) fractions of the path, 0 to 1, increasing; the last one is where every motion that was found ends.
+        q: (S, n) the shortest motion to that point, rad and m.
+        configuration_count: Number of configurations at all fractions if self-motion was used; else 0.
     """
 
     fractions: FloatArray
@@ -104,17 +104,17 @@ class PathContinuation:
 def follow_path_furthest(
     search: PoseSearch, path: Path, first_configurations: FloatArray, *, max_path_step: float, rng: np.random.Generator
 ) -> PathContinuation:
-    """Follow a path as far as possible from any of the configurations (R, n) of its beginning.
+    """Follow a path as far as possible from any of the configurations (R, n) of its first pose.
 
-    Steps become shorter where none leads on, down to ``MIN_PATH_STEP``. If the arm has self-motion, the configurations of the
-    last place are then spread along it, and the path is tried again from there.
+    Where no step continues, steps become shorter, down to ``MIN_PATH_STEP``. If the arm has self-motion, the configurations at
+    the last fraction are then spread along it, and the path is tried again from there.
 
     Args:
-        search: Of the rows that count.
-        path: The path.
-        first_configurations: (R, n) configurations of its beginning, at least one, rad and m.
-        max_path_step: Largest step, a share of the path.
-        rng: For the spreading.
+        search: Search with the rows that must be met.
+        path: Tool path.
+        first_configurations: (R, n) configurations of the first pose, at least one, rad and m.
+        max_path_step: Largest step, as a fraction of the path.
+        rng: Random number generator of the spreading.
     """
     copies = _COPIES_PER_CONFIGURATION if search.space.free.sum() > search.solver.rows.m else 0
     selected = _select_farthest_points(first_configurations, np.zeros(len(first_configurations)), _MAX_CONTINUED_CONFIGURATIONS)
@@ -158,7 +158,7 @@ def _compute_next_layer(
 ) -> tuple[FloatArray, IndexArray, FloatArray]:
     """Return configurations (K, n) of a pose one step from configurations (N, n), the source of each, and the costs so far.
 
-    With ``checks_middle``, the middle of each step must also be near the straight line: on another branch it is not.
+    With ``checks_middle``, the middle of each step must also be near the straight line, because on another branch it is not.
     """
     source = np.tile(np.arange(len(before)), 1 + copies)
     perturbed = before[source]
@@ -167,7 +167,7 @@ def _compute_next_layer(
     after, is_valid = _step_to_poses(search, perturbed, poses, before[source])
     source, after = source[is_valid], after[is_valid]
     total_costs = costs[source] + search.metric.measure_length(after - before[source])
-    selected = _select_farthest_points(after, total_costs, 2 * max_count)  # what is not kept anyway need not be proved clear
+    selected = _select_farthest_points(after, total_costs, 2 * max_count)  # only these need a collision check
     source, after, total_costs = source[selected], after[selected], total_costs[selected]
     is_near = np.ones(len(after), dtype=bool)
     if checks_middle:

@@ -1,4 +1,4 @@
-"""Inputs of a recovery: the goal, the rows that count, and the conditions under which the arm may start."""
+"""Inputs of a recovery: the goal, the rows that must be met, and the conditions under which the arm may start."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
 
-NARROWEST_CONE_RAD = 1e-4  # rad, of a cone that the tool's axis may be in
-LOCK_TOLERANCE = 1e-6  # rad and m: a joint this near to its angle is there
+NARROWEST_CONE_RAD = 1e-4  # smallest angle of a cone of the tool's axis, rad
+LOCK_TOLERANCE = 1e-6  # rad and m: a joint this close to its lock value counts as locked there
 
 
 @dataclass(frozen=True)
@@ -37,10 +37,10 @@ class RecoveryGoal:
     """Goal of the end effector or of the arm.
 
     Attributes:
-        description: For people.
-        poses: (G, 4, 4) of the end effector, any of which will do.
-        q: (n,) the configuration, if that itself is the goal; else None.
-        mismatched_locks: Joints locked elsewhere than in that configuration, or None.
+        description: Text for the user.
+        poses: (G, 4, 4) poses of the end effector, any of which meets the goal.
+        q: (n,) configuration, if it is the goal; else None.
+        mismatched_locks: Joints whose lock value differs from that configuration, or None.
     """
 
     description: str
@@ -57,10 +57,10 @@ def check_recovery_options(
     period: float,
     margin: float,
 ) -> None:
-    """Check the numbers of a recovery; counts come with the least value of each.
+    """Check the numbers of a recovery; ``counts`` contains the value and the smallest allowed value of each.
 
     Raises:
-        InputError: One of them is out of bounds.
+        InputError: A number is out of bounds.
     """
     for name, (number, minimum) in counts.items():
         if number < minimum:
@@ -72,16 +72,16 @@ def check_recovery_options(
     if not (np.isfinite(period) and period > 0):
         raise InputError(f"period is {period}; it must be above 0, in seconds")
     if not np.isfinite(margin):
-        raise InputError(f"margin is {margin}; it must be a finite number of metres")
+        raise InputError(f"margin is {margin}; it must be a finite number, m")
 
 
 class StartProblem(NamedTuple):
     """Reason why the arm may not start.
 
     Attributes:
-        outcome: What it means.
-        reason: A sentence.
-        certain: Whether that is proved; False where only a cover of the arm, or an assumption about it, is in the way.
+        outcome: Outcome of the recovery.
+        reason: Reason, one sentence.
+        certain: True if the reason is proved; False if only the collision model or an assumption about the arm is in the way.
     """
 
     outcome: RecoveryOutcome
@@ -101,7 +101,7 @@ def find_home(arm: Arm) -> tuple[FloatArray, str]:
 def choose_task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None, within: float | None) -> Task:
     """Return the task: the given one, else the pose, or the position in a plane or along a path without orientations.
 
-    Next to the tilt of a goal with ``within`` (rad) the position counts.
+    With ``within`` (rad), the rows are the position and the tilt of the tool.
     """
     if within is not None:
         return _choose_position_task(arm, task, path, within)
@@ -113,7 +113,7 @@ def choose_task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | 
 
 
 def _choose_position_task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None, within: float) -> Task:
-    """Return the position task that counts next to the tilt of a goal with ``within``.
+    """Return the position task that is combined with the tilt of a goal with ``within``.
 
     Raises:
         InputError: The angle is out of bounds, there is a tool path, or the task does not prescribe the whole position.
@@ -124,12 +124,12 @@ def _choose_position_task(arm: Arm, task: str | Task | Sequence[str] | None, pat
             "direction use task='pointing'"
         )
     if path is not None:
-        raise InputError("within is of a goal, and a tool path has rows of its own; leave out within or the path")
+        raise InputError("within needs a goal, and a tool path has its own rows; leave out within or the path")
     position = as_task(arm, "planar" if plane_normal(arm) is not None else "position")
     chosen = position if task is None else as_task(arm, task)
     if not np.allclose(position.rows @ chosen.rows.T @ chosen.rows, position.rows, atol=1e-9):
         raise InputError(
-            f"within keeps the whole position of the tool, and task '{chosen.name}' does not; leave out the task, or use "
+            f"within needs all position rows of the tool, and task '{chosen.name}' lacks some; leave out the task, or use "
             "pose, pointing or position"
         )
     return position
@@ -148,13 +148,13 @@ def parse_goal(
     """Return the goal for the failed arm, or None for the end of the path; with ``within`` (rad) always poses.
 
     Raises:
-        InputError: It cannot be read, is beyond the limits, or is not clear.
+        InputError: The goal cannot be read, is beyond the limits, or collides.
     """
     arm, free = degraded.arm, degraded.moves
     cone_text = "" if within is None else f", its z axis within {np.rad2deg(within):.4g} deg of the axis there"
     if goal is None:
         if path is None:
-            raise InputError("there is neither a goal nor a path; give goal='home', a pose, a configuration, or a path")
+            raise InputError("no goal and no path is given; give goal='home', a pose, a configuration, or a path")
         return None
     if isinstance(goal, str):
         if goal != "home" and goal not in arm.states:
@@ -165,7 +165,7 @@ def parse_goal(
         values = np.asarray(goal, dtype=np.float64)
         if values.ndim in (2, 3) and values.shape[-2:] == (4, 4) and values.size:
             if not np.isfinite(values).all():
-                raise InputError("goal holds NaN or infinity; give a pose of finite numbers")
+                raise InputError("goal contains NaN or infinity; give a pose of finite numbers")
             poses = check_poses(values.reshape(-1, 4, 4))
             text = "a pose of the end effector" if len(poses) == 1 else f"any of {len(poses)} poses of the end effector"
             return RecoveryGoal(text + cone_text, poses)
@@ -180,14 +180,14 @@ def parse_goal(
         raise InputError(f"goal: joint '{beyond[0]}' is outside its limits there; give a configuration within them")
     poses = arm.forward_kinematics(q)[None]
     if has_task or within is not None:
-        return RecoveryGoal(f"the end effector where it is at {text}{cone_text}", poses)
+        return RecoveryGoal(f"the end effector's pose at {text}{cone_text}", poses)
     if (
         clearance is not None
         and float(clearance.margin_left(q)) < margin
         and name_certain_contacts(clearance, q[None], margin)[0]
     ):
         raise InputError(
-            f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
+            f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a collision-free one, or no clearance"
         )
     joint_errors = np.abs(joint_space.joint_difference(arm, q, np.where(free, np.clip(q, degraded.lo, degraded.hi), q_start)))
     mismatched = np.flatnonzero(np.where(free, joint_errors > 0, joint_errors > LOCK_TOLERANCE))
@@ -206,11 +206,11 @@ def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRow
     """Describe the tool constraint that every configuration of a goal pose (4, 4) violates; empty if none is proved to be.
 
     Args:
-        constraints: What is kept, anchored.
-        rows: Of the goal; None: a configuration, which means its pose.
-        pose: Of the goal.
+        constraints: Anchored tool constraints.
+        rows: Rows of the goal. None: the goal is a configuration, which sets the whole pose.
+        pose: (4, 4) pose of the goal.
     """
-    fixes_position = fixes_orientation = True  # of a configuration
+    fixes_position = fixes_orientation = True  # for a configuration
     if rows is not None:
         linear, angular = (np.abs(rows.matrix[:, columns]).max(axis=1) > 0 for columns in (slice(3), slice(3, 6)))
         fixes_position = int(np.linalg.matrix_rank(rows.matrix[linear & ~angular])) == 3
@@ -224,14 +224,14 @@ def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRow
         )
         violation = applicable.trouble(pose[None])
         if violation:
-            return f"what is kept all the way is broken there: {violation} ({constraint})"
+            return f"the goal violates a constraint: {violation} ({constraint})"
     return ""
 
 
 def describe_doubtful_contact(clearance: Clearance, q: FloatArray, margin: float) -> str:
     """Report that a configuration (n,) may be collision-free although the bounding capsules are too close, and name the gap."""
     unknown = describe_unknown_shape(clearance) or f"exact distances ({clearance.exact_by}) do not decide it"
-    return f"it is not known whether the arm {clearance.too_close(margin, q)}: {unknown}; give its meshes or its real capsules"
+    return f"it is not known whether the arm {clearance.too_close(margin, q)}: {unknown}; give its meshes or actual capsules"
 
 
 def find_start_problem(
@@ -246,15 +246,15 @@ def find_start_problem(
     for joint_index in np.flatnonzero(~degraded.moves & (np.abs(q_start - lock_values) > LOCK_TOLERANCE)):
         return StartProblem(
             RecoveryOutcome.LOCK_MISMATCH,
-            f"{arm.joint_names[joint_index]} is said to be locked at {lock_values[joint_index]:.6g} and is at "
-            f"{q_start[joint_index]:.6g} {arm.joints[joint_index].unit}; give the angle at which it is, or leave the angle out",
+            f"{arm.joint_names[joint_index]} is given as locked at {lock_values[joint_index]:.6g} and is at "
+            f"{q_start[joint_index]:.6g} {arm.joints[joint_index].unit}; give the value at which it is, or leave the value out",
         )
     for joint, position in zip(degraded.limited.joints, q_start, strict=True):
         if not joint.lower <= position <= joint.upper:
             reduced = joint.name in degraded.ranges
             return StartProblem(
                 RecoveryOutcome.START_OUTSIDE_LIMITS,
-                f"{joint.name} is at {position:.6g} {joint.unit}, its limits are {'now ' * reduced}{joint.lower:.6g} to "
+                f"{joint.name} is at {position:.6g} {joint.unit}, and its limits are {'now ' * reduced}{joint.lower:.6g} to "
                 f"{joint.upper:.6g}; if it can move there, widen {'its range' if reduced else 'the limits of the arm'}",
             )
     if clearance is not None and clearance.pair_names and float(clearance.margin_left(q_start)) < margin:
@@ -265,14 +265,14 @@ def find_start_problem(
             )
         is_self_collision = int(clearance.closest_pair(q_start)) < len(clearance.pairs)
         advice = "or no clearance" if is_self_collision else "or move the object"
-        contact_text = f"the arm {clearance.too_close(margin, q_start)}, which is certain of {pair}"
-        return StartProblem(RecoveryOutcome.START_TOO_CLOSE, f"{contact_text}; give the arm's real capsules, {advice}")
+        contact_text = f"the arm {clearance.too_close(margin, q_start)}, which is certain for {pair}"
+        return StartProblem(RecoveryOutcome.START_TOO_CLOSE, f"{contact_text}; give the arm's actual capsules, {advice}")
     start_pose = arm.forward_kinematics(q_start[None])
     for constraint in constraints:
         violation = constraint.trouble(start_pose)
         if violation:
             return StartProblem(
                 RecoveryOutcome.START_VIOLATES_CONSTRAINTS,
-                f"the tool is {violation} where the arm is; what is kept is {constraint}",
+                f"the tool is {violation} at the start; the constraint is {constraint}",
             )
     return None

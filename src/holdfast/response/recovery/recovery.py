@@ -1,4 +1,4 @@
-"""The result of a recovery."""
+"""Result of a recovery."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ class RecoveryVerdict:
     """Feasibility of everything that was requested, and its justification.
 
     Attributes:
-        answer: ``is_solved``: a motion was found and verified by other code. ``proved infeasible``: none does it, up to
-            floating point. ``argued infeasible``: every configuration that the search found is blocked, or none was found,
-            which proves nothing. ``undecided``: the search was spent, or what it found was not verified.
-        why: The proof, what was searched, or at which level the search was spent; empty if solved.
-        kind: Of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a pose
-            of the path``, ``rows kept`` (all the way, which the goal itself breaks), ``disconnected`` (the goal from the
-            start, or the end of a tool path from its beginning); empty if there is none.
+        answer: ``solved``: a motion was found and verified by independent code. ``proved infeasible``: no motion meets the
+            request, up to floating point. ``argued infeasible``: every configuration that the search found is blocked, or none
+            was found, which proves nothing. ``undecided``: the search ended, or its result was not verified.
+        why: Proof, extent of the search, or stage at which the search ended; empty if solved.
+        kind: Kind of the proof: ``start``, ``limits`` (of a joint that the goal itself names), ``reach bound``, ``boxes``, ``a
+            pose of the path``, ``rows kept`` (a path constraint that the goal itself violates), ``disconnected`` (the goal
+            from the start, or the end of a tool path from its beginning); empty without a proof.
     """
 
     answer: Answer
@@ -53,7 +53,7 @@ class RecoveryVerdict:
 
     @property
     def is_solved(self) -> bool:
-        """True if the motion does everything that was requested, confirmed by independent code."""
+        """True if the motion meets everything that was requested, confirmed by independent code."""
         return self.answer == "solved"
 
     def __str__(self) -> str:
@@ -64,33 +64,33 @@ class RecoveryVerdict:
 class RecoveryOutcome(SentenceEnum):
     """Outcome of a recovery as one answer; rows of batches have a :class:`holdfast.Status`.
 
-    Only ``GOAL_REACHED`` is success: all that was asked for, nothing dropped.
+    Only ``GOAL_REACHED`` is success: the whole request is met, and nothing is relaxed.
     """
 
     GOAL_REACHED = 0, "the whole goal is met, within limits, locks and clearance"
     GOAL_REACHED_WITH_RELAXED_ROWS = (
         1,
-        "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
+        "the goal is NOT met as a whole; the motion leads to a configuration with relaxed rows",
     )
     PATH_UNFINISHED = 2, "the rest of the tool path is NOT finished; if a goal was given too, it is met"
     NO_ROUTE_FOUND = (
         3,
-        "configurations of the goal were found, but NO motion to any of them; this does not prove that there is none: give more"
+        "configurations of the goal were found, but NO motion to any of them; this does not prove that there is none; increase"
         " tries",
     )
     NOTHING_FOUND = (
         4,
-        "NO configuration of the goal was found, not even with rows given up; this does not prove that there is none: give more"
+        "NO configuration of the goal was found, not even with relaxed rows; this does not prove that there is none; increase"
         " starts",
     )
-    PROVED_UNREACHABLE = 5, "the goal is PROVED out of reach, and no configuration was found with rows given up"
+    PROVED_UNREACHABLE = 5, "the goal is PROVED unreachable, and no configuration was found with relaxed rows"
     START_OUTSIDE_LIMITS = 6, "no motion: the arm is outside its limits"
     START_TOO_CLOSE = (
         7,
-        "no motion: the arm, or what covers it, is already closer to itself or its cell than the clearance that must be kept",
+        "no motion: the arm, or its collision model, is already closer to itself or its cell than the required clearance",
     )
-    LOCK_MISMATCH = 8, "no motion: a joint is not where it is said to be locked"
-    START_VIOLATES_CONSTRAINTS = 9, "no motion: where the arm is breaks a row that must be kept all the way"
+    LOCK_MISMATCH = 8, "no motion: a joint does not have the value at which it is given as locked"
+    START_VIOLATES_CONSTRAINTS = 9, "no motion: the start violates a constraint that holds along the whole motion"
     PROVED_DISCONNECTED = 10, "configurations of the goal exist, and NO motion leads to any of them, which is PROVED"
 
     @property
@@ -99,25 +99,25 @@ class RecoveryOutcome(SentenceEnum):
         return self.name.lower().replace("_", " ")
 
 
-_NO_CERTIFICATE_REASONS = {  # why a proof has no certificate, by its kind
-    "": "nothing is proved to be out of reach",
-    "start": "the proof is about where the arm is, which its file and its limits tell",
-    "limits": "the goal names joints beyond what is left of their limits, which needs no proof",
-    "rows kept": "the goal breaks what must be kept all the way, and certificates are about where the tool can be",
-    "disconnected": "the proof is about a way between configurations, and certificates are about where the tool can be",
+_NO_CERTIFICATE_REASONS = {  # reason why a proof has no certificate, by its kind
+    "": "nothing is proved to be unreachable",
+    "start": "the proof is about the start, which follows from the arm's configuration and limits",
+    "limits": "the goal names joints beyond their remaining limits, which needs no proof",
+    "rows kept": "the goal violates a constraint of the motion, and certificates are about tool poses",
+    "disconnected": "the proof is about motions between configurations, and certificates are about tool poses",
 }
 
 
 @dataclass(frozen=True, kw_only=True)
 class Leg:
-    """A part of the motion.
+    """Part of the motion.
 
     Attributes:
         name: ``to the path``, ``along the path`` or ``to the goal``.
-        first, last: Of its waypoints.
-        length: Of the metric.
-        lower_bound: No route to any of the configurations found of its goal is shorter; more configurations may exist.
-        straight: It is one straight line in joint space.
+        first, last: Indices of its first and last waypoint.
+        length: Length in the metric of the recovery, rad or s.
+        lower_bound: Lower bound on the length of routes to the configurations found of its goal; there may be more of them.
+        straight: True if the leg is one straight line in joint space.
     """
 
     name: str
@@ -130,45 +130,45 @@ class Leg:
 
 @dataclass(frozen=True, kw_only=True)
 class Recovery(Result):
-    """Remaining capabilities of an arm with joints known to be locked; see :func:`holdfast.recover`.
+    """Motion and remaining capabilities of an arm with joints known to be locked; see :func:`holdfast.recover`.
 
     Attributes:
-        degraded: What is left of the arm: each locked joint with its value, reduced ranges and speeds.
-        at: (n,) where the arm is, rad and m.
-        goal: What was asked for, for people.
-        goal_pose: (4, 4) of the end effector, m, world: of several the one that the motion leads to, else the first; None if
-            only a tool path was asked for.
-        task: Whose rows the end effector must meet.
-        within: Angle in rad by which the tool's z axis may be off that of the goal's pose, any turn about it allowed; None: the
-            orientation counts as in ``task``.
-        ending: :class:`holdfast.response.recovery.RecoveryOutcome`.
-        reason: What is in the way, a sentence; empty if nothing is.
-        q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
-        timed: The same motion within accelerations, its corners rounded; None if none were given, or if there is no motion.
-        legs: The parts of the motion, in order.
-        relaxed: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
-        choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
-        unknown: What is not known of the arm's shape, a sentence, where only a cover or an assumption is in the way of what was
-            asked for; empty if nothing depends on that.
-        proof: Why not everything that was asked for can be done, if that is proved; else None.
-        proof_kind: Of the proof; see :class:`holdfast.response.recovery.RecoveryVerdict`.
-        proved_pose: (4, 4) of the end effector, m, world: the pose of the tool path that is proved to have no configuration.
-        closed_in: ``start`` or ``goal`` if what was searched from there along the rows kept could not grow any more.
-        stopped: At which level the time limit was spent; empty if it was not.
-        verified: What other code finds of the motion; None if there is none.
-        left: What is left of the workspace, if asked for.
-        rest: What became of the tool path, if one was given.
+        degraded: Failed arm: each locked joint with its value, reduced ranges and speeds.
+        at: (n,) start configuration, rad and m.
+        goal: Goal as text.
+        goal_pose: (4, 4) pose of the end effector in the world, m; of several poses the one to which the motion leads, else the
+            first. None if only a tool path was requested.
+        task: Task whose rows the end effector must meet.
+        within: Angle in rad by which the tool's z axis may deviate from that of the goal's pose, with any rotation about it.
+            None: the orientation rows of ``task`` apply.
+        ending: Outcome, a :class:`holdfast.response.recovery.RecoveryOutcome`.
+        reason: Obstacle to the goal, one sentence; empty if there is none.
+        q: (K, n) waypoints, rad and m, with straight lines in joint space between them; (0, n) if there is no motion.
+        timed: Timed motion within acceleration limits, with rounded corners; None without limits or without a motion.
+        legs: Parts of the motion, in order.
+        relaxed: Rows of the goal that the motion does not meet, with their errors; None if it meets all rows.
+        choices: All minimal sets of rows that were found to relax, best first; empty if the goal is met.
+        unknown: Unknown property of the arm's shape, one sentence, if only the collision model or an assumption prevents the
+            requested motion; empty if nothing depends on it.
+        proof: Proof that the request is infeasible, one sentence; else None.
+        proof_kind: Kind of the proof; see :class:`holdfast.response.recovery.RecoveryVerdict`.
+        proved_pose: (4, 4) pose of the tool path in the world, m, that is proved to have no configuration.
+        closed_in: ``start`` or ``goal`` if the search along the constraint exhausted everything connected to this end.
+        stopped: Stage at which the time limit ended the search; empty if it did not.
+        verified: Independent verification of the motion; None without a motion.
+        left: Remaining workspace, if requested.
+        rest: Result along the tool path, if one was given.
         starts: Random starts of the search for configurations of the goal.
-        found: Configurations of the goal that were found and are clear.
+        found: Number of collision-free configurations of the goal that were found.
         metric: ``travel`` or ``time``.
-        unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
-        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None. With a cell it is
-            the bound, or where that leaves less exact distances.
-        margin: m.
-        keep: What is kept along the whole motion.
-        tolerance: m and rad by which the goal or the tool path may be missed, if that was said.
-        proved_within: The proof holds, too, for all that misses the goal or the tool path by no more.
-        seed: The same seed gives the same result.
+        unit: Unit of lengths: ``rad`` (1 m of a prismatic joint counts as 1 rad) or ``s``.
+        clearance: Collision model that kept at least ``margin`` to the arm itself and its cell, or None. With a cell it uses
+            lower bounds of distances, or exact distances where the bounds find no motion.
+        margin: Smallest clearance, m.
+        keep: Tool constraints along the whole motion.
+        tolerance: Allowed errors of the goal or the tool path, m and rad, if given.
+        proved_within: True if the proof also holds for everything that misses the goal or the tool path by ``tolerance``.
+        seed: Seed of the search; the same seed gives the same result.
     """
 
     degraded: Degraded
@@ -230,7 +230,7 @@ class Recovery(Result):
         if self.ending == RecoveryOutcome.GOAL_REACHED:
             if self.verified is None or self.verified.ok:
                 return RecoveryVerdict("solved")
-            return RecoveryVerdict("undecided", f"a motion was found, and {self.verified}; please report this")
+            return RecoveryVerdict("undecided", f"a motion was found, but {self.verified}; please report this")
         if self.proof_kind and self.proof_kind != "start":
             return RecoveryVerdict("proved infeasible", f"{self.proof or ''}{self._tolerance_text}", self.proof_kind)
         if self.proof_kind == "start":
@@ -241,12 +241,12 @@ class Recovery(Result):
             missing_end = "the goal" if self.closed_in == "start" else "the start"
             return RecoveryVerdict(
                 "argued infeasible",
-                f"searched along the rows kept, what the {self.closed_in} is joined to grows no more, without {missing_end}",
+                f"the search along the constraint exhausted all that is connected to the {self.closed_in}, not {missing_end}",
             )
         if self.stopped:
-            return RecoveryVerdict("undecided", f"the time limit was spent {self.stopped}")
+            return RecoveryVerdict("undecided", f"the time limit ended the search {self.stopped}")
         if self.ending == RecoveryOutcome.NO_ROUTE_FOUND or (self.rest is not None and self.rest.cut_off):
-            return RecoveryVerdict("undecided", "configurations were found, and the searches for a motion to them are spent")
+            return RecoveryVerdict("undecided", "configurations were found, but all searches for a motion to them failed")
         if self.rest is not None and not self.rest.finished:
             return RecoveryVerdict("argued infeasible", self.rest.why)
         return RecoveryVerdict("argued infeasible", self.reason)
@@ -257,10 +257,10 @@ class Recovery(Result):
         if self.tolerance is None:
             return ""
         tolerance_values = f"{1e3 * self.tolerance[0]:.4g} mm and {np.rad2deg(self.tolerance[1]):.4g} deg"
-        return f"; {'so is' if self.proved_within else 'not proved of'} what misses it by {tolerance_values}"
+        return f"; {'this also holds' if self.proved_within else 'not proved'} for misses of up to {tolerance_values}"
 
     def require_ok(self) -> Recovery:
-        """Return the recovery, or raise :class:`holdfast.HoldfastError` with the reason if anything was dropped."""
+        """Return the recovery, or raise :class:`holdfast.HoldfastError` with the reason if the request is not met."""
         if not self.ok:
             raise HoldfastError(f"recovery: {self.ending.sentence}{f' ({self.reason})' if self.reason else ''}")
         return self
@@ -278,14 +278,14 @@ class Recovery(Result):
     def certificate(self, *, time_limit: float | None = 60.0) -> Refutation:
         """Return the proof that the goal has no configuration, as a certificate for the verifier: ``.write(file)``.
 
-        It is searched for anew, with the joints that are locked at equal limits. Proofs about boxes of joints and about the
-        arm's length have one, of a goal and of a pose of a tool path; others say why they have none.
+        The proof is searched again, with equal limits for locked joints. Proofs about boxes of joints and about the arm's
+        length have a certificate, for a goal or a pose of a tool path; for others the error states why there is none.
 
         Args:
-            time_limit: s.
+            time_limit: Time limit of the search, s.
 
         Raises:
-            InputError: A proof of another kind, or none, a goal of several poses, or nothing proved of the arm alone.
+            InputError: There is no proof or one of another kind, the goal has several poses, or the proof needs the objects.
         """
         from holdfast.response.recovery.proofs.refuted_poses import certify_unreachable_pose
 
@@ -295,11 +295,13 @@ class Recovery(Result):
                 f"there is no certificate: {_NO_CERTIFICATE_REASONS.get(self.proof_kind, _NO_CERTIFICATE_REASONS['rows kept'])}"
             )
         if self.proof_kind != "a pose of the path" and self.goal.startswith("any of"):
-            raise InputError("a certificate is about one pose, and the goal is several; ask for each of them")
+            raise InputError("a certificate is about one pose, and the goal has several; request each of them alone")
         return certify_unreachable_pose(self.degraded, self.task, pose, time_limit)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the waypoints, or the timed motion; see :func:`holdfast.response.recovery.read_waypoints`.
+        """Write the waypoints, or the timed motion, to the CSV file ``file``, and return its path.
+
+        :func:`holdfast.response.recovery.read_waypoints` reads the file.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.

@@ -11,18 +11,18 @@ from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 
-_BATCH_SAMPLES = 48  # samples a round
+_BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
-_MAX_NODES = 12_000  # of both trees together
+_MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
-_NODE_SPACING_STEPS = 5  # pieces of a walk from one node to the next
-_SHORTCUTS_PER_ROUND = 64  # shortcuts tried a round
-_SHORTCUT_WALKS = 24  # the same where rows are kept exactly
-_STAGNANT_ROUNDS = 20  # rounds of a tree in which hardly a walk leads to where it is not yet: it fills all that it can get to
-_NEW_REGION_FRACTION = 0.2  # of the reach, how far from every node of its tree a walk must lead to count
-_MAX_NEW_REGION_WALKS = 4  # walks that do so in these rounds, of 960
+_NODE_SPACING_STEPS = 5  # pieces of an extension from one node to the next
+_SHORTCUTS_PER_ROUND = 64  # shortcuts tried per round
+_SHORTCUT_WALKS = 24  # the same if constraints hold exactly
+_STAGNANT_ROUNDS = 20  # rounds in which hardly any extension reaches a new region, after which a tree is exhausted
+_NEW_REGION_FRACTION = 0.2  # of the reach: distance from every node of its tree at which an end is in a new region
+_MAX_NEW_REGION_WALKS = 4  # extensions to new regions in these rounds, of 960
 _MAX_GOAL_SEARCHES = 8  # goals that are searched for one by one
-_MAX_IDLE_ROUNDS = 8  # rounds without a gain before the way counts as short
+_MAX_IDLE_ROUNDS = 8  # rounds without improvement before the path counts as short
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class Route:
 
     Attributes:
         q: (K, n) waypoints, rad and m.
-        length: Of the metric, its unit ``s`` or ``rad``.
-        lower_bound: No route to any of the goals is shorter: the straight line to the nearest of them.
-        goal: Which goal it leads to.
-        straight: It is one straight line.
+        length: Length in the metric, in its unit ``s`` or ``rad``.
+        lower_bound: Lower bound on the length of any route to a goal: the straight line to the nearest one.
+        goal: Index of the goal at its end.
+        straight: True if the route is one straight line.
     """
 
     q: FloatArray
@@ -56,11 +56,11 @@ def find_route(
 ) -> Route | None:
     """Return the shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be valid.
 
-    Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by trees
-    that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and what is found is cut
-    short. Where rows are kept, every line is a walk along them (:meth:`FreeSpace.extend_paths`), as in CBiRRT (Berenson,
-    Srinivasa, Ferguson and Kuffner 2009). If none is found because one of the trees fills all that it can get to, twice,
-    :attr:`FreeSpace.closed_in` says which. No more is tried once ``max_failures`` searches found nothing, if that is said.
+    Straight lines to all goals are tried first. Goals that could be nearer than the nearest one with a free line are then
+    searched by trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
+    the results are shortened. With constraints, every line is an extension along them (:meth:`FreeSpace.extend_paths`), as in
+    CBiRRT (Berenson, Srinivasa, Ferguson and Kuffner 2009). If a tree is exhausted twice without a route,
+    :attr:`FreeSpace.closed_in` is its end. The search stops after ``max_failures`` failed searches, if given.
     """
     goals = start + space.shortest_difference(goals, start)
     direct_lengths = metric.measure_length(goals - start)
@@ -83,7 +83,7 @@ def find_route(
         length = np.inf if best_route is None else best_route.length
         closer_goals = np.flatnonzero(direct_lengths < length * (1 - 1e-9))
         if not closer_goals.size or space.is_time_over or (best_route is not None and space.manifold is not None):
-            break  # along rows that are kept a search takes long, and the bound hardly tells how much shorter a way could be
+            break  # along constraints a search takes long, and the bound hardly limits the possible improvement
         if space.manifold is None and failure_count == max_failures:
             break
         connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
@@ -110,7 +110,7 @@ def find_reachable_goals(
     is_reached = space.extend_paths(metric, np.repeat(start[None], len(goals), axis=0), goals - start)[1]
     for _ in range(_MAX_GOAL_SEARCHES):
         is_new = is_reached.copy()
-        while is_new.any() and not is_reached.all():  # what can be got to from what was just found
+        while is_new.any() and not is_reached.all():  # goals that are reachable from those just found
             unreached = np.flatnonzero(~is_reached)
             nearest = metric.measure_length(goals[unreached, None] - goals[is_new][None]).argmin(axis=1)
             sources = goals[is_new][nearest]
@@ -251,20 +251,20 @@ def _join_branches(
 ) -> tuple[FloatArray, int]:
     (start_branch, _) = start_tree.trace_to_root(meeting_nodes[0])
     (goal_branch, root) = goal_tree.trace_to_root(meeting_nodes[1])
-    # The trees may meet a turn apart: the rest of the way is moved by whole turns.
+    # The trees may meet a full revolution apart: the rest of the path is shifted by full revolutions.
     shift = start_branch[0] + space.shortest_difference(goal_branch[0], start_branch[0]) - goal_branch[0]
     return np.concatenate([start_branch[::-1], goal_branch + shift]), root
 
 
 def shorten_path(space: FreeSpace, metric: JointMetric, q: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """Shorten the path q (K, n) by straight segments between random points of it, until that no longer helps."""
+    """Shorten the path q (K, n) by straight segments between random points of it, until this no longer helps."""
     if space.manifold is not None and space.manifold.has_equalities:
         return _remove_waypoints(space, _shorten_on_constraints(space, metric, q, rng))
     idle_rounds = 0
     while len(q) > 2 and idle_rounds < _MAX_IDLE_ROUNDS and not space.is_time_over:
         lengths = metric.cumulative_length(q)
         ends = np.sort(rng.uniform(0, lengths[-1], (_SHORTCUTS_PER_ROUND, 2)), axis=1)
-        # Some whole pieces too: from waypoint to waypoint.
+        # Whole segments from waypoint to waypoint are tried as well.
         ends[: _SHORTCUTS_PER_ROUND // 4] = np.sort(rng.choice(lengths, (_SHORTCUTS_PER_ROUND // 4, 2)), axis=1)
         cut_starts, cut_ends = (np.stack([np.interp(cuts, lengths, column) for column in q.T], axis=1) for cuts in ends.T)
         gains = ends[:, 1] - ends[:, 0] - metric.measure_length(cut_ends - cut_starts)
@@ -303,7 +303,7 @@ def _shorten_on_constraints(space: FreeSpace, metric: JointMetric, q: FloatArray
 
 
 def _remove_waypoints(space: FreeSpace, q: FloatArray) -> FloatArray:
-    """Remove waypoints that no proof needs, because the path without one of them is not longer."""
+    """Remove waypoints that are not needed, where the path without one of them is proved free and not longer."""
     index = 1
     while index < len(q) - 1:
         if space.are_segments_valid(q[index - 1][None], q[index + 1][None])[0]:

@@ -1,4 +1,4 @@
-"""Find the remaining capabilities of an arm with a known locked joint, and a route to the goal."""
+"""Find a route to the goal, and the remaining capabilities, of an arm with known locked joints."""
 
 from __future__ import annotations
 
@@ -73,56 +73,56 @@ def recover(
 ) -> Recovery:
     """Find a route to the goal for an arm with known locked or degraded joints, and report what it can still do.
 
-    The goal is first looked for as a whole: configurations that meet every row, within the limits, with the locks exactly where
-    they are, and clear. The shortest motion found to any of them is returned. If none is found, sets of rows are given up,
-    as few as possible; the motion then ends where the others are met, and ``ending`` says so.
+    The goal is first searched as a whole: collision-free configurations that meet every row, within the limits and with the
+    locks exactly at their values. The shortest motion found to any of them is returned. If none is found, sets of rows are
+    relaxed, as few as possible. The motion then ends where the other rows are met, which ``ending`` states.
 
     Args:
-        arm: The arm.
+        arm: Healthy arm.
         locked: ``{joint: value}``, joints by name or index from 0, values in rad or m; ``{joint: None}``, or the joints alone,
-            for where ``at`` has them. Or a :class:`holdfast.Degraded`, which also has reduced ranges and speeds.
-        at: (n,) where the arm is, rad and m.
+            for their values in ``at``. Or a :class:`holdfast.Degraded`, which also has reduced ranges and speeds.
+        at: (n,) start configuration, rad and m.
         goal: (4, 4) pose of the end effector in the world, m, or (G, 4, 4), any of them; (n,) a configuration; the name of one
-            of ``arm.states`` (a built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of
-            an arm without a state of this name: all joints at 0, or at the limit nearest to it; None, with a path: where that
-            ends. A configuration means all its joints, unless a task is given: then it means the end effector's pose there.
-            Where a locked joint is elsewhere than a configuration asks, that joint is given up and the pose is aimed at.
-        within: Angle in rad by which the tool's z axis may be off that of the goal's pose, any turn about the axis allowed, in
-            place of the rows of orientation. A configuration then means its pose. Proofs hold for all orientations.
-        task: Rows of the end effector's pose that matter; if not given, the pose, or position for an arm that moves in a plane
-            or for a path without orientations.
-        path: The rest of a tool path, to be finished before going to the goal.
-        clearance: Kept between links; None: capsules of an assumed radius, but not for an arm that moves in a plane; True:
-            for that too; False: none.
-        cell: Objects around the arm, or their file; every motion is proved clear of them, whatever ``clearance`` says.
-        margin: m, smallest clearance; from an object beyond what the cell keeps from it.
-        keep: What the tool keeps along the whole motion: :func:`holdfast.kinematics.tool_constraints.upright`,
+            of ``arm.states`` (a built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file). ``"home"`` for
+            an arm without this state: all joints at 0, or at the limit nearest to 0. None, with a path: its end. A
+            configuration means all its joints, or the end effector's pose there if a task is given. If the lock of a joint
+            differs from the configuration, that joint is relaxed and the pose becomes the goal.
+        within: Angle in rad by which the tool's z axis may deviate from that of the goal's pose, with any rotation about the
+            axis, instead of the orientation rows. A configuration then means its pose. Proofs hold for all orientations.
+        task: Task whose rows the end effector's pose must meet. Default: the pose, or the position for a planar arm or for a
+            path without orientations.
+        path: Rest of a tool path, which is finished before the motion to the goal.
+        clearance: Self-collision model. None: capsules of an assumed radius, except for a planar arm; True: for a planar arm
+            as well; False: no check.
+        cell: Objects around the arm, or their file; every motion is proved collision-free, independently of ``clearance``.
+        margin: Smallest distance of the links, m; from an object, in addition to the margin that the cell states for it.
+        keep: Tool constraints along the whole motion: :func:`holdfast.kinematics.tool_constraints.upright`,
             :func:`holdfast.kinematics.tool_constraints.rail`, :func:`holdfast.kinematics.tool_constraints.plane`, a label of
             one (``"upright:10deg"``, see :func:`holdfast.kinematics.tool_constraints.by_label`), or several.
-        metric: Of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
-            velocity limits).
-        weights: (n,) of the joints in ``travel``; 1 if not given.
-        region: Of targets for what is left of the workspace; else poses of random configurations of the healthy arm.
-        samples: How many; 0: none.
+        metric: Metric of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at
+            the velocity limits).
+        weights: (n,) weights of the joints in ``travel``. Default: 1.
+        region: Targets for the estimate of the remaining workspace. Default: poses of random configurations of the healthy arm.
+        samples: Number of these targets; 0: no estimate.
         starts: Random starts of the search for configurations.
-        tries: Searches for a route where straight lines are blocked; once a quarter found none, a proof is looked for first.
-        time_limit: s after which nothing more is searched for; what is left of the workspace does not count. With one, the same
-            seed need not give the same result.
-        tolerance: m and rad by which each row of the goal or the tool path may be missed without harm. What is proved to be
-            impossible is then proved with that too if it can be, and ``proved_within`` says so; motions do not use it.
-        accelerations: Limits, rad/s^2 and m/s^2, within which the motion found is timed as ``timed`` of the result: a number, n
-            numbers, or one by joint. Its corners are rounded where that is proved to keep limits, rows and clearance; along a
-            tool path by at most half a millimetre and a quarter of a degree; elsewhere the arm stops there.
-        period: s between the rows of the timed motion.
-        seed: The same seed gives the same result.
+        tries: Searches for a route where straight lines are blocked. After a quarter of them failed, a proof is tried first.
+        time_limit: Time limit of the searches, s, without the estimate of the remaining workspace. With a limit, the same seed
+            need not give the same result.
+        tolerance: Allowed errors of each row of the goal or the tool path, m and rad. Infeasibility is then proved with these
+            errors as well if possible, which ``proved_within`` states; motions do not use them.
+        accelerations: Limits, rad/s^2 and m/s^2, for the timed motion ``timed`` of the result: a number, n numbers, or one by
+            joint. Corners are rounded where this is proved to respect limits, rows and clearance, along a tool path by at most
+            half a millimetre and a quarter of a degree; at other corners the arm stops.
+        period: Sampling period of the timed motion, s.
+        seed: Seed of the searches; the same seed gives the same result.
 
     Returns:
-        A :class:`holdfast.Recovery`; ``ok`` only if everything that was asked for is met, which other code has verified. Its
-        ``verdict`` says whether it can be done: solved, proved or argued infeasible, or undecided.
+        A :class:`holdfast.Recovery`. ``ok`` is True only if the whole request is met, verified by independent code. Its
+        ``verdict`` is solved, proved infeasible, argued infeasible, or undecided.
 
     Raises:
-        InputError: An invalid joint, angle, goal or number.
-        TaskError: An invalid task.
+        InputError: A joint, angle, goal or number is invalid.
+        TaskError: The task is invalid.
     """
     q, single = as_configurations(arm, at)
     if not single:
@@ -139,7 +139,7 @@ def recover(
     max_accelerations = None if accelerations is None else parse_acceleration_limits(arm, accelerations, free)
     clearance_model = chosen_clearance(arm, clearance, cell)
     if margin and clearance_model is None:
-        raise InputError("margin has nothing to keep: no clearance is looked at; give one")
+        raise InputError("margin has no effect, because collisions are not checked; give a clearance")
     length = JointMetric.for_arm(limited, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
     task_rows = choose_task(arm, task, path, within)
     solver = make_row_solver(arm, task_rows, within).with_limits(limited)
@@ -228,7 +228,7 @@ def _retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clea
     if _rank_recovery(exact_recovery) < _rank_recovery(recovery):
         return exact_recovery
     return replace(
-        recovery, reason=f"{recovery.reason}; nor is there more by exact distances ({exact_clearance.exact_by})".lstrip("; ")
+        recovery, reason=f"{recovery.reason}; exact distances ({exact_clearance.exact_by}) find no more".lstrip("; ")
     )
 
 

@@ -20,10 +20,10 @@ from holdfast.model.collision.clearance import Clearance
 
 MetricName = Literal["travel", "time"]
 
-# Possible motion in m between what could collide: what cannot be told clear at this is taken as blocked.
+# Possible motion in m between bodies that could collide: a segment that is still undecided at this size counts as blocked.
 MIN_RESOLVED_MOTION_M = 5e-4
-_MAX_EXTENSION_STEPS = 400  # pieces of one walk at most
-_MIN_PROGRESS_FRACTION = 0.1  # of a piece, by which it must come nearer to where it goes
+_MAX_EXTENSION_STEPS = 400  # largest number of pieces of one extension
+_MIN_PROGRESS_FRACTION = 0.1  # of a piece: smallest progress towards its end
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class JointMetric:
     """Length of a route through joint space.
 
     Attributes:
-        name: ``travel``: the Euclidean length of the joints' motion, each joint times its scale. ``time``: every straight
-            piece at the velocity limit of its slowest joint, accelerations left aside.
-        scale: (n,) of each joint: its weight (1 rad counts as 1 m), or 1 over its velocity limit.
+        name: ``travel``: Euclidean length of the joints' motion, each joint times its scale. ``time``: every straight piece at
+            the velocity limit of its slowest joint, without acceleration limits.
+        scale: (n,) scale of each joint: its weight (1 rad counts as 1 m), or 1 over its velocity limit.
     """
 
     name: MetricName
@@ -44,7 +44,7 @@ class JointMetric:
         """Return the metric of an arm whose healthy joints are ``free`` (n,).
 
         Raises:
-            InputError: An unknown name, weights that are not n positive numbers, or time without velocity limits.
+            InputError: The name is unknown, the weights are not n positive numbers, or ``time`` lacks velocity limits.
         """
         if name not in ("travel", "time"):
             raise InputError(f"metric '{name}' is not known; use 'travel' or 'time'")
@@ -85,15 +85,15 @@ class FreeSpace:
 
     Args:
         arm: The arm.
-        free: (n,) joints that move.
-        clearance: Whose room is kept at least at ``margin``, m; None: nothing is in the way but the limits.
-        margin: m.
-        around: (K, n) configurations that the box of samples must hold.
-        constraints: What is kept of the tool's pose, through the pose at the start.
+        free: (n,) mask of the joints that move.
+        clearance: Collision model that keeps at least ``margin``, m. None: only the limits restrict the motion.
+        margin: Smallest clearance, m.
+        around: (K, n) configurations that the box of samples must contain.
+        constraints: Tool constraints, anchored at the pose of the start.
 
     Attributes:
-        manifold: Where that is kept; None if nothing is.
-        closed_in: ``start`` or ``goal`` if what was searched from there could not grow; see :func:`find_route`.
+        manifold: Manifold of these constraints; None if there are none.
+        closed_in: ``start`` or ``goal`` if the search from this end was exhausted; see :func:`find_route`.
     """
 
     def __init__(
@@ -113,7 +113,7 @@ class FreeSpace:
         lower, upper = sampling_limits(arm)
         self.low = np.where(free, np.minimum(lower, around.min(axis=0)), around[0])
         self.high = np.where(free, np.maximum(upper, around.max(axis=0)), around[0])
-        # Joints that turn may wind beyond the box, no bound below depends on their values; slides may not.
+        # Revolute joints may rotate beyond the box, because no bound below depends on their values; prismatic joints may not.
         self._lower = np.where(arm.prismatic, self.low, arm.lower)
         self._upper = np.where(arm.prismatic, self.high, arm.upper)
         limits = np.where(free, self._lower, around[0]), np.where(free, self._upper, around[0])
@@ -150,11 +150,11 @@ class FreeSpace:
     def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where the straight segment from a to b (E, n) provably respects limits, constraints, and clearance.
 
-        With ``deviations`` (E, n) also everything whose joints are off it by no more, limits left aside.
+        With ``deviations`` (E, n) this also holds for configurations that deviate by at most these, apart from the limits.
 
-        Between two configurations at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
-        most that its distance can change on the way (:meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do are
-        halved, until it does or L is below half a millimetre: such a piece counts as blocked.
+        If a pair is d_1 and d_2 apart at two configurations, it is never closer than ``(d_1 + d_2 - L) / 2`` in between, where
+        L bounds the change of its distance along the segment (:meth:`Clearance.lipschitz_bounds`). Pieces for which this bound
+        does not suffice are bisected, until it does or L is below half a millimetre: such a piece counts as blocked.
         """
         is_valid: BoolArray = self.are_within_limits(a) & self.are_within_limits(b)
         if self.manifold is not None and is_valid.any():
@@ -197,8 +197,8 @@ class FreeSpace:
     ) -> tuple[list[FloatArray], BoolArray]:
         """Extend paths from start (N, n) towards ``start + directions`` as far as possible, and return which of them arrive.
 
-        A way is one straight piece, or nothing; where rows are kept it goes in pieces, each brought back to the rows, as long
-        as it comes nearer and is proved.
+        An extension is one straight segment, or nothing. With constraints it has several pieces, each projected to the
+        constraints, as long as each comes nearer to the end and is proved valid.
         """
         targets = start + directions
         if self.manifold is None:
@@ -250,7 +250,7 @@ class FreeSpace:
         return f"; in the way of the straight line: {pair}" if pair else ""
 
     def shortest_difference(self, a: FloatArray, b: FloatArray) -> FloatArray:
-        """Return ``a - b`` of the joints that move, the shorter way round for joints without limits."""
+        """Return ``a - b`` of the joints that move, in the shorter direction for joints without limits."""
         return np.where(self.free, joint_space.joint_difference(self.arm, a, b), 0.0)
 
     def sample(self, count: int, rng: np.random.Generator) -> FloatArray:

@@ -24,11 +24,11 @@ from holdfast.model.arm.task import Task
 
 Frame = Literal["base", "tool"]
 
-ROW_TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
+ROW_TOLERANCE = 1e-6  # tolerance of a row, m and rad; for an arm shorter than 1 m, lengths are scaled by its length
 _MAX_STEPS = 60
 TILT_ROW = "tilt of tool z"
-_UNLIMITED = 1e300  # rad and m, for a limit that is not there: a loop takes an infinite input for a missing one
-# Weight of a row that is given up while its error is made small: the kept rows yield to it by its square only.
+_UNLIMITED = 1e300  # stands for a missing limit, rad and m, because a loop treats an infinite input as missing
+# Weight of a relaxed row while its error is minimised: the other rows deviate by its square only.
 _RELAXED_ROW_WEIGHT = 1e-3
 
 
@@ -36,13 +36,13 @@ _RELAXED_ROW_WEIGHT = 1e-3
 class TaskRows:
     """Rows of a task, which can be relaxed one by one.
 
-    A full pose is the same six rows in any axes; here its position is along the world's axes and its orientation about the
-    tool's, where "the turn about the tool's z axis" is a row. Other tasks keep the axes they have.
+    A full pose has the same six rows in any axes. Here its position is along the world's axes and its orientation about the
+    tool's, so that "the rotation about the tool's z axis" is one row. Other tasks keep their axes.
 
     Attributes:
-        names: One per row, for people: ``x``, ``about tool z``.
-        matrix: (k, 6) orthonormal rows of the error (linear; angular), of every row but the tilt.
-        linear, angular: The axes of the two parts.
+        names: Name of each row, such as ``x`` or ``about tool z``.
+        matrix: (k, 6) orthonormal rows of the error (linear; angular), for every row except the tilt.
+        linear, angular: Axes of the two parts.
         within: Angle in rad between the tool's z axis and that of a pose up to which the last row, ``tilt of tool z``, is met.
             The error of that row is the angle beyond it, never below 0. None: there is no such row.
     """
@@ -101,7 +101,7 @@ def _log_jacobian(phi: SX) -> SX:
 def _tilt_excess_and_decrease(axis: SX, target_axis: SX, within: float) -> tuple[SX, SX]:
     """Return the angle between unit vectors (3,) beyond ``within`` (rad), and its decrease (1, 3) per angular velocity of axis.
 
-    Both are 0 inside the cone. The solver aims at a cone that is narrower by its tolerance, so that what it takes as met is
+    Both are 0 inside the cone. The solver uses a cone that is narrower by its tolerance, so that a row that it accepts is
     within the angle.
     """
     normal = ca.cross(axis, target_axis)
@@ -114,7 +114,7 @@ def _tilt_excess_and_decrease(axis: SX, target_axis: SX, within: float) -> tuple
 class _TaskRowKernels:
     """Rows of a task as compiled functions of one arm; limits and locks are among their inputs.
 
-    The Jacobian is the exact derivative of the error, also where rows that are given up leave a large one.
+    The Jacobian is the exact derivative of the error, even where relaxed rows have large errors.
     """
 
     def __init__(self, arm: Arm, rows: TaskRows) -> None:
@@ -155,7 +155,7 @@ class _TaskRowKernels:
             errors, jacobians = [inverse_rotation @ position_error], [inverse_rotation @ ca.horzcat(*columns)]
         if np.abs(rows.matrix[:, 3:]).max() > 0:
             orientation_error = pose_error(chain.position, chain.rotation, position, rotation)[3:]
-            # In the tool's axes the error is that of R' R_d, whose derivative is that of the other side.
+            # In the tool's axes the error is that of R' R_d, whose derivative is that of the other factor.
             error_jacobian = _log_jacobian(orientation_error) @ angular_jacobian
             if rows.angular == "tool":
                 orientation_error = inverse_rotation @ orientation_error
@@ -180,8 +180,8 @@ class RowSolver:
     """Damped least squares on weighted rows with some joints locked; one kernel serves all sets of rows, joints, and limits.
 
     Attributes:
-        arm: The arm, with the limits in force.
-        rows: The rows.
+        arm: Arm with the limits in force.
+        rows: Rows of the task.
     """
 
     def __init__(self, kernels: _TaskRowKernels, arm: Arm) -> None:

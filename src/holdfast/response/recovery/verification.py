@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from holdfast.response.recovery.task_rows import TaskRows
 
 
-WAYPOINT_TOLERANCE = 1e-5  # m of an arm of about 1 m, and rad
-PATH_TOLERANCE = 1e-3, np.deg2rad(0.5)  # m and rad: between the waypoints along a tool path
-_POINTS_PER_SEGMENT = 4  # places between two waypoints
+WAYPOINT_TOLERANCE = 1e-5  # tolerance at waypoints, m for an arm of about 1 m, and rad
+PATH_TOLERANCE = 1e-3, np.deg2rad(0.5)  # tolerance between the waypoints along a tool path, m and rad
+_POINTS_PER_SEGMENT = 4  # points between two waypoints
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,13 +33,13 @@ class Verification:
     """Result of the independent check of a motion.
 
     Attributes:
-        faults: What is wrong, a sentence each; none if all is well.
-        checked: Configurations, at most 2 mrad (and mm) of a joint apart.
-        exact_by: What said whether anything touches: the exact sign, or lower bounds of distances; empty if nobody looked.
-        goal_miss: Of the rows of the goal at the end of the motion, the largest error, m and rad; None without a goal.
-        path_miss: Of the rows along the tool path, the largest error between waypoints; None without one.
-        kept: Of each thing that is kept all the way, how far the tool point was off its line or plane, m, and how far it was
-            turned away from what is kept, rad, at most.
+        faults: Violations, one sentence each; empty if there are none.
+        checked: Number of configurations, at most 2 mrad (and mm) of a joint apart.
+        exact_by: Method of the collision check, exact sign or lower bounds of distances; empty if it was not checked.
+        goal_miss: Largest error of the rows of the goal at the end of the motion, m and rad; None without a goal.
+        path_miss: Largest error of the rows along the tool path between waypoints, m and rad; None without one.
+        kept: Largest errors of each constraint along the motion: distance of the tool point from its line or plane, m, and
+            angle from the constrained direction, rad.
     """
 
     faults: tuple[str, ...]
@@ -55,11 +55,11 @@ class Verification:
         return not self.faults
 
     def merge_timed(self, timed: Verification) -> Verification:
-        """Merge the verification of waypoints with that of the same motion with its timing."""
+        """Merge the verification of waypoints with ``timed``, that of the same motion with its timing."""
         misses = [miss for miss in (self.path_miss, timed.path_miss) if miss is not None]
         return replace(
             self,
-            faults=(*self.faults, *(f"as it is timed, {fault}" for fault in timed.faults)),
+            faults=(*self.faults, *(f"in the timed motion, {fault}" for fault in timed.faults)),
             checked=self.checked + timed.checked,
             path_miss=max(misses, default=None),
             kept=tuple(
@@ -70,10 +70,10 @@ class Verification:
 
     def __str__(self) -> str:
         if self.faults:
-            return "refused by other code: " + "; ".join(self.faults)
-        method_text = f", nothing touches by {self.exact_by}" if self.exact_by else ""
-        constraint_text = ", every row kept" * bool(self.kept)
-        return f"verified by other code in {self.checked:,} configurations{constraint_text}{method_text}"
+            return "rejected by the independent check: " + "; ".join(self.faults)
+        method_text = f", no collision by {self.exact_by}" if self.exact_by else ""
+        constraint_text = ", every constraint met" * bool(self.kept)
+        return f"verified by independent code in {self.checked:,} configurations{constraint_text}{method_text}"
 
 
 def verify_waypoints(
@@ -93,23 +93,23 @@ def verify_waypoints(
     """Check a motion through waypoints (K, n), straight in joint space, in steps of 2 mrad.
 
     Args:
-        degraded: What limits, locks and speeds are in force.
-        q_start: (n,) where the arm is.
-        q: (K, n) the waypoints.
-        rows: Of the tool's pose that count.
-        goals: (G, 4, 4) one of which must be met at the end.
-        goal_q: (n,) the configuration that must be met at the end.
-        path_samples: A tool path, the places (S,) on it, 0 to 1, and which waypoints are there.
-        constraints: What must be kept at every instant, through the pose at the start.
-        clearance: Of which the motion must keep clear.
-        margin: m.
-        timing_limits: Times (K,) of the waypoints, s, and the accelerations (n,) that may not be exceeded; None: as fast as
-            speeds allow, and exactly through every waypoint along a tool path.
+        degraded: Failed arm with limits, locks and speeds in force.
+        q_start: (n,) start configuration, rad and m.
+        q: (K, n) waypoints, rad and m.
+        rows: Rows of the tool pose that must be met.
+        goals: (G, 4, 4) poses, one of which must be met at the end.
+        goal_q: (n,) configuration that must be met at the end.
+        path_samples: Tool path, fractions (S,) of it, 0 to 1, and the slice of the waypoints at these fractions.
+        constraints: Tool constraints along the whole motion, anchored at the pose of the start.
+        clearance: Collision model.
+        margin: Smallest clearance, m.
+        timing_limits: Times (K,) of the waypoints, s, and the acceleration limits (n,). None: as fast as the speeds allow, and
+            exactly through every waypoint along a tool path.
     """
     arm, faults = degraded.arm, []
     length_scale = max(arm.length_unit, 1.0)
     if np.abs(q[0] - q_start).max() > 1e-6:
-        faults.append("the motion does not begin where the arm is")
+        faults.append("the motion does not begin at the start configuration")
     name, times = time_or_length_column(degraded.limited, q)
     replay = check_waypoints(
         arm,
@@ -120,12 +120,12 @@ def verify_waypoints(
         time=timing_limits[0] if timing_limits is not None else times if name == FIRST_COLUMNS[0] else None,
         accelerations=None if timing_limits is None else timing_limits[1],
     )
-    faults += [f"{name} leaves its limits by {miss:.3g}" for name, miss in replay.beyond_limits.items()]
+    faults += [f"{name} exceeds its limits by {miss:.3g}" for name, miss in replay.beyond_limits.items()]
     faults += [f"{name} is locked and moves by {miss:.3g}" for name, miss in replay.locks_moved.items()]
     if replay.least_room is not None and replay.least_room < margin:
-        faults.append(f"the room at {replay.closest} is {replay.least_room:.4g} m")
-    faults += [f"{joint} is faster than it can be" for joint in replay.too_fast]
-    faults += [f"{joint} accelerates by {peak:.4g}, more than it may" for joint, peak in replay.too_hard.items()]
+        faults.append(f"the clearance of {replay.closest} is {replay.least_room:.4g} m")
+    faults += [f"{joint} exceeds its velocity limit" for joint in replay.too_fast]
+    faults += [f"{joint} accelerates by {peak:.4g}, above its limit" for joint, peak in replay.too_hard.items()]
     poses = compute_tool_poses(arm, subdivide_path(q)) if constraints else np.zeros((0, 4, 4))
     faults += [
         f"the tool is {violation}" for violation in (constraint.trouble(poses) for constraint in constraints) if violation
@@ -136,9 +136,7 @@ def verify_waypoints(
             touching = int((~clearance.sign(subdivide_path(q))).sum())
             exact_by = "the exact sign"
             if touching:
-                faults.append(
-                    f"the arm touches something at {touching} of {replay.looked_at} configurations, by the exact sign"
-                )
+                faults.append(f"the arm collides at {touching} of {replay.looked_at} configurations, by the exact sign")
         except HoldfastError:  # no library for it is installed
             pass
     goal_miss = path_miss = None

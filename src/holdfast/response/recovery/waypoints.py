@@ -1,9 +1,9 @@
 """Waypoints as CSV files, and a check that replays them through kinematics, limits, and clearance.
 
-The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, accelerations left aside) or,
-for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a slide counted as 1 rad); the
-others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a straight line. Of a motion that is timed within
-accelerations (:class:`holdfast.response.recovery.TimedMotion`) the rates and accelerations follow.
+The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, without acceleration limits) or,
+for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a prismatic joint as 1 rad). The
+other columns are joints, ``joint1_rad`` or ``slide_m``, with straight lines between the rows. A motion that is timed within
+accelerations (:class:`holdfast.response.recovery.TimedMotion`) also has columns of rates and accelerations.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from holdfast.model.failure_modes import Degraded, Locked, degraded_at
 from holdfast.response.recovery.timing.limits import AccelerationsLike, parse_acceleration_limits
 
 FIRST_COLUMNS = ("time_s", "travel_rad")
-_MAX_JOINT_STEP = 2e-3  # rad and m between configurations looked at
+_MAX_JOINT_STEP = 2e-3  # rad and m between checked configurations
 _CHUNK_ROWS = 100_000
 
 
@@ -46,7 +46,7 @@ def time_or_length_column(arm: Arm, q: FloatArray) -> tuple[str, FloatArray]:
 
 
 def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
-    """Write waypoints (K, n), rad and m, with every digit.
+    """Write waypoints ``q`` (K, n) of an ``arm``, rad and m, with every digit to the CSV file ``path``, and return its path.
 
     Raises:
         StoreError: The file cannot be written.
@@ -56,16 +56,20 @@ def write_waypoints(arm: Arm, q: FloatArray, path: str | Path) -> Path:
 
 
 def read_waypoints(arm: Arm, path: str | Path) -> FloatArray:
-    """Read waypoints (K, n), rad and m, from a file of :func:`write_waypoints`; other columns are not needed.
+    """Read waypoints (K, n) of an ``arm``, rad and m, from the file ``path`` of :func:`write_waypoints`.
+
+    Columns other than those of the joints are not needed.
 
     Raises:
-        InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
+        InputError: The file cannot be read, or a column, line or number is missing or wrong; the message names it.
     """
     return _read_table(arm, path).select_columns(joint_columns(arm))
 
 
 def read_times(arm: Arm, path: str | Path) -> FloatArray | None:
-    """Read the times (K,) of such waypoints, s; None where the file has none.
+    """Read the times (K,) of waypoints of an ``arm``, s, from the file ``path`` of :func:`write_waypoints`.
+
+    The result is None if the file has no times.
 
     Raises:
         InputError: As for :func:`read_waypoints`.
@@ -92,20 +96,21 @@ class WaypointCheck(Result):
     """Result of replaying a motion through waypoints in small steps.
 
     Attributes:
-        q: (K, n) the waypoints, rad and m.
-        poses: (K, 4, 4) of the end effector at them, world, m.
-        looked_at: Configurations on the way that were looked at.
-        beyond_limits: Joints that leave their limits, by name, with the most by which they do, rad or m.
-        locks_moved: Locked joints that move, by name, with the farthest from their angle, rad or m.
-        least_clearance: m; None if the clearance was not looked at.
-        least_room: m, what is least left beyond the margins of the objects of a cell; None if that was not looked at.
-        closest: Names of the pair that attains it, ``panda_joint4 & table``; empty where there is none.
-        margin: m, that was asked for.
-        kept: By how much each thing that should be kept all the way is broken, a phrase; empty where it is not.
-        too_fast: Joints faster than they can be, by name, with their greatest mean speed between two waypoints, rad/s or m/s;
-            empty where no times were given.
-        too_hard: The same of mean accelerations over two pieces, rad/s^2 or m/s^2, from standstill to standstill.
-        paced: What of these was looked at: ``speeds``, ``speeds and accelerations``, or nothing.
+        q: (K, n) waypoints, rad and m.
+        poses: (K, 4, 4) poses of the end effector at the waypoints in the world, m.
+        looked_at: Number of configurations that were checked.
+        beyond_limits: Joints outside their limits, by name, with the largest excess, rad or m.
+        locks_moved: Locked joints that move, by name, with the largest distance from their lock value, rad or m.
+        least_clearance: Smallest distance, m; None if collisions were not checked.
+        least_room: Smallest distance beyond the margins of the objects of a cell, m; None if collisions were not checked.
+        closest: Names of the pair with ``least_room``, such as ``panda_joint4 & table``; empty without one.
+        margin: Requested clearance, m.
+        kept: Largest violation of each constraint along the motion, a phrase; empty where it is met.
+        too_fast: Joints above their velocity limits, by name, with their greatest mean speed between two waypoints, rad/s or
+            m/s; empty without times.
+        too_hard: Joints above their acceleration limits, by name, with their greatest mean acceleration over two segments,
+            rad/s^2 or m/s^2, from standstill to standstill.
+        paced: Checked limits: ``speeds``, ``speeds and accelerations``, or empty.
     """
 
     q: FloatArray
@@ -149,21 +154,22 @@ def check_waypoints(
     """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, with code that is independent of the planner.
 
     Args:
-        arm: The arm.
+        arm: Healthy arm.
         q: (K, n) waypoints, rad and m.
-        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it. Or a
-            :class:`holdfast.Degraded`, whose reduced ranges must be kept too.
-        clearance: Looked at if given.
-        cell: Objects around the arm, or their file; looked at if given. What the bound calls too close is asked exactly where a
-            library for that is installed.
-        margin: m that should be kept; from an object beyond what the cell keeps from it.
-        keep: What the tool should keep along the whole motion; see :func:`holdfast.recover`.
-        time: (K,) s, of each waypoint; then differences must keep the speeds that are left.
-        accelerations: Limits that second differences must keep, from standstill to standstill; see :func:`holdfast.recover`.
+        locked: ``{joint: value}``, rad or m, of the locked joints; None for the value in the first waypoint. Or a
+            :class:`holdfast.Degraded`, whose reduced ranges are checked too.
+        clearance: Self-collision model. None: self-collisions are not checked.
+        cell: Objects around the arm, or their file. None: no objects. Where the bound is below the margin, the check uses exact
+            distances if a library for them is installed.
+        margin: Required distance of the links, m; from an object, in addition to the margin that the cell states for it.
+        keep: Tool constraints along the whole motion; see :func:`holdfast.recover`.
+        time: (K,) time of each waypoint, s. With times, differences must respect the remaining velocity limits.
+        accelerations: Limits of second differences, from standstill to standstill, rad/s^2 and m/s^2; see
+            :func:`holdfast.recover`.
 
     Raises:
-        InputError: Invalid waypoints or times, an unknown joint, accelerations without times, or a cell that cannot be read or
-            does not fit.
+        InputError: Waypoints or times are invalid, a joint is unknown, accelerations are given without times, or the cell
+            cannot be read or does not fit the arm.
     """
     waypoints = np.atleast_2d(arm.check_configurations(q))
     if not len(waypoints) or not np.isfinite(waypoints).all():

@@ -1,4 +1,4 @@
-"""Remaining part of the workspace once joints are locked."""
+"""Estimate of the workspace that remains once joints are locked."""
 
 from __future__ import annotations
 
@@ -15,25 +15,26 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.task_rows import RowSolver
 
-STARTS_PER_TARGET = 48  # per target
+STARTS_PER_TARGET = 48  # random starts of inverse kinematics per target
 
 
 @dataclass(frozen=True, kw_only=True)
 class RemainingWorkspace(Result):
     """Fraction of targets that are still reached with joints locked.
 
-    A target counts as left if a configuration is found in ``starts`` random starts, so the share is a lower bound.
+    A target counts as reached if a configuration is found in ``starts`` random starts, so the fraction is a lower bound.
 
     Attributes:
-        left: Share of the targets that the healthy arm reaches, with its exact 95 % interval; None if it reaches none.
-        of_region: Share of all poses of the region that are left; None without a region.
-        healthy_of_region: The same of the healthy arm; None without a region.
-        region: What was sampled, for people.
-        degraded: What is locked, or has lost a part of its range.
-        rows: The rows of the target that count.
-        position: (N, 3) of the targets, m, world.
-        healthy: (N,) True where the healthy arm reaches them.
-        locked: (N,) True where the degraded arm does.
+        left: Fraction of the targets of the healthy arm that are still reached, with its Clopper-Pearson 95 % interval; None if
+            the healthy arm reaches none.
+        of_region: Fraction of all poses of the region that are still reached; None without a region.
+        healthy_of_region: Fraction of all poses of the region that the healthy arm reaches; None without a region.
+        region: Name of the sampled region.
+        degraded: Failed arm, with locks and reduced ranges.
+        rows: Names of the rows of the target that must be met.
+        position: (N, 3) positions of the targets in the world, m.
+        healthy: (N,) True where the healthy arm reaches the target.
+        locked: (N,) True where the failed arm reaches the target.
         starts: Random starts per target.
     """
 
@@ -61,13 +62,13 @@ def estimate_remaining_workspace(
     """Sample targets and count those that are still reached.
 
     Args:
-        solver: Of the rows that count, within the limits in force.
-        degraded: What is left of the arm.
-        clearance: Whose room is kept at least at ``margin``, if given.
-        margin: m.
-        region: Of targets; without one they are the poses of random configurations of the healthy arm.
-        samples: How many.
-        seed: Of the run.
+        solver: Solver of the rows that must be met, within the limits in force.
+        degraded: Failed arm.
+        clearance: Collision model that keeps at least ``margin``. None: collisions are not checked.
+        margin: Smallest clearance, m.
+        region: Region of the targets. None: poses of random configurations of the healthy arm.
+        samples: Number of targets.
+        seed: Seed of the random numbers.
     """
     arm, is_free = degraded.arm, degraded.moves
     failed_solver, solver = solver, solver.with_limits(arm)

@@ -46,8 +46,8 @@ class Controller:
 
     Args:
         law: Control law; the controller masks the braked joints.
-        bounds: Bounds of the monitor; None without a monitor.
-        brakes: Brakes of the joints, which the fault injector of the simulation has.
+        bounds: Detection thresholds of the monitor; None without a monitor.
+        brakes: Brakes of the joints, from the fault injector of the simulation.
         monitor: Fault monitor; None without one.
         react: Response, as for :func:`holdfast.simulate_faults`.
         plan: True if a route may be planned where the masked law would miss the target and no intermediate configuration helps.
@@ -191,7 +191,7 @@ class Controller:
         if isinstance(trial, OnTrial) and self._fails_trial(trial, time, motion_of(trial.joint)):
             self.trial.enter(NoTrial(), "joint not following")
             self._brake_and_wait(time, self.arm.joint_names[trial.joint], "it does not follow")
-            self._stop(time, "what is left does not reach the target")
+            self._stop(time, "the remaining joints do not reach the target")
             return
         if isinstance(supervision, Braked):
             self._resume_monitoring(supervision.joint, "arm settled")
@@ -206,7 +206,7 @@ class Controller:
             supervision = Alarmed(time)
             self.supervision.enter(supervision, "alarm raised")
             self.verdicts.append(verdict)
-            self._log_action(time, "alarm", "something is outside its bounds")
+            self._log_action(time, "alarm", "a signal exceeds its threshold")
             if self._react == "stop":
                 self._stop(time, "every joint, at the first alarm")
                 return
@@ -258,7 +258,7 @@ class Controller:
         if verdict.kind == "contact":
             if np.isinf(alarm.contact_end):
                 alarm.contact_end, self._pace.target = time + thresholds.CONTACT_END_S, thresholds.SLOW_PACE
-                self._log_action(time, "slow", "something pushes the arm, and no joint is to blame")
+                self._log_action(time, "slow", "an external force acts on the arm, and no joint is faulty")
         elif time > alarm.start_time + thresholds.NAMING_DEADLINE_S:
             self._stop(time, "the joint is not known")
 
@@ -269,7 +269,7 @@ class Controller:
             return
         remaining_torque = (1 - verdict.loss) * self.condition.max_efforts[self.arm.joint_index(joint)]  # may be NaN
         if remaining_torque < thresholds.GRAVITY_SAFETY_FACTOR * abs(gravity):
-            self._answer_with_brake(time, joint, "what its motor still gives does not carry the arm")
+            self._answer_with_brake(time, joint, "its remaining motor torque does not carry the arm")
         else:
             self._pace.target, alarm.slowed_joint = min(self._pace.allowed, thresholds.REDUCED_PACE), joint
             self._log_action(time, "slow", f"its fault: {verdict.kind}", joint=joint)
@@ -339,7 +339,7 @@ class Controller:
         if abs(sensor_error) > thresholds.SENSOR_TOLERANCE:
             self.condition.true_positions[wait.joint] = position  # a braked joint stays there
             factor, unit = self.arm.joints[wait.joint].display_unit
-            reason = f"by the tool's pose it is {factor * sensor_error:.3g} {unit} off what its sensor says"
+            reason = f"by the tool pose it is {factor * sensor_error:.3g} {unit} away from its sensor reading"
             self._log_action(time, "measure", reason, joint=self.arm.joint_names[wait.joint])
 
     # ---- replanning --------------------------------------------------------------------------------------------------
@@ -348,7 +348,7 @@ class Controller:
         """Plan the next motion and return rates of zero; without a plan the arm stops, or else follows the law to its end."""
         failures, clearance = self.degraded, self.law.clearance
         assert failures is not None
-        reason = obstacle = "the law would not get there" + ("" if clearance is None else f" clear of {clearance.others}")
+        reason = obstacle = "the law would miss the target" + ("" if clearance is None else f" or touch {clearance.others}")
         while law.attempts:
             attempt = law.attempts.pop(0)
             if attempt == "detour":
@@ -359,7 +359,7 @@ class Controller:
                 self.motion.enter(OnRoute(route, law), "motion planned")
                 self._pace.current = 0.0
                 motion_text = (
-                    "another posture first, which" if attempt == "detour" else f"a route of {route.waypoints} waypoints"
+                    "another configuration first, which" if attempt == "detour" else f"a route of {route.waypoints} waypoints"
                 )
                 self._log_action(time, attempt, f"{reason}; {motion_text} takes {route.duration:.3g} s")
                 return np.zeros(self.arm.n)
@@ -369,7 +369,7 @@ class Controller:
         return np.zeros(self.arm.n)
 
     def _plan_route(self, time: float, q: FloatArray, failures: Degraded) -> RouteFollower | str:
-        """Plan a route without the braked joints, else one with the braked joint, which may only have met a stop."""
+        """Plan a route without the braked joints, else one with the braked joint, which may only have reached a stop."""
         route = replanning.plan_target_route(self.law, q, failures, max_speeds=self.condition.max_speeds)
         braked = [int(joint) for joint in np.flatnonzero(self.law.mask == 0)]
         has_trusted_joint = len(braked) == 1 and braked[0] not in self.condition.true_positions
@@ -386,11 +386,11 @@ class Controller:
     def _release(self, time: float, trial: TrialRoute) -> None:
         """Release the brake of a joint for a slow route that moves the joint too."""
         joint, supervision = self.arm.joint_names[trial.joint], self.supervision.state
-        if isinstance(supervision, Braked) and supervision.joint == joint:  # else an older verdict would brake it again
+        if isinstance(supervision, Braked) and supervision.joint == joint:  # otherwise an older verdict would brake it again
             self._resume_monitoring(joint, "arm settled")
         self.trial.enter(OnTrial(trial.joint, verdict_time=time), "brake released")
         self.law.mask[trial.joint] = 1.0
         self._pace.target = self._pace.allowed = thresholds.TRIAL_PACE
         self.condition.lower[trial.joint], self.condition.upper[trial.joint] = trial.lower, trial.upper
         self._brakes.release(joint)
-        self._log_action(time, "release", "there is no route without it; slowly, as far as it follows", joint=joint)
+        self._log_action(time, "release", "no route exists without it; the arm moves as slowly as it follows", joint=joint)

@@ -31,7 +31,7 @@ from holdfast.response.diagnosis.sensors import Sensors
 from holdfast.response.supervisor import masked_law, thresholds
 from holdfast.response.supervisor.condition import calibrated_speeds
 
-REFERENCE_LEAK_PER_S = 1.0  # 1/s: servos of rates do not hold a place, so the reference forgets where it began
+REFERENCE_LEAK_PER_S = 1.0  # 1/s: rate servos do not hold a position, so the reference forgets its start value
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,13 +39,13 @@ class ExportedController(Result):
     """Files of an exported controller.
 
     Attributes:
-        law: Its law.
-        header: ``NAME.hpp``, with the class ``NAME::TolerantController``.
-        source: ``NAME.cpp``.
-        law_header: ``NAME_law.h``.
-        law_source: ``NAME_law.c``: the law without the joints that no longer follow.
-        example: ``NAME_example.cpp``, a loop by the clock around an arm without dynamics.
-        monitor: Its monitor's files.
+        law: Exported control law.
+        header: Path of ``NAME.hpp``, with the class ``NAME::TolerantController``.
+        source: Path of ``NAME.cpp``.
+        law_header: Path of ``NAME_law.h``.
+        law_source: Path of ``NAME_law.c``, the law without the joints that no longer follow.
+        example: Path of ``NAME_example.cpp``, a real-time loop with an arm without dynamics.
+        monitor: Files of the monitor.
     """
 
     law: Law
@@ -61,40 +61,40 @@ class ExportedController(Result):
         return iter((*own, *self.monitor))
 
     def describe(self) -> list[str]:
-        """Return the list of written files in sentences."""
+        """Return the written files in sentences."""
         header, *files = self
         names = ", ".join(file.name for file in files)
         return [f"controller of {self.law.arm.title}, {self.law.phrase()}: wrote {header} and {names}"]
 
     def to_dict(self) -> dict[str, Any]:
-        """The arm, the law, the monitor's digest and the files."""
+        """Return the arm, the law, the monitor's digest and the files."""
         known = {"law": self.law.slug, "task": self.law.task.name, "digest": self.monitor.digest}
         return {**self.law.arm.entry(), **known, "files": [str(file) for file in self]}
 
 
 @check_arguments
-@reports_progress("writing down the controller")
+@reports_progress("exporting the controller")
 def export_controller(
     law: Law, bounds: Bounds, folder: str | Path, *, name: str = "controller", sensors: Sensors | None = None
 ) -> ExportedController:
     """Write a C++17 controller that moves the tool by a twist, monitors the joints, and continues with the remaining joints.
 
-    Its life cycle is that of a chainable controller of ROS 2, and it needs nothing of it. It
-    reacts as :func:`holdfast.simulate_faults` does with ``react="chain"``, but knows no target, hence no other posture and no
-    route: it brakes a joint and leaves it out of the law, slows down, or stops. Joints are commanded rates. It is no certified
-    safety function.
+    Its life cycle is that of a chainable controller of ROS 2, which it does not need. It responds as
+    :func:`holdfast.simulate_faults` does with ``react="chain"``, but has no target and therefore neither intermediate
+    configurations nor routes: it brakes a joint and excludes it from the law, slows down, or stops. Joints are commanded rates.
+    It is not a certified safety function.
 
     Args:
-        law: For the healthy arm.
-        bounds: Of the healthy arm; the rate of its records is that of the loop.
-        folder: For the files, made if it is not there.
-        name: Of the namespace and the files.
-        sensors: How good they are.
+        law: Control law of the healthy arm.
+        bounds: Detection thresholds of the healthy arm; their rate is that of the loop.
+        folder: Output folder, created if necessary.
+        name: Name of the namespace, and base name of the files.
+        sensors: Accuracy of the sensors. Default: ``Sensors()``.
 
     Raises:
-        InputError: Bounds of another arm, or a name that no C function can have.
-        ArmError: The bounds have torques, and the arm's inertial data are missing or impossible.
-        StoreError: They cannot be written.
+        InputError: The thresholds are of another arm, or the name is not a valid C identifier.
+        ArmError: The thresholds include torques, and the arm's inertial data are missing or impossible.
+        StoreError: A file cannot be written.
 
     Source: derived here; braking turns a free-swinging joint into a locked one, English and Maciejewski 2001.
     """
@@ -176,8 +176,8 @@ def _cpp_list(values: ArrayLike) -> str:
 def _header_comment(law: Law, bounds: Bounds, name: str) -> str:
     lines = [
         f"{name}: moves the arm {law.arm.title} by {law.phrase()},",
-        f"and goes on without a joint that fails; {bounds.rate:g} cycles a second.",
-        f"Made by holdfast {holdfast_version()} of the arm {law.arm.fingerprint}.",
+        f"and continues without a joint that fails; {bounds.rate:g} cycles a second.",
+        f"Made by holdfast {holdfast_version()} from the arm {law.arm.fingerprint}.",
         "",
         "No alarm does not mean that nothing is wrong. THIS IS NO CERTIFIED SAFETY FUNCTION.",
         "Compile without -ffast-math.",

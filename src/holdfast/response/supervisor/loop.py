@@ -60,32 +60,31 @@ def simulate_faults(
     time_limit: float = DEFAULT_TIME_LIMIT_S,
     seed: int = 0,
 ) -> FaultRun:
-    """Simulate one closed-loop run in MuJoCo in which joints fail and are detected, and the task continues (needs
-    ``holdfast-arms[physics]``).
+    """Simulate a run in MuJoCo in which joints fail and the task continues (needs ``holdfast-arms[physics]``).
 
-    In every control cycle the law reads the joint sensors. Its rates, kept within the joint limits, the velocity limits and
-    10 rad/s^2, go to the servos, whose torques move a body that differs from the arm's model. Faults begin and end as the
-    fault model says. A monitor reads what a robot would measure: joint sensors, references, commanded torques, and the tool
-    pose 100 times a second. With ``react="chain"`` the controller responds to the monitor:
+    In every control cycle the law reads the joint sensors. Its rates, limited by the joint limits, the velocity limits and
+    10 rad/s^2, are commanded to the servos, whose torques move a body that differs from the arm's model. Faults begin and end
+    as the fault model states. A monitor reads the signals of a robot: joint sensors, references, commanded torques, and the
+    tool pose 100 times a second. With ``react="chain"`` the controller responds to the monitor:
 
     * A joint that does not move while its reference does, or that runs away, is braked 20 ms after the alarm and excluded from
       the law. So is a joint that is locked, free-swinging, has a faulty sensor, or has a fault of an unknown kind. The arm then
-      waits for 0.05 s, and for 0.1 s more if the tool pose is measured, which shows whether the joint is where its sensor says.
-    * With a weak motor or more friction the arm continues at half the speed. A joint whose motor cannot carry 1.2 times the
-      weight of the arm is braked.
+      waits for 0.05 s, and for 0.1 s more if the tool pose is measured, which shows whether the joint sensor can be trusted.
+    * With a partial torque loss or more friction the arm continues at half the speed. A joint whose motor cannot carry 1.2
+      times the weight of the arm is braked.
     * During a contact the arm continues at 0.3 of the speed, and after 1 s as before.
     * After each brake the remaining law is simulated forward. If it would miss the target, or has stopped short of it, the arm
-      first moves to another configuration from which the law converges: all joints nearer to the middle of their ranges, or
-      one of them turned over. If there is none, :func:`holdfast.recover` plans a route. Neither takes simulated time. If there
-      is no route, but one with the braked joint, the brake is released, once, and the arm follows that route as slowly as the
-      joint needs, because a joint at a stop, or with a slow motor, looks like one without torque. If the joint does not follow
-      it is braked again, and the arm stops.
+      first moves to an intermediate configuration from which the law converges: all joints nearer to the middle of their
+      ranges, or one joint mirrored about its middle. If there is none, :func:`holdfast.recover` plans a route. Neither takes
+      simulated time. If there is no route, but one with the braked joint, the brake is released, once, and the arm follows that
+      route as slowly as the joint requires, because a joint at a stop, or with a slow motor, looks like one without torque. If
+      the joint does not follow it is braked again, and the arm stops.
     * With a cell, or a clearance, the forward simulation of the law must also be collision-free, and the arm leaves the law
-      before it could no longer stop. Other configurations and routes are proved to be collision-free
-      (:func:`holdfast.recover`), and if there is none the arm stops, even without ``plan``. The controller does not check for
-      collisions before the first brake. ``contacts`` has the collisions of the run.
+      while it can still stop. Other configurations and routes are proved to be collision-free (:func:`holdfast.recover`), and
+      if there is none the arm stops, even without ``plan``. The controller does not check for collisions before the first
+      brake. ``contacts`` has the collisions of the run.
 
-    A brake stops its joint at once. From then on the monitor excludes that joint and watches the others, and the controller
+    A brake stops its joint at once. From then on the monitor excludes that joint and monitors the others, and the controller
     responds to a second fault in the same way, with the joints that remain. Nothing is monitored from a brake to the end of the
     wait.
 
@@ -93,24 +92,24 @@ def simulate_faults(
         law: Control law, with its arm, task, gain and speed limit. The arm needs inertial data.
         q0: (n,) configuration at the start, rad and m, at rest.
         target: (m,) or (4, 4), as for :func:`holdfast.simulate`.
-        faults: A fault model, or the events of the run.
-        episode: Episode of the fault model.
-        monitor: Monitor of the arm, with the bounds that it was made with; it is reset.
+        faults: Fault model, or the events of the run.
+        episode: Index of the episode in the fault model, from 0.
+        monitor: Monitor of the arm, with its detection thresholds; it is reset.
         react: Response to faults: ``chain``, the default with a monitor; ``none``, the default without one; ``stop``, where
             everything stops at the first alarm; ``known``, where each fault is known when it begins, without a monitor.
-        plan: True if a route may be planned where no other configuration helps; else the arm follows the law to its end.
+        plan: True if a route may be planned where no intermediate configuration helps; else the arm follows the law to its end.
         body: Differences of the robot from the arm's model; default: :class:`holdfast.Body`.
         servos: Servos of the joints; default: :class:`holdfast.Servos` at the rate of the monitor.
-        centring: Rate in 1/s at which the law draws joints to the middle of their range, in the null space of the task.
-        clearance: Shape of the arm and the objects that it must not touch, maybe with a cell; True: also the arm itself, by
-            capsules of an assumed radius. By default the arm does not avoid itself.
-        cell: Objects around the arm, or their file.
+        centring: Rate in 1/s at which the law moves joints to the middle of their range, in the null space of the task.
+        clearance: Collision model of the arm, with or without a cell; True: self-collisions by capsules of an assumed radius.
+            None: self-collisions are not avoided.
+        cell: Objects around the arm, or their file. None: no objects.
         pose: True if the tool pose is measured.
         time_limit: Time limit in s; the run ends earlier if the target is reached, or if nothing moves any more.
         seed: Seed of the sensor noise.
 
     Raises:
-        InputError: Wrong shapes or options, faults that the arm cannot have, or a monitor of another arm or rate.
+        InputError: A shape or an option is invalid, the arm cannot have a fault, or the monitor is of another arm or rate.
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
@@ -122,16 +121,14 @@ def simulate_faults(
         raise InputError(f"react '{react}' is not known; use {', '.join(get_args(React))}")
     response: React = react or ("none" if monitor is None else "chain")
     if response in ("stop", "chain") and monitor is None:
-        raise InputError(
-            f"react='{response}' needs a monitor, which says what is wrong; make one by holdfast.response.diagnosis.Monitor"
-        )
+        raise InputError(f"react='{response}' needs a monitor; create one with holdfast.response.diagnosis.Monitor")
     chosen = servos or Servos(rate=CONTROL_RATE_HZ if monitor is None else monitor.bounds.rate)
     if monitor is not None:
         monitor.bounds.require(law.arm, chosen.rate)
         monitor.reset()
     start = law.arm.check_configurations(q0)
     if start.ndim != 1 or not np.isfinite(start).all():
-        raise InputError(f"q0 has shape {start.shape}; a run starts from one configuration of finite numbers, ({law.arm.n},)")
+        raise InputError(f"q0 has shape {start.shape}; it must be one configuration of finite numbers, ({law.arm.n},)")
     looked = chosen_clearance(law.arm, clearance or False, cell, looks=False)
     robot_body = Body() if body is None else body
     masked = MaskedLaw(law, target, centring=centring, clearance=looked)
@@ -163,7 +160,7 @@ def simulate_faults(
 
 
 class _MonitoredRobot:
-    """One simulated robot with faults whose servos follow commanded rates, and the recording so far."""
+    """One simulated robot with faults whose servos follow commanded rates, and its log so far."""
 
     def __init__(
         self,

@@ -20,7 +20,7 @@ from holdfast.model.collision.exact.exact_clearance import with_exact_distances
 
 LIMIT_TOLERANCE = 2e-3  # rad or m; a joint nearer to its limit is at the limit, because sensors have noise
 MIN_PROGRESS = 1e-3  # m and rad; a smaller decrease of the error is no progress
-PROGRESS_TIMEOUT_S = 1.5  # a law without progress for this time has come to its end
+PROGRESS_TIMEOUT_S = 1.5  # a law without progress for this time has ended
 TARGET_TOLERANCE = 2e-3  # m and rad; a law whose predicted error is smaller reaches its target
 PREDICTION_HORIZON_S = 12.0  # forward simulation of a law
 PREDICTION_STEP_S = 0.05  # time step of the forward simulation
@@ -52,13 +52,13 @@ class MaskedLaw:
     Args:
         law: Control law of all joints.
         target: (4, 4) pose, or the task's rows (m,), m.
-        centring: Rate in 1/s at which joints with two limits are drawn to their middle, in the null space of the task.
-        clearance: Clearance that the arm must keep in the forward simulation of the law; None without one.
+        centring: Rate in 1/s at which joints with two limits move to their middle, in the null space of the task.
+        clearance: Collision model for the forward simulation of the law; None: collisions are not checked.
 
     Attributes:
         whole: Control law of all joints.
         arm: Arm of the law.
-        clearance: The clearance.
+        clearance: Collision model, or None.
         pose: (4, 4) target pose.
         mask: (n,) 1 for joints that follow, 0 for the others.
         position_error: Distance of the tool from its target in the last step, m.
@@ -89,9 +89,7 @@ class MaskedLaw:
         self._parts["mask"][:] = 1.0
 
     def rates(self, q: FloatArray, *, mask: FloatArray | None = None) -> FloatArray:
-        """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; a joint at its limit is not commanded
-        beyond it.
-        """
+        """Return commanded rates (n,) at a configuration (n,), rad/s and m/s; none moves a joint beyond its limit."""
         parts, free = self._parts, self.mask if mask is None else mask
         # Without redundancy there is no null space, and a damped law with the pull would miss its target.
         pull = self._centring_gains * (self._middle - q) if free.sum() > self._rows else 0.0
@@ -116,8 +114,7 @@ class MaskedLaw:
         return np.ones(q.shape[:-1], dtype=bool) if self._exact_clearance is None else self._exact_clearance.margin_left(q) >= 0
 
     def predict_time_to_target(self, q: FloatArray, *, max_speeds: FloatArray) -> FloatArray:
-        """Return the times (N,) in s at which the law would reach its target from configurations (N, n); infinite where it
-        would not.
+        """Return the times (N,), s, after which the law reaches its target from configurations (N, n); infinite if never.
 
         Joints are assumed to follow at once, at rates (n,) of at most ``max_speeds``, rad/s and m/s. A time is also infinite if
         the arm violates its clearance in one of the steps, which are at most 50 ms long.

@@ -50,9 +50,7 @@ class RouteFollower:
         return bool(self._motion_time >= self._motion.time[-1])
 
     def rates(self, q: FloatArray, *, pace: float, dt: float) -> FloatArray:
-        """Return rates (n,) for the next ``dt`` s along the route at a fraction of its pace, and back to it for an arm at q
-        (n,).
-        """
+        """Return rates (n,) for the next ``dt`` s along the route at a fraction of its pace, and from q (n,) back to it."""
         motion, last = self._motion, len(self._motion.q) - 1
         x = min(self._motion_time / motion.period, float(last)) if last else 0.0
         sample = min(int(x), max(last - 1, 0))
@@ -89,9 +87,7 @@ def plan_route(
 
 
 def candidate_configurations(arm: Arm, q: FloatArray, mask: FloatArray) -> FloatArray:
-    """Return candidates (K, n) near q (n,), rad and m: unmasked joints nearer to their middle, or one of them there
-    or beyond.
-    """
+    """Return candidates (K, n) near q (n,), rad and m: unmasked joints nearer to their middle, or one at or beyond it."""
     bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
     middle = np.where(bounded, np.mean(sampling_limits(arm), axis=0), q)
     candidates = [q + mask * depth * (middle - q) for depth in CENTRING_FRACTIONS]
@@ -139,7 +135,9 @@ def plan_intermediate_motion(
 ) -> RouteFollower | str:
     """Plan a motion to an intermediate configuration from which the law converges, with arguments of :func:`plan_route`."""
     posture = choose_intermediate_configuration(law, q, max_speeds=max_speeds, max_tool_speed=law.whole.speed_limit)
-    return "no other posture helps" if posture is None else plan_route(law, q, posture, failures, max_speeds=max_speeds)
+    if posture is None:
+        return "no intermediate configuration helps"
+    return plan_route(law, q, posture, failures, max_speeds=max_speeds)
 
 
 def plan_target_route(law: MaskedLaw, q: FloatArray, failures: Degraded, *, max_speeds: FloatArray) -> RouteFollower | str:

@@ -35,7 +35,7 @@ OUTCOME_PHRASES = {
     "reached": "the tool reached its target",
     "stopped": "the controller stopped the arm before the target",
     "missed": "the tool did not reach its target",
-    "unstable": "the physics left all bounds; make the servos softer or their rate higher",
+    "unstable": "the simulation diverged; make the servos softer or their rate higher",
 }
 
 
@@ -44,11 +44,12 @@ class Action:
     """Action of the controller.
 
     Attributes:
-        time: s.
-        what: ``alarm``, ``slow``, ``resume``, ``brake`` (and leave the joint out of the law), ``release`` (it is tried again),
-            ``measure`` (where a braked joint is, by the tool), ``detour`` (by another posture), ``plan`` (a route) or ``stop``.
-        why: A phrase.
-        joint: Its name; None where it is not of one joint.
+        time: Time of the action, s.
+        what: ``alarm``, ``slow``, ``resume``, ``brake`` (and exclude the joint from the law), ``release`` (of a brake, as a
+            test), ``measure`` (the position of a braked joint, by the tool pose), ``detour`` (by an intermediate
+            configuration), ``plan`` (a route) or ``stop``.
+        why: Reason, a phrase.
+        joint: Name of the joint; None if the action concerns no single joint.
     """
 
     time: float
@@ -114,12 +115,12 @@ class FaultRun(Result):
 
     @property
     def arm(self) -> Arm:
-        """The arm, healthy."""
+        """Healthy arm."""
         return self.law.arm
 
     @property
     def ok(self) -> bool:
-        """The tool reached its target."""
+        """True if the tool reached its target."""
         return self.outcome == "reached"
 
     def require_ok(self) -> FaultRun:
@@ -146,7 +147,7 @@ class FaultRun(Result):
 
     @cached_property
     def poses(self) -> FloatArray:
-        """(T, 4, 4) of the end effector, m, world."""
+        """(T, 4, 4) poses of the end effector in the world, m."""
         return self.arm.forward_kinematics(self.q)
 
     @cached_property
@@ -158,16 +159,14 @@ class FaultRun(Result):
         return tuple(find_first_contacts(self.clearance, self.time[rows], self.q[rows]))
 
     def log(self) -> Log:
-        """Return the recording that a robot would have made, for :func:`holdfast.response.diagnosis.calibrate` and
-        ``diagnose``.
-        """
+        """Return the log of a robot, for :func:`holdfast.response.diagnosis.calibrate` and ``diagnose``."""
         return Log(t=self.time, q_ref=self.reference, q=self.q_measured, tau=self.torque, x=self.x, quat=self.quat)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as rows over time: the joints, rad and m, and the tool point, m.
+        """Write the joints, rad and m, and the tool point, m, of each cycle to the CSV file ``file``; return its path.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         header = ["time_s", *joint_columns(self.arm), "tool_x_m", "tool_y_m", "tool_z_m"]
         return write_table(file, "motion", header, np.column_stack([self.time, self.q, self.poses[:, :3, 3]]))

@@ -92,7 +92,7 @@ class Braked:
 
 @dataclass
 class Stopped:
-    """The controller has given up; verdicts are ignored and the arm slows down to a standstill."""
+    """The controller has given up; it ignores verdicts, and the arm slows down to a standstill."""
 
 
 # ---- trial -----------------------------------------------------------------------------------------------------------

@@ -9,8 +9,8 @@ VERDICT_DEADLINE_S = 0.6  # after the alarm, a verdict is final; before, further
 STILL_SPEED = 0.02  # rad/s or m/s; a slower joint counts as at rest
 MOVING_SPEED = 0.2  # rad/s or m/s; only a faster joint can count as running away
 RUNAWAY_SPEED_ERROR = 0.3  # rad/s or m/s between the measured and the commanded rate
-LAGGING_TRACKING_RATIO = 1.5  # tracking error divided by the monitor's bound
-RUNAWAY_TRACKING_RATIO = 8.0  # tracking error divided by the bound; lower for a falling joint, whose saturated servo stays near
+LAGGING_TRACKING_RATIO = 1.5  # tracking error divided by the monitor's threshold
+RUNAWAY_TRACKING_RATIO = 8.0  # tracking error divided by the threshold; lower for a falling joint, whose servo saturates nearby
 
 SLOW_PACE = 0.3  # fraction of the commanded speed during a contact and until the fault kind is known
 REDUCED_PACE = 0.5  # fraction of the commanded speed with a weak motor or more friction
@@ -21,10 +21,10 @@ PACE_RATE_PER_S = 5.0  # change of the pace; from standstill to the commanded sp
 CONTACT_END_S = 1.0  # after this time a contact is over
 GRAVITY_SAFETY_FACTOR = 1.2  # a weak motor must be able to carry gravity times this factor
 SETTLING_TIME_S = 0.05  # after braking
-MIN_POSE_SAMPLES = 10  # measured tool poses that decide where a braked joint is
+MIN_POSE_SAMPLES = 10  # measured tool poses that determine the position of a braked joint
 LATE_SAMPLES_WAIT_S = 0.5  # additional waiting time for measured tool poses that arrive more slowly
 SENSOR_TOLERANCE = 1e-3  # rad or m; a sensor is trusted if the measured tool pose agrees to within this distance
 
 MIN_CALIBRATED_SPEED = 0.1  # rad/s or m/s that a joint may have although it hardly moved in calibration
-IDLE_SPEED = 1e-3  # rad/s or m/s; a law that commands less has come to its end
+IDLE_SPEED = 1e-3  # rad/s or m/s; a law that commands less has ended
 SLOWING_KINDS = frozenset({"weak", "friction", "sluggish"})  # fault kinds with which a joint still follows, more slowly

@@ -13,20 +13,20 @@ from holdfast.core.typing import FloatArray
 
 @dataclass(frozen=True, kw_only=True)
 class PairedComparison:
-    """Two-sided paired comparison; NaN where there is nothing to compute a value from.
+    """Two-sided paired comparison; values that cannot be computed are NaN.
 
     Attributes:
-        n: Pairs.
+        n: Number of pairs.
         difference: Mean of first minus second.
-        low, high: Its confidence interval.
+        low, high: Confidence interval of the mean difference.
         t: Student's t.
-        df: Its degrees of freedom.
-        p: Of t.
-        dz: Cohen's dz: the mean of the differences over their standard deviation.
-        dz_low, dz_high: Its confidence interval, by the noncentral t distribution.
-        median_difference: Of the pairs.
-        wilcoxon: p of Wilcoxon's signed-rank test, exact with ties too; pairs without a difference are left out.
-        rank_biserial: Share of the rank sum in favour of the first minus that of the second, -1 to 1.
+        df: Degrees of freedom of t.
+        p: p-value of t.
+        dz: Cohen's dz, the mean of the differences over their standard deviation.
+        dz_low, dz_high: Confidence interval of dz, by the noncentral t distribution.
+        median_difference: Median of the differences.
+        wilcoxon: p-value of Wilcoxon's signed-rank test, exact with ties too; pairs without a difference are left out.
+        rank_biserial: Fraction of the rank sum in favour of the first minus that of the second, -1 to 1.
     """
 
     n: int
@@ -49,11 +49,11 @@ def compare_pairs(first: ArrayLike, second: ArrayLike, confidence: float = 0.95)
 
     Args:
         first: (n,) values.
-        second: (n,) of the same subjects, in the same order. Pairs with a NaN are left out: ``n`` tells.
-        confidence: Of the intervals.
+        second: (n,) values of the same subjects, in the same order. Pairs with a NaN are left out; ``n`` counts the others.
+        confidence: Confidence level of the intervals, between 0 and 1.
 
     Raises:
-        InputError: Not two lists of the same length, or a confidence that is not between 0 and 1.
+        InputError: The two lists differ in length, or the confidence is not between 0 and 1.
 
     Source: Goel et al. 2003, section 7, for the t-test; Cumming and Finch 2001 for the interval of dz; Kerby 2014.
     """
@@ -102,11 +102,11 @@ def signed_rank_p(ranks: NDArray[np.float64], positive: NDArray[np.bool_]) -> fl
     """Return the two-sided p of Wilcoxon's signed-rank test, exact for any ties, from all equally likely signs of the ranks.
 
     Args:
-        ranks: (N,) of the absolute differences that are not zero, ties with their mean rank.
-        positive: (N,) which of them are above zero.
+        ranks: (N,) ranks of the absolute differences that are not zero; ties have their mean rank.
+        positive: (N,) True for differences above zero.
     """
     doubled_ranks = np.rint(2 * ranks).astype(np.int64)  # mean ranks are halves
-    probabilities = np.zeros(int(doubled_ranks.sum()) + 1)  # of each sum of positive ranks
+    probabilities = np.zeros(int(doubled_ranks.sum()) + 1)  # of each possible sum of positive ranks
     probabilities[0] = 1.0
     for rank in doubled_ranks:
         shifted = np.zeros_like(probabilities)
@@ -120,7 +120,7 @@ def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float,
     """Return the confidence interval of the noncentrality of an observed t."""
     from scipy import optimize, stats
 
-    if t < 0:  # scipy's far lower tail of a noncentral t is NaN: stay with positive t
+    if t < 0:  # the far lower tail of scipy's noncentral t is NaN, so a positive t is used
         lower, upper = noncentrality_interval(-t, df, confidence)
         return -upper, -lower
 
@@ -136,7 +136,7 @@ def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float,
 
 
 def correct_by_holm(p: ArrayLike) -> FloatArray:
-    """Correct p-values for multiple testing by Holm's step-down procedure; NaN stay NaN and do not count as tests.
+    """Correct p-values ``p`` (k,) for multiple tests by Holm's step-down procedure; NaN stay NaN and do not count as tests.
 
     Source: Holm 1979.
     """

@@ -48,33 +48,35 @@ def analyse(
     confidence: float = 0.95,
     seed: int = 0,
 ) -> Analysis:
-    """Analyse the trials of an experiment for the effect of the control law on how well people cope with a failed joint.
+    """Analyse the trials of an experiment for the effect of the control law on the performance with a failed joint.
 
-    With the scenarios in which the arm has failed: a within-subjects ANOVA of CPM (law x difficulty), paired comparisons of the
-    laws in each group of tasks, and how anticipated, actual and perceived difficulty go together. With those in which it is
-    healthy: what each law costs before a failure. Training trials do not belong in the table.
+    The scenarios with a failed arm give a within-subjects ANOVA of CPM (law x difficulty), paired comparisons of the laws in
+    each group of tasks, and the correlations of anticipated, actual and perceived difficulty. The scenarios with a healthy arm
+    give the penalty of each law before a failure. Training trials do not belong in the table.
 
     Args:
         table: One row for each trial. Columns ``subject``, ``task``, ``scenario``, ``law``, ``failed``, ``end`` (``arrived``,
-            ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` as ``measures`` gives them
-            (NaN unless the target was reached); if there are, ``M12`` (the rating, NaN for none), ``kind`` (``person`` or
-            ``simulated``) and ``number`` (the order of subjects).
-        computer: The same of the computer operator, one row for each task and scenario.
-        missing: What to do if a subject has no trial at all of a law in a group of tasks: ``refuse``; ``complete`` leaves such
-            subjects out of everything, and lists them; ``mixed`` fits a linear mixed model of single trials in place of the
-            ANOVA. In any case cell means are over the trials that reached the target, and ``notes`` count the others.
+            ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` from ``compute_measures`` (NaN unless the
+            target was reached). Optional: ``M12`` (the rating, NaN for none), ``kind`` (``person`` or ``simulated``) and
+            ``number`` (the order of subjects).
+        computer: Table of the computer operator, one row for each task and scenario. None: no comparison with it.
+        missing: Treatment of subjects without any trial of a law in a group of tasks: ``refuse`` raises an error; ``complete``
+            leaves such subjects out of everything, and lists them; ``mixed`` fits a linear mixed model of single trials instead
+            of the ANOVA. Cell means are always over the trials that reached the target, and ``notes`` count the others.
         groups: Number of groups of difficulty.
-        difficulty: Whose CPM of the reference scenario tasks are sorted by: the operators' median, or the computer's.
-        normalise: Whether CPM of operators and computer are each divided by their own largest measures or by common ones.
-        reference: Scenario with the failed arm that others are compared with; that of the pseudoinverse, or the first, if not
-            given.
-        limit: p below which an effect is called significant.
-        power: Asked for where numbers of subjects are given.
-        confidence: Of the intervals.
-        seed: Of the resampling.
+        difficulty: Source of the CPM of the reference scenario by which tasks are sorted: the operators' median, or the
+            computer.
+        normalise: ``apart``: CPM of operators and computer are each divided by their own largest measures; ``together``: by
+            common ones.
+        reference: Number of the scenario with the failed arm that others are compared with. Default: the pseudoinverse, else
+            the first.
+        limit: p-value below which an effect is called significant.
+        power: Power for which numbers of subjects are computed.
+        confidence: Confidence level of the intervals.
+        seed: Seed of the resampling.
 
     Raises:
-        InputError: A table that cannot be analysed, an option that there is not, or empty cells; the message names them.
+        InputError: The table cannot be analysed, an option is unknown, or cells are empty; the message names them.
         HoldfastError: statsmodels is not installed.
 
     Source: Goel et al. 2003, section 7. Holm's correction, sphericity corrections, effect sizes, power and the mixed model are
@@ -120,9 +122,9 @@ def analyse(
         left_out += tuple(subject for subject, is_complete in zip(observed.subjects, complete, strict=True) if not is_complete)
         if complete.sum() < 2:
             raise InputError(
-                f"only {int(complete.sum())} of the subjects have trials in every cell; missing='mixed' needs none complete"
+                f"only {int(complete.sum())} of the subjects have trials in every cell; missing='mixed' requires none"
             )
-        # Without them the medians change, and with these the groups: look again.
+        # Leaving subjects out changes the medians and therefore the groups, so the cells are checked again.
         observed = observed.select_subjects(np.flatnonzero(complete).tolist())
     if len(operator_trials.subjects) < 2:
         raise InputError("the table has one subject; statistics between subjects need 2 or more")
@@ -214,7 +216,7 @@ def _list_healthy_arm_scenarios(healthy: list[int], observed: TrialTable, refere
 def _match_to_operators(computer: TrialTable, observed: TrialTable) -> TrialTable:
     """Return the computer's trials in the order of the operators' tasks and scenarios."""
     if len(computer.subjects) > 1:
-        raise InputError(f"the computer's table has {len(computer.subjects)} subjects; there is one computer")
+        raise InputError(f"the computer's table has {len(computer.subjects)} subjects; it must have one, the computer")
     by_scenario = {condition.scenario: condition for condition in computer.conditions}
     for condition in observed.conditions:
         if by_scenario.get(condition.scenario) != condition:

@@ -12,17 +12,17 @@ from holdfast.core.errors import InputError
 
 @dataclass(frozen=True, kw_only=True)
 class Correlation:
-    """Correlation over tasks; NaN where there is nothing to compute a value from.
+    """Correlation over tasks; values that cannot be computed are NaN.
 
     Attributes:
-        first, second: What was correlated.
-        n: Pairs in which both are finite.
-        r: Pearson's.
-        low, high: Its confidence interval, by Fisher's z; none for fewer than 4 pairs.
-        p: Of r, two-sided.
-        spearman: Spearman's rank correlation.
-        p_spearman: Its p, two-sided.
-        left_out: Pairs left out, by the names given.
+        first, second: Names of the two quantities.
+        n: Number of pairs in which both values are finite.
+        r: Pearson's correlation coefficient.
+        low, high: Confidence interval of r, by Fisher's z; NaN for fewer than 4 pairs.
+        p: Two-sided p-value of r.
+        spearman: Spearman's rank correlation coefficient.
+        p_spearman: Two-sided p-value of ``spearman``.
+        left_out: Names of the pairs that were left out.
     """
 
     first: str
@@ -48,17 +48,17 @@ def correlate(
     labels: list[str] | None = None,
     confidence: float = 0.95,
 ) -> Correlation:
-    """Correlate two lists.
+    """Correlate two lists of values.
 
     Args:
         first: (n,) values.
         second: (n,) values. Pairs that are not finite are left out and listed.
-        names: Of the two.
-        labels: (n,) names of the pairs; their numbers from 1 if not given.
-        confidence: Of the interval.
+        names: Names of the two quantities.
+        labels: (n,) names of the pairs. Default: their numbers from 1.
+        confidence: Confidence level of the interval.
 
     Raises:
-        InputError: Not two lists of the same length.
+        InputError: The two lists differ in length.
 
     Source: Goel et al. 2003, section 7 and fig. 3.
     """

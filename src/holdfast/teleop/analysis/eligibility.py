@@ -23,13 +23,13 @@ def analyse_records(
 ) -> Analysis:
     """Analyse the recorded trials, compared with the computer operator in the same tasks.
 
-    Subjects who dropped out are no part of any number, and where people took part programs are not; the notes name them.
+    Subjects who dropped out are not included, and neither are simulated subjects if people took part; the notes name them.
 
     Args:
-        records: The records.
-        missing: As :func:`holdfast.teleop.analysis.analyse` has it; so are the others.
+        records: Records of the experiment.
+        missing: Treatment of empty cells, as for :func:`holdfast.teleop.analysis.analyse`.
         groups: Number of groups of difficulty.
-        difficulty: Whose CPM tasks are sorted by.
+        difficulty: Source of the CPM by which tasks are sorted.
 
     Raises:
         InputError: There are no trials, or not enough.
@@ -46,11 +46,11 @@ def analyse_records(
     table = table[~table["subject"].isin(simulated)]
     if table.empty:
         raise InputError(
-            f"'{records.folder}' holds no trials of subjects who have not dropped out; there is nothing to analyse"
+            f"'{records.folder}' contains no trials of subjects who have not dropped out, so there is nothing to analyse"
         )
     result = analyse(table, computer_table(records.protocol), missing=missing, groups=groups, difficulty=difficulty)
     notes = (
-        *([f"dropped out, and not part of any number: {', '.join(dropped)}"] if dropped else []),
-        *([f"simulated, and not part of any number: {', '.join(simulated)}"] if simulated else []),
+        *([f"dropped out, and not included: {', '.join(dropped)}"] if dropped else []),
+        *([f"simulated, and not included: {', '.join(simulated)}"] if simulated else []),
     )
     return replace(result, notes=(*result.notes, *notes))

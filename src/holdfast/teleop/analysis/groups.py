@@ -23,10 +23,10 @@ class TaskGroups:
     """Groups of tasks by difficulty.
 
     Attributes:
-        names: (B,) from the easiest.
-        of_task: (T,) group of each task, from 0.
-        difficulty: (T,) what they were sorted by; infinite where most failed, NaN where it is not known.
-        by: Whose CPM that is: ``operators`` or ``computer``.
+        names: (B,) names of the groups, from the easiest.
+        of_task: (T,) index of the group of each task, from 0.
+        difficulty: (T,) CPM by which the tasks were sorted; infinite where most operators failed, NaN where it is unknown.
+        by: Source of this CPM: ``operators`` or ``computer``.
     """
 
     names: tuple[str, ...]
@@ -36,22 +36,22 @@ class TaskGroups:
 
     @property
     def sizes(self) -> IndexArray:
-        """(B,) number of tasks in each group."""
+        """Number of tasks in each group, (B,)."""
         return np.bincount(self.of_task, minlength=len(self.names))
 
 
 def group_by_difficulty(difficulty: FloatArray, count: int, by: str) -> TaskGroups:
     """Group tasks by difficulty into equal parts of their sorted list; surplus tasks go one each to the easiest groups.
 
-    Tasks without a known difficulty are put behind all others: nobody, or not the computer, could do them.
+    Tasks without a known difficulty come after all others, because no operator, or not the computer, completed them.
 
     Args:
-        difficulty: (T,) of each task.
+        difficulty: (T,) difficulty of each task.
         count: Number of groups.
-        by: Whose.
+        by: Source of the difficulty.
 
     Raises:
-        InputError: Fewer than two groups, or fewer tasks than groups.
+        InputError: There are fewer than two groups, or fewer tasks than groups.
     """
     if count < 2 or len(difficulty) < count:
         raise InputError(
@@ -70,11 +70,11 @@ class CellMeans:
     """Mean CPM of each subject with each law in each group of tasks.
 
     Attributes:
-        values: (P, A, B) means over the tasks available; NaN where there is none.
-        tasks: (P, A, B) how many.
-        subjects: (P,) codes.
-        laws: (A,) names.
-        groups: (B,) names.
+        values: (P, A, B) mean CPM over the available tasks; NaN where there is none.
+        tasks: (P, A, B) number of these tasks.
+        subjects: (P,) codes of the subjects.
+        laws: (A,) names of the laws.
+        groups: (B,) names of the groups.
     """
 
     values: FloatArray
@@ -85,7 +85,7 @@ class CellMeans:
 
     @classmethod
     def from_trials(cls, observed: TrialTable, conditions: list[int], grouped: TaskGroups) -> CellMeans:
-        """Compute the cell means from the trials with some scenarios."""
+        """Compute the cell means of the trials ``observed`` with A scenarios (indices ``conditions``) and ``grouped`` tasks."""
         cpm = observed.cpm[:, :, conditions]
         finite = np.isfinite(cpm)
         membership = np.eye(len(grouped.names))[grouped.of_task]
@@ -97,7 +97,7 @@ class CellMeans:
         return cls(values=values, tasks=tasks, subjects=observed.subjects, laws=laws, groups=grouped.names)
 
     def list_empty(self) -> list[str]:
-        """Return the cells without a task as text for people."""
+        """Return the names of the cells without a task."""
         return [
             f"{self.subjects[subject]} / {self.laws[law]} / {self.groups[group]}"
             for subject, law, group in np.argwhere(self.tasks == 0)

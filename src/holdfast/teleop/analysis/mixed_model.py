@@ -26,10 +26,10 @@ class WaldTest:
     """Wald test that an effect of the mixed model is 0; asymptotic, so its p is slightly too small with few subjects or tasks.
 
     Attributes:
-        name: The effect.
-        chi2: Wald's statistic.
-        df: Its degrees of freedom.
-        p: Probability of such a value or a larger one if there is no effect.
+        name: Name of the effect.
+        chi2: Wald statistic.
+        df: Degrees of freedom of the effect.
+        p: Probability of this statistic or a larger one without an effect.
     """
 
     name: str
@@ -43,18 +43,18 @@ class MixedModel:
     """Linear mixed model of the CPM of single trials with the failed arm, fitted by restricted maximum likelihood.
 
     Fixed effects are law, difficulty and their interaction, coded as deviations from the mean; subjects and tasks are crossed
-    random intercepts. So it tells of other subjects *and* other tasks, where the ANOVA takes the tasks as they are: difficulty,
-    which differs between tasks, is tested far more strictly here.
+    random intercepts. The result therefore generalises to other subjects *and* other tasks, whereas the ANOVA treats the tasks
+    as fixed. Difficulty, which differs between tasks, is tested far more strictly here.
 
     Attributes:
-        tests: Of law, of difficulty, and of their interaction.
+        tests: Tests of law, of difficulty, and of their interaction.
         means: (A, B) estimated cell means, each law at each difficulty.
-        mean_errors: (A, B) their standard errors.
-        variances: Of subjects, of tasks, and of the rest.
-        trials: How many were used.
-        converged: The optimiser says that it found the maximum. If not, do not use the numbers.
-        optimiser: Which one.
-        messages: What it warned of.
+        mean_errors: (A, B) standard errors of the cell means.
+        variances: Variances of subjects, of tasks, and of the residual, by name.
+        trials: Number of trials that were used.
+        converged: True if the optimiser reports a maximum. If not, do not use the numbers.
+        optimiser: Name of the optimiser.
+        messages: Warnings of the optimiser.
     """
 
     tests: tuple[WaldTest, WaldTest, WaldTest]
@@ -67,7 +67,7 @@ class MixedModel:
     messages: tuple[str, ...]
 
     def table(self) -> DataFrame:
-        """Return a table with a row for each effect: effect, chi2, df, p, converged."""
+        """Return a table with one row for each effect: effect, chi2, df, p, converged."""
         from pandas import DataFrame
 
         rows = [(test.name, test.chi2, test.df, test.p, int(self.converged)) for test in self.tests]
@@ -78,12 +78,12 @@ def fit_mixed_model(observed: TrialTable, conditions: list[int], group: NDArray[
     """Fit the linear mixed model.
 
     Args:
-        observed: The trials.
-        conditions: (A,) positions of the scenarios whose laws are compared.
+        observed: Trials.
+        conditions: (A,) indices of the scenarios whose laws are compared.
         group: (T,) difficulty of each task, from 0.
 
     Raises:
-        InputError: No trial at all of a law at a difficulty, or too few trials for the model.
+        InputError: A law has no trial at a difficulty, or there are too few trials for the model.
     """
     values = observed.cpm[:, :, conditions]
     subjects, tasks, laws = np.nonzero(np.isfinite(values))
@@ -95,7 +95,7 @@ def fit_mixed_model(observed: TrialTable, conditions: list[int], group: NDArray[
         law_level, group_level = np.argwhere(counts == 0)[0]
         law = observed.conditions[conditions[law_level]].law
         raise InputError(
-            f"no subject has a trial with {law} in difficulty group {group_level + 1}: no model can fill that cell"
+            f"no subject has a trial with {law} in difficulty group {group_level + 1}, so no model can fill that cell"
         )
     if len(y) <= levels[0] * levels[1] + len(set(subjects)) + len(set(tasks)):
         raise InputError(
@@ -152,7 +152,7 @@ def _fit_with_fallback(
 
     columns = [f"x{column}" for column in range(x.shape[1])]
     table = DataFrame(x, columns=columns).assign(y=y, subject=subject, task=task, one=0)
-    # Crossed random effects are variance components of one group with everything in it.
+    # Crossed random effects are variance components of a single group that contains all trials.
     model = MixedLM.from_formula(
         "y ~ 0 + " + " + ".join(columns),
         table,

@@ -29,18 +29,18 @@ CAUSE_SENTENCES = {
     UNRATED_CAUSE: "the end effector reached the target, but the operator did not rate the trial",
     ABSENT_CAUSE: "the table has no such trial",
 }
-"""Why a trial has no CPM."""
+"""Reason why a trial has no CPM, by its cause."""
 _FAILED_ENDS = tuple(e.name.lower() for e in (End.STILL, End.TIME, End.ABORTED))
 
 
 @dataclass(frozen=True)
 class Condition:
-    """Scenario as it is in the table.
+    """Scenario in a table of trials.
 
     Attributes:
-        scenario: Its number.
-        law: The control law; with the scenario's number behind it where two scenarios have the same law and failure.
-        failed: The arm had a locked joint.
+        scenario: Number of the scenario.
+        law: Control law, followed by the scenario's number if two scenarios have the same law and failure.
+        failed: True if the arm had a locked joint.
     """
 
     scenario: int
@@ -49,7 +49,7 @@ class Condition:
 
     @property
     def label(self) -> str:
-        """Label of the scenario for people: ``3: failed, pseudoinverse``."""
+        """Label of the scenario: ``3: failed, pseudoinverse``."""
         return f"{self.scenario}: {'failed' if self.failed else 'healthy'}, {self.law}"
 
 
@@ -59,15 +59,15 @@ class TrialTable:
 
     Attributes:
         kind: ``person``, ``simulated`` or ``computer``.
-        subjects: (P,) codes.
-        tasks: (T,) numbers.
-        conditions: (S,) the scenarios.
+        subjects: (P,) codes of the subjects.
+        tasks: (T,) numbers of the tasks.
+        conditions: (S,) scenarios.
         measures: (P, T, S, 12) M1 to M12, NaN in trials without a CPM.
-        ratings: (P, T, S) M12 of every trial that was rated, whether or not the end effector reached the target.
-        cause: (P, T, S) why there is no CPM; empty where there is one.
-        has_ratings: Operators rated trials at all. If not, CPM is made of eleven measures.
+        ratings: (P, T, S) M12 of every rated trial, also if the end effector did not reach the target.
+        cause: (P, T, S) cause of a missing CPM; empty if there is a CPM.
+        has_ratings: True if operators rated any trials. If not, CPM is the sum of eleven measures.
         cpm: (P, T, S) combined performance measures.
-        normalisers: (11 or 12,) of the CPM.
+        normalisers: (11 or 12,) normalisers of the CPM.
     """
 
     kind: str
@@ -85,8 +85,12 @@ class TrialTable:
     def from_table(cls, table: DataFrame, table_name: str = "table") -> TrialTable:
         """Read the trials from a table with one row for each trial.
 
+        Args:
+            table: Table with the columns of :func:`holdfast.teleop.analysis.analyse`.
+            table_name: Name of the table in error messages.
+
         Raises:
-            InputError: A column or value that is missing, twice there or impossible; the message says which.
+            InputError: A column or value is missing, duplicate or impossible; the message names it.
         """
         _check_table(table, table_name)
         kind = str(table["kind"].iloc[0]) if "kind" in table else "person"
@@ -128,12 +132,12 @@ class TrialTable:
         )
 
     def normalise_by(self, normalisers: FloatArray) -> TrialTable:
-        """Return the same trials with other normalisers of the CPM, as many as they have."""
+        """Return the same trials with other ``normalisers`` of the CPM, as many as there are measures."""
         included = self.measures[..., : len(self.normalisers)]
         return replace(self, cpm=compute_cpm(included, normalisers).values, normalisers=normalisers)
 
     def condition_index(self, scenario: int) -> int:
-        """Return the position of a scenario in ``conditions``.
+        """Return the index in ``conditions`` of the scenario with the number ``scenario``.
 
         Raises:
             InputError: There is no such scenario.
@@ -145,11 +149,11 @@ class TrialTable:
         raise InputError(f"there is no scenario {scenario}; there are {numbers}")
 
     def find_conditions(self, failed: bool) -> list[int]:
-        """Return the positions of the scenarios with the failed or the healthy arm."""
+        """Return the indices of the scenarios with the ``failed`` arm, or with the healthy arm."""
         return [position for position, condition in enumerate(self.conditions) if condition.failed == failed]
 
     def select_subjects(self, rows: Sequence[int]) -> TrialTable:
-        """Return the trials of some of the subjects, with their CPM normalised again."""
+        """Return the trials of the subjects with indices ``rows``, with their CPM normalised again."""
         rows = list(rows)
         measured = self.measures[rows]
         combined = compute_cpm(measured[..., : len(self.normalisers)])
@@ -164,7 +168,7 @@ class TrialTable:
         )
 
     def select_trials(self, tasks: Sequence[int], conditions: Sequence[int]) -> TrialTable:
-        """Return the trials with some of the tasks and scenarios, in the given order, with their CPM normalised again."""
+        """Return the trials with these ``tasks`` and ``conditions`` (indices), in this order, and normalise CPM again."""
         selection = np.ix_(range(len(self.subjects)), list(tasks), list(conditions))
         measured = self.measures[selection]
         combined = compute_cpm(measured[..., : len(self.normalisers)])
@@ -180,10 +184,10 @@ class TrialTable:
         )
 
     def median_cpm(self) -> FloatArray:
-        """Return the median CPM (T, S) over subjects; a trial that was seen to fail counts as worse than any other.
+        """Return the median CPM (T, S) over subjects, in which a failed trial is worse than any other.
 
-        Infinite where that is the median; NaN where there are no trials. Trials that were not recorded, broken off or not
-        rated say nothing about difficulty and are left out.
+        The median is infinite if it is a failed trial, and NaN without trials. Trials that were not recorded, broken off or not
+        rated contain no information about difficulty and are left out.
         """
         ranked = np.where(np.isin(self.cause, _FAILED_ENDS), np.inf, self.cpm)
         medians = np.full(ranked.shape[1:], np.nan)
@@ -241,7 +245,7 @@ def _check_table(table: DataFrame, table_name: str) -> None:
     unknown_ends = sorted({str(end) for end in table["end"]} - set(END_NAMES))
     if unknown_ends:
         raise InputError(
-            f"the {table_name} has a trial that ended '{unknown_ends[0]}'; an end is one of {', '.join(END_NAMES)}"
+            f"the {table_name} has a trial that ended '{unknown_ends[0]}'; the end must be one of {', '.join(END_NAMES)}"
         )
     duplicates = table.duplicated(["subject", "task", "scenario"])
     if duplicates.any():
@@ -270,7 +274,9 @@ def _read_conditions(table: DataFrame, table_name: str) -> tuple[Condition, ...]
     scenarios: dict[int, tuple[str, bool]] = {}
     for number, law, failed in zip(table["scenario"], table["law"], table["failed"], strict=True):
         if scenarios.setdefault(int(number), (str(law), bool(failed))) != (str(law), bool(failed)):
-            raise InputError(f"the {table_name} has scenario {number} with different laws or failures; a scenario has one")
+            raise InputError(
+                f"the {table_name} has scenario {number} with different laws or failures; it must have one of each"
+            )
     repeated = [pair for pair in scenarios.values() if list(scenarios.values()).count(pair) > 1]
     return tuple(
         Condition(number, f"{law} ({number})" if (law, failed) in repeated else law, failed)

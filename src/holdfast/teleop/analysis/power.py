@@ -1,7 +1,7 @@
 """Statistical power of the tests, and the numbers of subjects that suffice for it.
 
-Power is the probability that a test of an effect as large as the one observed gives p below a limit. An observed effect is
-itself uncertain, and where the result was significant it is more often too large than too small: plan with the lower end of
+Power is the probability that a test of an effect as large as the observed one gives p below a limit. An observed effect is
+uncertain, and if the result was significant it is more often too large than too small. Therefore, plan with the lower end of
 its interval.
 """
 
@@ -16,7 +16,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.teleop.analysis.variance import degrees_of_freedom, sums_of_squares
 
 MAX_SUBJECTS = 10_000
-_MAX_BLOCK_VALUES = 2_000_000  # values resampled at once
+_MAX_BLOCK_VALUES = 2_000_000  # values that are resampled at once
 
 
 def t_test_power(dz: float, subjects: int, limit: float = 0.05) -> float:
@@ -25,7 +25,7 @@ def t_test_power(dz: float, subjects: int, limit: float = 0.05) -> float:
     Args:
         dz: Mean difference over the standard deviation of the differences.
         subjects: Number of pairs, 2 or more.
-        limit: p below which an effect is called significant.
+        limit: p-value below which an effect is called significant.
     """
     from scipy import stats
 
@@ -40,11 +40,11 @@ def f_test_power(effect: float, df: float, subjects: int, limit: float = 0.05, e
     """Return the power of a within-subjects F test with noncentrality ``effect * subjects``.
 
     Args:
-        effect: Noncentrality for each subject: of an observed F, ``F df / subjects`` of that experiment.
+        effect: Noncentrality per subject: for an observed F, ``F df / subjects`` of that experiment.
         df: Degrees of freedom of the effect.
-        subjects: 2 or more.
-        limit: p below which an effect is called significant.
-        epsilon: Of Greenhouse and Geisser; it multiplies both degrees of freedom and the noncentrality.
+        subjects: Number of subjects, 2 or more.
+        limit: p-value below which an effect is called significant.
+        epsilon: Epsilon of Greenhouse and Geisser, which multiplies both degrees of freedom and the noncentrality.
 
     Source: Muller and Barton 1989, for the epsilon.
     """
@@ -55,13 +55,27 @@ def f_test_power(effect: float, df: float, subjects: int, limit: float = 0.05, e
 
 
 def subjects_for_t(dz: float, power: float = 0.8, limit: float = 0.05) -> int | None:
-    """Return the smallest number of subjects with which a paired t-test has the power; None above 10,000."""
+    """Return the smallest number of subjects with which a paired t-test has the required power; None above 10,000.
+
+    Args:
+        dz: Mean difference over the standard deviation of the differences.
+        power: Required power, between ``limit`` and 1.
+        limit: p-value below which an effect is called significant.
+    """
     _check_power(power, limit)
     return None if not np.isfinite(dz) else _find_smallest_sample(lambda n: t_test_power(dz, n, limit), power)
 
 
 def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float = 0.05, epsilon: float = 1.0) -> int | None:
-    """Return the smallest number of subjects with which a within-subjects F test has the power; None above 10,000."""
+    """Return the smallest number of subjects with which a within-subjects F test has the required power; None above 10,000.
+
+    Args:
+        effect: Noncentrality per subject: for an observed F, ``F df / subjects`` of that experiment.
+        df: Degrees of freedom of the effect.
+        power: Required power, between ``limit`` and 1.
+        limit: p-value below which an effect is called significant.
+        epsilon: Epsilon of Greenhouse and Geisser, at most 1.
+    """
     _check_power(power, limit)
     return _find_smallest_sample(lambda n: f_test_power(effect, df, n, limit, epsilon), power)
 
@@ -69,15 +83,15 @@ def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float
 def estimate_power(values: FloatArray, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> FloatArray:
     """Return the fraction (3,) of random samples of ``subjects`` subjects that would have shown each effect of the ANOVA.
 
-    They are drawn without replacement, so this holds for this experiment only and assumes no distribution; close to the number
-    of all subjects the draws hardly differ.
+    Samples are without replacement, so the result holds for this experiment only and assumes no distribution. Samples with
+    nearly all subjects hardly differ.
 
     Args:
-        values: (n, A, B) as :func:`holdfast.teleop.analysis.anova`.
-        subjects: Drawn each time, 2 to n.
-        limit: p below which an effect is called significant; sphericity assumed.
-        draws: Number of draws.
-        seed: Of the draws.
+        values: (n, A, B) values, as for :func:`holdfast.teleop.analysis.anova`.
+        subjects: Size of each sample, 2 to n.
+        limit: p-value below which an effect is called significant; sphericity is assumed.
+        draws: Number of samples.
+        seed: Seed of the samples.
     """
     from scipy import stats
 
@@ -116,7 +130,7 @@ def _find_smallest_sample(power_of: Callable[[int], float], power: float) -> int
 
 
 def lower_noncentrality_limit(f: float, df: float, df_error: float, confidence: float = 0.95) -> float:
-    """Return the lower end of the confidence interval of the noncentrality of an observed F; 0 where it may be zero.
+    """Return the lower end of the confidence interval of the noncentrality of an observed F; 0 if it may be zero.
 
     Source: Steiger 2004.
     """

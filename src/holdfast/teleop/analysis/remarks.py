@@ -22,9 +22,9 @@ def compose_analysis_notes(
 ) -> Iterator[str]:
     """Yield the notes of an analysis, one or two sentences each."""
     if observed.kind == "simulated":
-        yield "The operators are simulated: these numbers tell about the simulation, not about people."
+        yield "The operators are simulated, so these numbers describe the simulation and not people."
     if left_out:
-        yield f"{format_count(len(left_out), 'subject')} left out of everything because of empty cells: {', '.join(left_out)}."
+        yield f"{format_count(len(left_out), 'subject')} left out completely because of empty cells: {', '.join(left_out)}."
     without_cpm = observed.cause != ""
     if without_cpm.any():
         by_scenario = ", ".join(
@@ -35,14 +35,14 @@ def compose_analysis_notes(
         yield (
             f"{format_count(int(without_cpm.sum()), 'trial')} of {without_cpm.size:,} "
             f"{'has' if without_cpm.sum() == 1 else 'have'} no CPM ({by_scenario}). Means are over the trials that reached the "
-            "target, which flatters a law under which the hardest ones do not."
+            "target, which favours a law under which the hardest trials do not reach it."
         )
     incomplete = cells.tasks < grouped.sizes
     if incomplete.any():
         fewest = int((grouped.sizes - cells.tasks).max())
         yield (
             f"{int(incomplete.sum())} of {incomplete.size} cell means are over fewer tasks than their group has, at most "
-            f"{fewest} fewer; the table of cells counts the tasks of each."
+            f"{fewest} fewer; the table of cells contains the number of tasks of each cell."
         )
     unknown = [observed.tasks[task] for task in np.flatnonzero(~np.isfinite(grouped.difficulty))]
     if unknown:
@@ -53,16 +53,16 @@ def compose_analysis_notes(
     if grouped.by == "operators":
         yield (
             "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is therefore "
-            "built in, and so is a part of the interaction: a task that went badly there by chance looks as if another law "
-            "helped. Grouping by the computer's CPM does not have this."
+            "built in, and so is a part of the interaction: if a task went badly there by chance, another law seems to help. "
+            "Grouping by the computer's CPM does not have this effect."
         )
     if len(set(grouped.sizes.tolist())) > 1:
-        yield f"The groups have {', '.join(map(str, grouped.sizes))} tasks: those left over went to the easiest groups."
+        yield f"The groups have {', '.join(map(str, grouped.sizes))} tasks; surplus tasks are in the easiest groups."
     if not observed.has_ratings:
-        yield "Nobody rated a trial: CPM is the sum of eleven measures, without the operators' own."
+        yield "No trial was rated, so CPM is the sum of eleven measures, without the operators' own."
     yield (
-        "Each measure is divided in CPM by its largest value, which is that of one extreme trial. Levels of CPM compare within "
-        "this analysis only; ratios and single measures compare with others."
+        "Each measure is divided in CPM by its largest value, which is that of one extreme trial. Levels of CPM are comparable "
+        "within this analysis only; ratios and single measures are comparable with others."
     )
     if computer is not None:
         yield (

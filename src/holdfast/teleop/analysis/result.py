@@ -27,23 +27,23 @@ class Analysis(Result):
     """Result of the analysis of an experiment, returned by :func:`holdfast.teleop.analysis.analyse`.
 
     Attributes:
-        observed: The operators' trials that were analysed, with their CPM and normalisers.
-        computer: The computer's; None if not given.
-        conditions: The scenarios with the failed arm. The first is the reference: the others are compared with it, and its
-            CPM is the difficulty of a task.
-        groups: The tasks in groups of difficulty.
-        cells: The means that the ANOVA is made of.
-        anova: Law x difficulty, with the failed arm; None if ``mixed`` was asked for.
-        mixed: The mixed model; None if not asked for.
-        correlations: Of anticipated (the computer's CPM), actual (the median operator CPM) and perceived (the median rating)
-            difficulty, as far as there are any.
-        tables: Everything as data frames, by name; see :meth:`save`.
-        missing: "refuse", "complete" or "mixed": what was asked for in case of empty cells.
+        observed: Analysed trials of the operators, with their CPM and normalisers.
+        computer: Trials of the computer; None if not given.
+        conditions: Scenarios with the failed arm. The first is the reference, with which the others are compared, and its CPM
+            is the difficulty of a task.
+        groups: Groups of the tasks by difficulty.
+        cells: Cell means of the ANOVA.
+        anova: ANOVA of law x difficulty with the failed arm; None if ``mixed`` was requested.
+        mixed: Mixed model; None if it was not requested.
+        correlations: Available correlations of anticipated (the computer's CPM), actual (the median operator CPM) and perceived
+            (the median rating) difficulty.
+        tables: All results as data frames, by name; see :meth:`save`.
+        missing: Requested treatment of empty cells: ``refuse``, ``complete`` or ``mixed``.
         left_out: Subjects that were left out because of empty cells.
-        limit: p below which an effect is called significant.
-        power: Asked for where numbers of subjects are given.
-        confidence: Of the intervals.
-        notes: What a reader must know about these numbers.
+        limit: p-value below which an effect is called significant.
+        power: Power for which numbers of subjects are computed.
+        confidence: Confidence level of the intervals.
+        notes: Limits of these numbers that a reader must know.
     """
 
     observed: TrialTable
@@ -82,10 +82,10 @@ class Analysis(Result):
         return dict(zip(self.cells.groups, self.cells.values.mean(axis=(0, 1)).tolist(), strict=True))
 
     def correlation(self, first: str, second: str) -> Correlation:
-        """Return the correlation of two of ``anticipated``, ``actual`` and ``perceived`` difficulty.
+        """Return the correlation of ``first`` and ``second``: ``anticipated``, ``actual`` or ``perceived`` difficulty.
 
         Raises:
-            InputError: It was not computed: without a computer nothing is anticipated, without ratings nothing perceived.
+            InputError: It was not computed. Without a computer nothing is anticipated, and without ratings nothing perceived.
         """
         for candidate in self.correlations:
             if {candidate.first, candidate.second} == {first, second}:
@@ -94,10 +94,10 @@ class Analysis(Result):
         raise InputError(f"there is no correlation of '{first}' and '{second}'; there are: {available}")
 
     def table(self, name: str) -> DataFrame:
-        """Return one of the tables.
+        """Return the table with the name ``name``.
 
         Raises:
-            InputError: There is none of that name.
+            InputError: There is no table of this name.
         """
         if name not in self.tables:
             raise InputError(f"there is no table '{name}'; there are {', '.join(self.tables)}")

@@ -19,10 +19,9 @@ _CURVE_SUBJECTS = (2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48)
 def tabulate_sample_sizes(
     cells: CellMeans, anova: Anova | None, comparisons: DataFrame, limit: float, power: float, confidence: float, seed: int
 ) -> dict[str, DataFrame]:
-    """Return the tables ``power``, with a row for each test, and ``power_curve``, with a row for each effect and number of
-    subjects.
+    """Return the tables ``power``, with a row for each test, and ``power_curve``, with a row for each effect and number.
 
-    t-tests are asked for p below ``limit`` divided by their number, which is what Holm's correction asks of the first.
+    The t-tests require p below ``limit`` divided by their number, which Holm's correction requires of the first one.
     """
     from pandas import DataFrame
 

@@ -91,7 +91,7 @@ def compare_measures(observed: TrialTable, conditions: Sequence[int], confidence
 
     comparison_rows = []
     all_values = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)
-    # Rounding of what is 0, as an error of the healthy pseudoinverse, must not become a significant difference.
+    # Rounding errors of zero values, such as errors of the healthy pseudoinverse, must not become significant differences.
     all_values[np.abs(all_values) < _ZERO_TOLERANCE] = 0.0
     for first_scenario, second_scenario in combinations(conditions, 2):
         completed = np.isfinite(observed.cpm[:, :, first_scenario]) & np.isfinite(observed.cpm[:, :, second_scenario])
@@ -124,7 +124,7 @@ def compare_measures(observed: TrialTable, conditions: Sequence[int], confidence
 
 
 def _average_over_tasks(values: FloatArray) -> FloatArray:
-    """Return the mean (P,) over the tasks that have a value; NaN where there are none."""
+    """Return the mean (P,) over the tasks that have a value; NaN without such tasks."""
     finite = np.isfinite(values)
     counts = finite.sum(axis=1)
     return np.where(counts > 0, np.where(finite, values, 0.0).sum(axis=1) / np.maximum(counts, 1), np.nan)
@@ -149,10 +149,9 @@ def tabulate_correlations(correlations: Sequence[Correlation]) -> DataFrame:
 def tabulate_tasks(
     observed: TrialTable, computer: TrialTable | None, conditions: Sequence[int], grouped: TaskGroups
 ) -> DataFrame:
-    """Return a table with a row for each task, easiest first: its difficulty, and the CPM of operators and computer with the
-    failed arm.
+    """Return a table with a row for each task, easiest first: difficulty, and CPM of operators and computer (failed arm).
 
-    The median operator of a task is the one whose CPM of the reference scenario is nearest to the median of all.
+    The median operator of a task is the one whose CPM of the reference scenario is closest to the median of all.
     """
     from pandas import DataFrame
 
@@ -189,14 +188,15 @@ def tabulate_tasks(
 
 
 def median_operator(observed: TrialTable, task: int, reference: int) -> int | None:
-    """Return the index of the subject whose CPM of a task is closest to the median of all; None if no subject reached the
-    target.
+    """Return the index of the subject whose CPM of a ``task`` (index) is closest to the median of all subjects.
+
+    ``observed`` are the trials, and ``reference`` is the index of the scenario. None if no subject reached the target.
     """
     task_cpm, median = observed.cpm[:, task, reference], observed.median_cpm()[task, reference]
     if not np.isfinite(task_cpm).any():
         return None
     if not np.isfinite(median):
-        return int(np.nanargmax(task_cpm))  # the median one failed: the last who did not
+        return int(np.nanargmax(task_cpm))  # the median operator failed: the worst one who did not
     return int(np.nanargmin(np.abs(task_cpm - median)))
 
 
@@ -211,9 +211,7 @@ def _divide_or_nan(numerator: float, denominator: float) -> float:
 def tabulate_improved_tasks(
     task_table: DataFrame, observed: TrialTable, conditions: Sequence[int], grouped: TaskGroups
 ) -> DataFrame:
-    """Return the numbers of tasks of each group in which another law than the reference did better, for operators and for the
-    computer.
-    """
+    """Return how many tasks of each group improve with another law than the reference, for operators and for the computer."""
     from pandas import DataFrame
 
     gain_rows = []

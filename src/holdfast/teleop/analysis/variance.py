@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-_ERROR_TOLERANCE = 1e-24  # of the whole variation, squared rounding: below it there is no error to compare with
+_ERROR_TOLERANCE = 1e-24  # of the total variation, squared rounding: below it there is no error to test against
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,19 +27,19 @@ class Effect:
     """Effect of a within-subjects analysis of variance.
 
     Attributes:
-        name: Of the factor, or ``first x second`` for the interaction.
+        name: Name of the factor, or ``first x second`` for the interaction.
         F: Mean square of the effect divided by that of its error.
         df: Degrees of freedom of the effect.
-        df_error: Of its error.
-        p: Probability of such an F or a larger one if there is no effect, sphericity assumed.
-        gg: Epsilon of Greenhouse and Geisser: 1 if spherical, ``1 / df`` at worst.
-        p_gg: p with both degrees of freedom multiplied by ``gg``.
+        df_error: Degrees of freedom of the error.
+        p: Probability of this F or a larger one without an effect, under sphericity.
+        gg: Epsilon of Greenhouse and Geisser: 1 under sphericity, ``1 / df`` at worst.
+        p_gg: p-value with both degrees of freedom multiplied by ``gg``.
         hf: Epsilon of Huynh and Feldt, at most 1.
-        p_hf: p with both degrees of freedom multiplied by ``hf``.
-        partial_eta2: Share of the effect in the variation of effect and error.
-        generalised_eta2: Share of the effect in the variation of effect, subjects and all errors.
+        p_hf: p-value with both degrees of freedom multiplied by ``hf``.
+        partial_eta2: Fraction of the effect in the variation of effect and error.
+        generalised_eta2: Fraction of the effect in the variation of effect, subjects and all errors.
         ss: Sum of squares of the effect.
-        ss_error: Of its error.
+        ss_error: Sum of squares of the error.
     """
 
     name: str
@@ -65,8 +65,8 @@ class Anova:
     """Within-subjects analysis of variance with two factors.
 
     Attributes:
-        effects: Of the first factor, of the second, and of their interaction.
-        subjects: How many.
+        effects: Effects of the first factor, of the second, and of their interaction.
+        subjects: Number of subjects.
         ss_subjects: Sum of squares between subjects.
     """
 
@@ -75,10 +75,10 @@ class Anova:
     ss_subjects: float
 
     def effect(self, name: str) -> Effect:
-        """Return the effect with a given name.
+        """Return the effect with the name ``name``.
 
         Raises:
-            InputError: There is none of that name.
+            InputError: There is no effect of this name.
         """
         for effect in self.effects:
             if effect.name == name:
@@ -86,9 +86,7 @@ class Anova:
         raise InputError(f"the ANOVA has no effect '{name}'; it has {', '.join(effect.name for effect in self.effects)}")
 
     def table(self) -> DataFrame:
-        """Return a table with a row for each effect and the columns of :class:`holdfast.teleop.analysis.Effect`; the name is in
-        ``effect``.
-        """
+        """Return a table with a row for each effect and the fields of an ``Effect`` as columns; the name is in ``effect``."""
         from pandas import DataFrame
 
         columns = ["effect", *(field.name for field in fields(Effect)[1:])]
@@ -100,9 +98,9 @@ class SumsOfSquares:
     """Sums of squares of one two-factor within-subjects design, or of many.
 
     Attributes:
-        effects: (..., 3) of the factors and the interaction.
-        errors: (..., 3) of their interactions with subjects.
-        subjects: (...) between subjects.
+        effects: (..., 3) sums of squares of the factors and the interaction.
+        errors: (..., 3) sums of squares of their interactions with subjects.
+        subjects: (...) sums of squares between subjects.
     """
 
     effects: FloatArray
@@ -155,13 +153,13 @@ def anova(
 
     Args:
         values: (n, A, B) one value of each of n subjects for A levels of the first factor and B of the second.
-        factors: Their names.
+        factors: Names of the factors.
         levels: Names of the levels, for messages.
         subjects: Names of the subjects, for messages.
 
     Raises:
-        InputError: Fewer than two subjects or levels, empty cells (the message names them), or values whose effects differ
-            between no subjects, so that there is no error to test against.
+        InputError: There are fewer than two subjects or levels, cells are empty (the message names them), or an effect is equal
+            in all subjects, so that there is no error to test against.
 
     Source: Goel et al. 2003, section 7.
     """
@@ -176,7 +174,7 @@ def anova(
     scale = float(sums.effects.sum() + sums.errors.sum() + sums.subjects) + a * b * n * float(y.mean()) ** 2
     for name, error in zip(names, sums.errors.tolist(), strict=True):
         if error <= _ERROR_TOLERANCE * scale:
-            raise InputError(f"the effect of {name} is the same in every subject: there is no error to test it against")
+            raise InputError(f"the effect of {name} is the same in every subject, so there is no error to test it against")
     f_values = (sums.effects / df) / (sums.errors / df_error)
     p_values = np.asarray(stats.f.sf(f_values, df, df_error))
     effects = []

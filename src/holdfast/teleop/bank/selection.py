@@ -23,17 +23,17 @@ from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 from holdfast.teleop.trials.stick import Joystick
 
-_LEVEL_COUNT = 5  # a selection should hold equally many tasks of each fifth of each measure
+_LEVEL_COUNT = 5  # a selection should contain equally many tasks of each fifth of each measure
 
 
 @dataclass(frozen=True, eq=False)
 class Binning:
-    """Plane of difficulty and ratio, cut into equal cells.
+    """Plane of difficulty and ratio, divided into equal cells.
 
     Attributes:
         difficulty: (columns + 1,) edges of CPM3.
         ratio: (rows + 1,) edges of CPM4 / CPM3.
-        cell: (N,) number of the cell of each task, ``row * columns + column``; -1 where a scenario was not completed.
+        cell: (N,) index of the cell of each task, ``row * columns + column``; -1 where a scenario was not completed.
     """
 
     difficulty: FloatArray
@@ -42,20 +42,20 @@ class Binning:
 
     @property
     def occupied_cells(self) -> IndexArray:
-        """Numbers of the cells that contain a task."""
+        """Indices of the cells that contain a task."""
         return np.unique(self.cell[self.cell >= 0])
 
 
 def bin_tasks(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
-    """Cut the plane of CPM3 and CPM4/CPM3 into ``columns x rows`` equal cells over the whole range of the bank.
+    """Divide the range of a ``bank`` in the plane of CPM3 and CPM4/CPM3 into ``columns`` x ``rows`` equal cells.
 
     Raises:
-        InputError: Fewer than one cell, or no task that was completed in every scenario.
+        InputError: There is no cell, or no task was completed in every scenario.
 
     Source: Goel et al. 2003, Fig. 2: 48 cells by 6 x 8; which axis has 6 is not stated.
     """
     if columns < 1 or rows < 1:
-        raise InputError(f"the plane cannot be cut into {columns} x {rows} cells; give 1 or more each way")
+        raise InputError(f"the plane cannot be divided into {columns} x {rows} cells; give 1 or more each way")
     completed = bank.is_completed()
     if not completed.any():
         raise InputError("no task of the bank was completed in every scenario; give more tasks")
@@ -75,19 +75,24 @@ def bin_tasks(bank: TaskBank, columns: int = 6, rows: int = 8) -> Binning:
 def select_tasks(bank: TaskBank, cells: Binning, count: int = 22) -> IndexArray:
     """Select tasks of the bank, one from each occupied cell, that together cover the range of every measure.
 
-    Each measure of scenario 3 is replaced by its rank; the choice makes the numbers of tasks in the fifths of each measure
-    as equal as an exchange of one task at a time can, beginning with the task nearest the middle of each cell. With fewer
-    cells than tasks wanted, the fullest cells give a second one; with more, the emptiest cells give none.
+    Each measure of scenario 3 is replaced by its rank. The selection makes the numbers of tasks in the fifths of each measure
+    as equal as exchanges of single tasks can, beginning with the task nearest to the middle of each cell. With fewer cells than
+    requested tasks, the fullest cells contribute a second one; with more, the emptiest cells contribute none.
+
+    Args:
+        bank: Task bank.
+        cells: Cells of the bank, from :func:`bin_tasks`.
+        count: Number of tasks.
 
     Returns:
         (count,) indices into the bank, by difficulty.
 
     Raises:
-        InputError: More tasks wanted than were completed in every scenario, or fewer than 1.
+        InputError: More tasks are requested than were completed in every scenario, or fewer than 1.
     """
     eligible = np.flatnonzero(cells.cell >= 0)
     if not 1 <= count <= eligible.size:
-        raise InputError(f"{count} tasks were asked for; the bank holds {eligible.size} that were completed in every scenario")
+        raise InputError(f"{count} tasks are requested; the bank has {eligible.size} that were completed in every scenario")
     cell_numbers, sizes = np.unique(cells.cell[eligible], return_counts=True)
     by_size = cell_numbers[np.lexsort((cell_numbers, -sizes))]
     task_cells = _choose_task_cells(by_size, dict(zip(cell_numbers.tolist(), sizes.tolist(), strict=True)), count)
@@ -148,7 +153,9 @@ def _choose_tasks_near_centers(bank: TaskBank, cells: Binning, task_cells: list[
 
 
 def find_most_disorienting(bank: TaskBank, excluded: IndexArray) -> int:
-    """Return the task with the largest direction errors and retreat (M10 x M5 of scenario 3) that is not yet chosen.
+    """Return the index of the most disorienting task of a ``bank``, without the indices ``excluded`` (K,).
+
+    It has the largest direction errors and retreat (M10 x M5 of scenario 3).
 
     Raises:
         InputError: No other task was completed in every scenario.
@@ -157,18 +164,24 @@ def find_most_disorienting(bank: TaskBank, excluded: IndexArray) -> int:
     scores = np.where(bank.is_completed(), values[:, 9] * values[:, 4], -np.inf)
     scores[excluded] = -np.inf
     if not np.isfinite(scores).any():
-        raise InputError("no task is left to be the most disorienting one; give more tasks")
+        raise InputError("no task remains for the most disorienting one; give more tasks")
     return int(np.argmax(scores))
 
 
 def find_trapped_task(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", *, seed: int = 0) -> int | None:
-    """Return a task in which the failed arm under the pseudoinverse stops at a stationary point, although the task can be done.
+    """Return a task in which the failed arm under the pseudoinverse stops at a stationary point, although the task is feasible.
 
-    The computer, steering straight, must stop short of the target in scenario 3; and some other way of steering, by one of 64
-    random points on the way, must bring the end effector into the circle.
+    The computer, which steers straight, must stop short of the target in scenario 3, and steering via one of 64 random
+    waypoints must bring the end effector into the target circle.
+
+    Args:
+        bank: Task bank.
+        arm: Arm of the tasks.
+        task: Task rows that the joystick moves.
+        seed: Seed of the random waypoints.
 
     Returns:
-        Index into the bank; None if it holds no such task.
+        Index into the bank; None if it contains no such task.
     """
     scenario = bank.scenario_index("pseudoinverse", failed=True)
     stuck_tasks = np.flatnonzero(bank.end[scenario] == End.STILL)
@@ -183,10 +196,10 @@ def can_be_steered(plant: JoystickPlant, task: PointTasks, seed: int = 0, *, tri
     """Return whether one failed task can be completed via some random waypoint.
 
     Args:
-        plant: The arm and law.
+        plant: Arm and control law.
         task: One task.
-        seed: Of the random points.
-        tries: How many.
+        seed: Seed of the random waypoints.
+        tries: Number of waypoints.
     """
     generator = np.random.default_rng(seed)
     start = plant.position(task.q0)[0]
@@ -210,13 +223,13 @@ class TaskChoice(Result):
     """Tasks of a bank chosen for an experiment, returned by :func:`choose_tasks`.
 
     Attributes:
-        bank, arm, task: The tasks, of which arm, and the rows that the stick moves.
-        cells: The plane of difficulty and ratio.
+        bank, arm, task: Task bank, its arm, and the rows that the joystick moves.
+        cells: Plane of difficulty and ratio.
         chosen: (k,) indices into the bank, by difficulty.
-        disorienting: Index of the most disorienting of the others; None if it was not asked for.
-        trapped: Index of a task in which the failed arm is drawn to a stationary point; None if there is none, or it was not
-            asked for.
-        seed: Of the tasks and of the search for ways round.
+        disorienting: Index of the most disorienting of the other tasks; None if it was not requested.
+        trapped: Index of a task in which the failed arm converges to a stationary point; None if there is none, or it was not
+            requested.
+        seed: Seed of the tasks and of the search for waypoints.
     """
 
     bank: TaskBank
@@ -246,12 +259,12 @@ def choose_tasks(
     """Choose tasks of a bank for an experiment: those of :func:`select_tasks`, and two special ones.
 
     Args:
-        bank: The tasks as the computer did them.
-        arm: Whose they are.
-        task: Rows that the stick moves.
-        count: How many, without the special ones.
-        special: Also :func:`find_most_disorienting` and :func:`find_trapped_task`.
-        seed: As of the bank.
+        bank: Tasks with the trials of the computer.
+        arm: Arm of the tasks.
+        task: Task rows that the joystick moves.
+        count: Number of tasks, without the special ones.
+        special: Add the tasks of :func:`find_most_disorienting` and :func:`find_trapped_task`.
+        seed: Seed of the bank, also used for the random waypoints.
 
     Raises:
         InputError: Too few tasks were completed in every scenario.
@@ -271,10 +284,10 @@ def choose_tasks(
 
 
 class WaypointOperator(Operator):
-    """Operator that steers towards a waypoint, until it arrives or 60 cycles have passed, and then straight at the target.
+    """Operator that steers towards a waypoint, until it arrives or 60 cycles have passed, and then straight to the target.
 
     Args:
-        via: (N, m) the points, m.
+        via: (N, m) waypoints, m.
     """
 
     def __init__(self, via: FloatArray) -> None:

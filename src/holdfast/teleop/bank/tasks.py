@@ -22,7 +22,7 @@ from holdfast.teleop.trials.recordings import End, Trials
 from holdfast.teleop.trials.scenarios import SCENARIO_NAMES, PointTasks, Scenario
 from holdfast.teleop.trials.stick import Joystick
 
-TASK_DISTANCE_M = 2.0  # m
+TASK_DISTANCE_M = 2.0  # distance from start to target, m
 _MAX_TARGETS_PER_START = 200  # targets tried from one start configuration
 _IK_RESTARTS = 24
 _IK_TOLERANCE = 1e-6
@@ -41,23 +41,23 @@ def sample_tasks(
 ) -> PointTasks:
     """Sample tasks for each joint, with targets that the arm can still reach once the joint is locked at its start angle.
 
-    The start configuration is uniform within the joint limits (a full turn where there are none), the direction to the
-    target uniform; a target is kept if a configuration of the arm with the joint locked at its start angle reaches it.
+    The start configuration is uniform within the joint limits (a full revolution without limits), and the direction to the
+    target is uniform. A target is kept if a configuration of the arm with the joint locked at its start angle reaches it.
 
     Args:
         arm: The arm.
-        per_joint: Tasks for each joint.
-        joints: Names, or indices from 0; all if not given.
-        distance: From start to target, m.
-        task: Rows that the stick moves: 2 or 3 linear ones.
-        seed: Of the random numbers.
+        per_joint: Number of tasks for each joint.
+        joints: Names or indices of the joints, from 0. Default: all joints.
+        distance: Distance from start to target, m.
+        task: Task rows that the joystick moves: 2 or 3 linear ones.
+        seed: Seed of the random numbers.
 
     Returns:
         The tasks, joint by joint.
 
     Raises:
-        InputError: No tasks asked for, a distance that is not above 0, or one that the arm can hardly ever cover.
-        TaskError: Rows that a stick cannot command.
+        InputError: No tasks are requested, the distance is not above 0, or the arm can hardly ever cover it.
+        TaskError: The task has rows that a joystick cannot command.
 
     Source: Goel et al. 2003, section 5: 1200 tasks, 2 m from start to target. The distribution is reconstructed.
     """
@@ -101,7 +101,7 @@ def _sample_joint_tasks(
             q0[restarted] = generator.uniform(lower, upper, (restarted.size, arm.n))
             x0[restarted] = arm.forward_kinematics(q0[restarted])[:, :3, 3] @ task.rows[:, :3].T
         tries[restarted], start_counts[restarted] = 0, start_counts[restarted] + 1
-        # Of few open tasks many directions are tried side by side; the first that works counts.
+        # If only a few tasks remain, many directions are tried at once, and the first that works counts.
         direction_count = max(1, _BATCH_TARGETS // pending.size)
         directions = generator.normal(size=(pending.size, direction_count, task.m))
         directions /= np.linalg.norm(directions, axis=2, keepdims=True)
@@ -135,14 +135,14 @@ def run_tasks(
     Args:
         arm: The arm.
         tasks: N tasks.
-        operator: Who holds the stick; the computer if not given.
-        scenarios: The S conditions.
-        stick: As :class:`holdfast.teleop.Joystick`; the paper's if not given.
-        rules: When a trial is over.
-        task: Rows that the stick moves.
+        operator: Operator of the joystick. Default: the computer.
+        scenarios: S scenarios.
+        stick: Joystick. Default: that of the paper.
+        rules: Rules that end a trial. Default: ``EndRules()``.
+        task: Task rows that the joystick moves.
 
     Raises:
-        InputError, TaskError: As the laws and :func:`holdfast.teleop.drive_trials`.
+        InputError, TaskError: As for the laws and :func:`holdfast.teleop.drive_trials`.
     """
     plants = [JoystickPlant(scenario.make_law(arm, task)) for scenario in scenarios]
     stick = Joystick() if stick is None else stick
@@ -173,9 +173,7 @@ def drive_tasks(
     stick: Joystick | None,
     rules: EndRules | None,
 ) -> Trials:
-    """Drive N tasks, like :func:`holdfast.teleop.drive_trials`, under scenarios (N,) given by index from 0; a plant for
-    each scenario.
-    """
+    """Drive N tasks like :func:`holdfast.teleop.drive_trials`, in scenarios (N,) given by index, with a plant for each one."""
     failed = np.array([condition.failed for condition in scenarios], dtype=bool)[scenario]
     return drive_trials(
         plants,
@@ -194,12 +192,12 @@ class TaskBank:
     """N tasks and the computer's trials of them in S scenarios.
 
     Attributes:
-        tasks: The tasks.
-        scenarios: The conditions.
-        measures: (S, N, 11) M1 to M11; NaN where the end effector did not reach it.
+        tasks: N tasks.
+        scenarios: S scenarios.
+        measures: (S, N, 11) M1 to M11; NaN where the end effector did not reach the target.
         end: (S, N) :class:`holdfast.teleop.End`.
-        cpm: (S, N) combined performance measures; NaN where the end effector did not reach it.
-        normalisers: (11,) of the CPM: the largest measures of all these trials.
+        cpm: (S, N) combined performance measures; NaN where the end effector did not reach the target.
+        normalisers: (11,) normalisers of the CPM: the largest measures of all these trials.
     """
 
     tasks: PointTasks
@@ -211,7 +209,7 @@ class TaskBank:
 
     @classmethod
     def from_trials(cls, tasks: PointTasks, trials: Trials, scenarios: Sequence[Scenario] = SCENARIO_NAMES) -> TaskBank:
-        """Build the bank from the trials of :func:`run_tasks`."""
+        """Return the bank of N ``tasks`` with their S x N ``trials`` from :func:`run_tasks` in S ``scenarios``."""
         shape = (len(scenarios), len(tasks))
         values = compute_measures(trials).reshape(*shape, RECORDED_MEASURES)
         combined = compute_cpm(values)
@@ -228,10 +226,10 @@ class TaskBank:
         return len(self.tasks)
 
     def scenario_index(self, law: str, failed: bool) -> int:
-        """Return the index of the scenario with this law and failure.
+        """Return the index of the scenario with control law ``law`` in which the joint has, or has not, ``failed``.
 
         Raises:
-            InputError: There is none.
+            InputError: There is no such scenario.
         """
         for index, condition in enumerate(self.scenarios):
             if condition.law == law and condition.failed == failed:
@@ -240,12 +238,12 @@ class TaskBank:
 
     @property
     def difficulty(self) -> FloatArray:
-        """Anticipated difficulty (N,): CPM3, that of the failed arm under the pseudoinverse."""
+        """Anticipated difficulty (N,): CPM3, the CPM of the failed arm under the pseudoinverse."""
         return np.asarray(self.cpm[self.scenario_index("pseudoinverse", failed=True)])
 
     @property
     def ratio(self) -> FloatArray:
-        """Ratio (N,) CPM4 / CPM3: below 1, the failure-tolerant inverse does better."""
+        """Ratio (N,) CPM4 / CPM3; below 1, the failure-tolerant inverse performs better."""
         return np.asarray(self.cpm[self.scenario_index("failure-tolerant", failed=True)] / self.difficulty)
 
     def is_completed(self) -> NDArray[np.bool_]:
@@ -266,8 +264,18 @@ def make_task_bank(
     stick: Joystick | None = None,
     rules: EndRules | None = None,
 ) -> TaskBank:
-    """Sample random tasks and run each under computer control in every scenario; see :func:`sample_tasks` and
-    :func:`run_tasks`.
+    """Sample random tasks and run each under computer control in every scenario.
+
+    Args:
+        arm: The arm.
+        per_joint: Number of tasks for each joint.
+        joints: Names or indices of the joints, from 0. Default: all joints.
+        distance: Distance from start to target, m.
+        task: Task rows that the joystick moves: 2 or 3 linear ones.
+        seed: Seed of the random tasks.
+        scenarios: Scenarios of the trials.
+        stick: Joystick. Default: that of the paper.
+        rules: Rules that end a trial. Default: ``EndRules()``.
 
     Source: Goel et al. 2003, section 5.
     """

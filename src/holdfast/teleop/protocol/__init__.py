@@ -1,4 +1,4 @@
-"""Plan of an experiment: conditions, order, texts, and the arm on the page."""
+"""Protocol of an experiment: conditions, order, texts, and the arm on the page."""
 
 from holdfast.core._lazy import offer
 

@@ -16,17 +16,17 @@ from holdfast.core.typing import IndexArray
 def williams_square(n: int) -> IndexArray:
     """Return a Latin square balanced for the preceding task, by Williams' construction.
 
-    In each column every task comes equally often, and every ordered pair of neighbours occurs equally often in the rows:
-    once for even n, in n rows; twice for odd n, which takes 2 n rows (the square and its mirror image).
+    Every task occurs equally often in each column, and every ordered pair of neighbours occurs equally often in the rows: once
+    for even n, in n rows; twice for odd n, which takes 2 n rows (the square and its mirror image).
 
     Args:
         n: Number of tasks, 1 or more.
 
     Returns:
-        Task indices from 0, a row for each subject, (n, n), or (2 n, n) for odd n above 1.
+        Task indices from 0, one row for each subject, (n, n), or (2 n, n) for odd n above 1.
 
     Raises:
-        InputError: n below 1.
+        InputError: n is below 1.
     """
     if n < 1:
         raise InputError(f"a square of {n} tasks is not possible; give 1 or more")
@@ -38,17 +38,17 @@ def williams_square(n: int) -> IndexArray:
 
 
 def choose_next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
-    """Return the row of the square for the next subject: completed by the fewest subjects, then in progress with the fewest.
+    """Return the row of the square for the next subject: the one completed, and then in progress, by the fewest subjects.
 
-    Rows of subjects who dropped out come up again, so that an experiment ends balanced.
+    Rows of subjects who dropped out are used again, so that an experiment ends balanced.
 
     Args:
         completed: Rows of subjects who finished their session.
-        open_: Rows of subjects whose session is under way.
+        open_: Rows of subjects whose session is in progress.
         rows: Number of rows.
 
     Raises:
-        InputError: A row that the square does not have.
+        InputError: The square does not have one of the rows.
     """
     for row in (*completed, *open_):
         if not 0 <= row < rows:
@@ -60,8 +60,9 @@ def choose_next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -
 
 
 def shuffle_scenarios(tasks: int, scenarios: int, seed: int, *, subject: int) -> IndexArray:
-    """Return (tasks, scenarios) random orders of the scenarios within each task, the same for the same seed and
-    subject number.
+    """Return random orders (tasks, scenarios) of a number of ``scenarios`` within each of a number of ``tasks``.
+
+    They depend only on the ``seed`` of the experiment and the number of the ``subject``, both 0 or more.
     """
     generator = np.random.default_rng(np.random.SeedSequence([seed, subject]))
     return np.asarray(generator.permuted(np.tile(np.arange(scenarios), (tasks, 1)), axis=1), dtype=np.int64)

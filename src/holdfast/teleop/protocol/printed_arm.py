@@ -22,13 +22,13 @@ from holdfast.model.arm.model import Arm
 from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.trials.plant import check_joystick_task, make_euler_substep
 
-_WARMUP_CYCLES = 300  # cycles of each law before the module is ready: engines compile what has run a while
+_WARMUP_CYCLES = 300  # cycles of each law at loading, because engines compile code that has run for a while
 
 
 def number_scenario_laws(protocol: Protocol) -> list[int]:
-    """Return for each scenario the number of its law in the module: laws with their options, each once, shuffled.
+    """Return for each scenario the index of its law in the module, where every law with its options occurs once, shuffled.
 
-    So the numbers say nothing to who reads what page and server say to each other; the protocol's seed shuffles them.
+    The protocol's seed shuffles the indices, so that messages between page and server do not reveal the law to a reader.
     """
     law_numbers: dict[str, int] = {}
     scenario_laws = [
@@ -40,7 +40,7 @@ def number_scenario_laws(protocol: Protocol) -> list[int]:
 
 
 def generate_arm_javascript(protocol: Protocol) -> str:
-    """Print the arm under the protocol's laws as an ES module, which needs nothing else and allocates nothing.
+    """Return the arm under the protocol's laws as an ES module, which has no dependencies and allocates no memory.
 
     .. code-block:: javascript
 
@@ -49,17 +49,18 @@ def generate_arm_javascript(protocol: Protocol) -> str:
         export function position(q, out);
         export function points(q, out);
 
-    All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`number_scenario_laws`. ``cycle`` writes what
-    :meth:`holdfast.teleop.JoystickPlant.step_one` gives: the configuration after a whole control cycle, then the tool point's
-    velocity at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire
-    frame, three world coordinates each, m: the base (left out where the first joint sits at it), every joint, the tool point;
-    so joint k, from 0, is marker ``markers - 1 - joints + k``. NaN or infinity in an argument makes everything NaN.
+    All arguments are ``Float64Array``, apart from ``law``, its index in :func:`number_scenario_laws`. ``cycle`` writes the
+    result of :meth:`holdfast.teleop.JoystickPlant.step_one`: the configuration after a whole control cycle, then the tool
+    point's velocity at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the
+    wire frame, three world coordinates each, m: the base (left out where the first joint is at the base), every joint, the tool
+    point. Joint k, from 0, is therefore marker ``markers - 1 - joints + k``. NaN or infinity in an argument makes everything
+    NaN.
 
     Args:
-        protocol: The experiment.
+        protocol: Protocol of the experiment.
 
     Raises:
-        TaskError: Rows that a stick cannot command.
+        TaskError: The task has rows that a joystick cannot command.
     """
     numbers = number_scenario_laws(protocol)
     check_joystick_task(protocol.rows)
@@ -95,9 +96,7 @@ def _generate_javascript_module(laws: list[Law], substeps: int) -> str:
 
 
 def _wire_frame_points(arm: Arm, q: SX) -> SX:
-    """Return (3, markers) positions in the world: the base, if the first joint sits elsewhere, every joint and the
-    tool point.
-    """
+    """Return (3, markers) positions in the world: the base, if the first joint is elsewhere, every joint and the tool point."""
     moving, fixed = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
     tool = kinematics.compose_frames(moving[-1], kinematics.split_transform(arm.tool))
     at_base = not np.any(arm.joints[0].origin[:3, 3])

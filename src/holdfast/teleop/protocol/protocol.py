@@ -1,26 +1,26 @@
-"""Protocol of an experiment: a validated YAML file; the protocols of the paper ship with holdfast.
+"""Protocol of an experiment: a validated YAML file. The protocols of the paper ship with holdfast.
 
 .. code-block:: yaml
 
     name: three links
     arm: planar-3r              # built-in name, or a URDF, MJCF or DH file next to this one
-    task: planar                # rows that the stick moves: planar or position
+    task: planar                # rows that the joystick moves: planar or position
     rate: 6                     # control cycles per second
     substeps: 10                # Euler steps in a cycle
     stick: {limit: 0.05, dead_zone: 0.005}      # m/cycle
     target_radius: 0.1          # m
-    cycle_limit: 3000           # a trial is over then; none if not given
+    cycle_limit: 3000           # a trial ends then; default: no limit
     subjects: 24
-    seed: 2003                  # of the order of scenarios, and of the training tasks
+    seed: 2003                  # seed of the order of scenarios, and of the training tasks
     scenarios:
       - {law: pseudoinverse, failed: false}
       - {law: failure-tolerant, failed: true, options: {pre_failure_error: 0.5}}
     training: {at_least: 10, in_a_row: 5, limit: 55, most: 100, distance: 2}    # limit in cycles, distance in m
     rating: [easy, moderate, difficult, very difficult]
     tasks:
-      - {q0: [1.865, -1.152, 2.718], target: [1.5, 1.5], joint: joint1, note: the failed arm stops on a straight way}
+      - {q0: [1.865, -1.152, 2.718], target: [1.5, 1.5], joint: joint1, note: the failed arm stops on a straight path}
 
-Angles are rad. ``joint`` is the one that fails, at its start angle; none if not given.
+Angles are in rad. ``joint`` is the joint that fails, at its start angle; without it no joint fails.
 """
 
 from __future__ import annotations
@@ -62,14 +62,14 @@ class Training:
     """Criterion of sufficient practice: both ``at_least`` tasks, and the last ``in_a_row`` within ``limit`` cycles.
 
     Attributes:
-        at_least: Tasks completed in total.
-        in_a_row: The last tasks, one after the other, within the limit.
-        limit: Cycles; from pilot runs see :func:`training_limit`.
-        most: Tasks after which a subject who has not met the criterion is sent home.
-        distance: From start to target, m.
+        at_least: Smallest number of completed tasks.
+        in_a_row: Number of the last tasks that must be within the limit.
+        limit: Limit of the completion time, cycles; see :func:`training_limit` for a limit from pilot runs.
+        most: Number of tasks after which a subject who does not meet the criterion drops out.
+        distance: Distance from start to target, m.
 
-    Source: Goel et al. 2003, section 6. The paper prints a limit of 7.5 cycles, which 2 m at 0.05 m/cycle cannot be done in
-    (38 at least); 55 is ours, inferred.
+    Source: Goel et al. 2003, section 6. The paper prints a limit of 7.5 cycles, which is impossible for 2 m at 0.05 m/cycle
+    (at least 38 cycles); our limit of 55 is inferred.
     """
 
     at_least: int = 10
@@ -80,7 +80,7 @@ class Training:
     distance: float = 2.0
 
     def is_met_by(self, cycles: Sequence[float]) -> bool:
-        """Return whether completion times, in cycles and in order (NaN: not completed), meet the criterion."""
+        """Return True if completion times ``cycles``, in order and NaN for uncompleted tasks, meet the criterion."""
         completed = [duration for duration in cycles if np.isfinite(duration)]
         recent = list(cycles)[-self.in_a_row :]
         return (
@@ -95,16 +95,16 @@ def training_limit(times: Any, factor: float = 1.2) -> float:
 
     Args:
         times: (K, R) completion times of K operators in R repetitions of one task; NaN where not completed.
-        factor: 1.2 in the paper.
+        factor: Factor on the mean, 1.2 in the paper.
 
     Raises:
-        InputError: An operator who never completed the task.
+        InputError: An operator never completed the task.
 
     Source: Goel et al. 2003, section 6: three operators, 20 repetitions.
     """
     durations = np.atleast_2d(np.asarray(times, dtype=np.float64))
     if durations.size == 0 or np.isnan(durations).all(axis=1).any():
-        raise InputError("an operator of the pilot runs never completed the task; a limit needs a time of each")
+        raise InputError("an operator of the pilot runs never completed the task; the limit needs a time of each operator")
     return float(factor * np.nanmin(durations, axis=1).mean())
 
 
@@ -113,23 +113,23 @@ class Protocol:
     """Plan of an experiment: its tasks and scenarios, the number of subjects, and the order.
 
     Attributes:
-        name: For people.
+        name: Name of the experiment.
         arm: The arm.
-        arm_spec: How the file names it.
-        arm_file: Where its description is; None for a built-in arm.
-        rows: Task rows that the stick moves.
-        rate: Control cycles per second.
-        substeps: Euler steps in a cycle.
-        stick: The stick, m/cycle.
-        radius: Of the target circle, m.
-        cycle_limit: Cycles after which a trial is over; None for none.
-        subjects: How many are wanted.
-        seed: Of the orders of scenarios and of training tasks.
-        scenarios: The conditions.
-        training: The criterion.
+        arm_spec: Name or path of the arm in the file.
+        arm_file: File of the arm's description; None for a built-in arm.
+        rows: Task rows that the joystick moves.
+        rate: Control cycles per second, Hz.
+        substeps: Number of Euler steps in a cycle.
+        stick: Joystick, with speeds in m/cycle.
+        radius: Radius of the target circle, m.
+        cycle_limit: Number of cycles after which a trial ends; None: no limit.
+        subjects: Planned number of subjects.
+        seed: Seed of the orders of scenarios and of training tasks.
+        scenarios: Scenarios of the experiment.
+        training: Training criterion.
         rating: Names of the steps of the rating, from 0.
-        tasks: The tasks.
-        notes: About each task, for the experimenter.
+        tasks: Tasks of the experiment.
+        notes: Note about each task, for the experimenter.
     """
 
     name: str
@@ -153,7 +153,7 @@ class Protocol:
 
     @property
     def rules(self) -> EndRules:
-        """Rules that end a person's trial: inside the circle with no command, or by abort; being stuck ends no trial."""
+        """Rules that end a person's trial: inside the circle without a command, or by abort. An arm that is still ends none."""
         limit = _UNLIMITED_CYCLES if self.cycle_limit is None else self.cycle_limit
         return EndRules(radius=self.radius, at_rest=True, cycle_limit=limit, patience=_UNLIMITED_CYCLES)
 
@@ -163,26 +163,26 @@ class Protocol:
         return tuple(JoystickPlant(scenario.make_law(self.arm, self.rows), self.substeps) for scenario in self.scenarios)
 
     def task_order(self) -> IndexArray:
-        """Return (R, T) task indices from 0: the rows of the balanced square."""
+        """Return (R, T) task indices from 0, the rows of the balanced square."""
         return williams_square(len(self.tasks))
 
     def session_order(self, row: int, subject: int) -> IndexArray:
         """Return (T S, 2) task and scenario indices, from 0, of a whole session in order.
 
         Args:
-            row: Of the balanced square.
-            subject: Running number, which with the seed makes the orders of the scenarios.
+            row: Row of the balanced square, from 0.
+            subject: Number of the subject, which with the seed determines the orders of the scenarios.
         """
         tasks = self.task_order()[row]
         orders = shuffle_scenarios(len(tasks), len(self.scenarios), self.seed, subject=subject)
         return np.column_stack([np.repeat(tasks, len(self.scenarios)), orders.ravel()])
 
     def with_tasks(self, tasks: PointTasks, notes: Sequence[str] | None = None) -> Protocol:
-        """Return the same experiment with other tasks."""
+        """Return the same experiment with other ``tasks``, and with ``notes`` about each of them (default: none)."""
         return replace(self, tasks=tasks, notes=tuple(notes) if notes is not None else ("",) * len(tasks))
 
     def to_yaml(self) -> str:
-        """Return the protocol as the text of a YAML file that :func:`holdfast.teleop.read_protocol` takes."""
+        """Return the protocol as the text of a YAML file that :func:`holdfast.teleop.read_protocol` reads."""
         data: dict[str, Any] = {
             "name": self.name,
             "arm": self.arm_spec,
@@ -209,10 +209,10 @@ class Protocol:
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120, default_flow_style=None)
 
     def write(self, path: str | Path) -> Path:
-        """Write :meth:`to_yaml` to a file, with the arm's own file, if it has one, in the same folder.
+        """Write :meth:`to_yaml` to the file ``path``, and the arm's own file, if it has one, to the same folder.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: A file cannot be written.
         """
         file = Path(path)
         replace_file(file, self.to_yaml())
@@ -235,8 +235,11 @@ def _format_task(protocol: Protocol, index: int) -> dict[str, Any]:
 def read_protocol(spec: str | Path = PAPER_PROTOCOL) -> Protocol:
     """Read a protocol by name (``goel2003``, or ``goel2003-smooth`` with the same speed at 60 cycles/s) or from a YAML file.
 
+    Args:
+        spec: Name of a protocol, or path of a file.
+
     Raises:
-        InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+        InputError: The file cannot be read, or a key is unknown, missing or wrong; the message names it.
     """
     if str(spec) in BUILTIN_PROTOCOLS:
         with resources.as_file(resources.files("holdfast.teleop.protocol") / f"{spec}.yaml") as path:
@@ -310,9 +313,9 @@ def _build_protocol(document: _ProtocolFile, folder: Path) -> Protocol:
                     f"tasks[{index}].{name}: it has {len(values)} numbers; '{arm.name}' and task '{rows.name}' need {length}"
                 )
     if len({(entry.law, entry.failed, str(entry.options)) for entry in document.scenarios}) < len(document.scenarios):
-        raise InputError("scenarios: two of them are the same; give each once")
+        raise InputError("scenarios: two of them are equal; give each once")
     if len(set(document.rating)) < len(document.rating):
-        raise InputError("rating: two of its steps have the same name; give each another")
+        raise InputError("rating: two of its steps have the same name; give different names")
     protocol = Protocol(
         name=document.name,
         arm=arm,
@@ -340,5 +343,5 @@ def _build_protocol(document: _ProtocolFile, folder: Path) -> Protocol:
         notes=tuple(planned.note for planned in document.tasks),
     )
     for scenario in protocol.scenarios:
-        scenario.make_law(arm, rows)  # an unknown law or option is refused now, not in the middle of a session
+        scenario.make_law(arm, rows)  # rejects an unknown law or option now, not in the middle of a session
     return protocol

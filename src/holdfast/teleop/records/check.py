@@ -14,7 +14,7 @@ from holdfast.teleop.records.entries import TrialRecord
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import Trials
 
-REPLAY_TOLERANCE = 1e-6  # rad and m; a browser, or a computer of another kind, rounds differently, by less
+REPLAY_TOLERANCE = 1e-6  # rad and m; a browser, or another kind of computer, rounds differently by less than this
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,10 +22,10 @@ class Replay(Result):
     """Result of a replay of recorded trials.
 
     Attributes:
-        entries: The N trials.
-        trials: What was recorded of them.
-        difference: (N,) largest difference of a joint, in any cycle, from what was recorded, rad and m; infinite where the
-            end effector was in the target circle without a command and the trial continued.
+        entries: N replayed trials.
+        trials: Recorded motions of the trials.
+        difference: (N,) largest difference of a joint from the record in any cycle, rad and m; infinite where the end effector
+            was in the target circle without a command and the trial continued.
     """
 
     entries: list[TrialRecord]
@@ -70,12 +70,12 @@ class Replay(Result):
 def replay_trials(records: Records, entries: list[TrialRecord] | None = None) -> Replay:
     """Drive the arm with the recorded commands, and compare configurations cycle by cycle.
 
-    Each cycle begins at the recorded configuration, the first at the task's start: where a motion is unstable, the last
-    digits in which two computers differ would grow from cycle to cycle and say nothing about the record.
+    Each cycle begins at the recorded configuration, and the first one at the task's start. Otherwise, if a motion is unstable,
+    rounding differences between two computers would grow from cycle to cycle and contain no information about the record.
 
     Args:
-        records: The records.
-        entries: Which trials; all if not given.
+        records: Records of the experiment.
+        entries: Trials to replay. Default: all.
     """
     chosen = records.entries() if entries is None else entries
     protocol, trials, tasks = records.protocol, records.read_trials(chosen), records.read_tasks(chosen)

@@ -1,4 +1,4 @@
-"""Consistent copy of an experiment, also while it is served."""
+"""Consistent copy of an experiment, even while it is served."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from holdfast.teleop.records.verification import VerificationReport, verify_reco
 
 
 def copy_experiment(folder: str | Path, out: str | Path) -> VerificationReport:
-    """Copy the records as they are at one moment, by SQLite's own means, with the files that belong to them.
+    """Copy the records as they are at one moment, with SQLite's backup, and the files that belong to them.
 
-    The copy appears under its name when it is whole and was verified.
+    The copy appears under its name when it is complete and was verified.
 
     Args:
-        folder: Of the experiment; it may be served at the same time.
-        out: A folder that is not there yet.
+        folder: Folder of the experiment, which may be served at the same time.
+        out: New folder for the copy.
 
     Returns:
-        What verifying the copy showed: it is sound.
+        Report of the verification of the copy, which is sound.
 
     Raises:
-        StoreError: There is no experiment, ``out`` is there already or cannot be written, or the copy is not sound.
+        StoreError: There is no experiment, ``out`` exists or cannot be written, or the copy is not sound.
     """
     source, target = Path(folder), Path(out)
     if target.exists():

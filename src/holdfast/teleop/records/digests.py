@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-RECORDS_FORMAT = 2  # of records with digests
+RECORDS_FORMAT = 2  # format of records with digests
 
 SESSIONS_TABLE = """CREATE TABLE IF NOT EXISTS sessions (
     subject TEXT PRIMARY KEY REFERENCES subjects(code) ON DELETE CASCADE, key BLOB NOT NULL UNIQUE, seq INTEGER NOT NULL,
@@ -29,7 +29,7 @@ _DIGEST_TABLES = (
     "CREATE TABLE under_way (trial INTEGER PRIMARY KEY REFERENCES trials(id) ON DELETE CASCADE, content BLOB NOT NULL)",
 )
 
-# What each digest is of, in this order of the columns.
+# Content of each digest, in this order of the columns.
 TRIAL_START_QUERY = "SELECT id, subject, kind, position, task, scenario, joint, q0, target, began FROM trials WHERE id = ?"
 CYCLES_QUERY = "SELECT k, time, velocity, q FROM cycles WHERE trial = ? ORDER BY k"
 TRIAL_END_QUERY = "SELECT ended, end FROM trials WHERE id = ?"
@@ -44,7 +44,7 @@ _SCHEMA_QUERY = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL
 
 
 def encode_sqlite_values(values: Iterable[Any]) -> bytes:
-    """Pack values of SQLite as bytes that no other values have: ``n``, ``i12;``, ``r`` and 8 bytes, ``t3:abc``, ``b2:..``."""
+    """Pack values of SQLite as bytes that are unique for them: ``n``, ``i12;``, ``r`` and 8 bytes, ``t3:abc``, ``b2:..``."""
     parts = []
     for value in values:
         if value is None:
@@ -119,13 +119,13 @@ def digest_files(folder: Path, names: Iterable[str]) -> str:
 class DigestChain:
     """Writer of the digests of records; each digest is in one transaction with its content.
 
-    Records from before there were digests get the tables for them with the first change. What was there already has no
-    digest, and ``about`` says up to where.
+    Records without digests, from an earlier format, get the tables for them with the first change. Their existing content has
+    no digest, and ``about`` states its extent.
 
     Args:
-        db: The records.
-        folder: Where they lie.
-        files: Names of the files beside them that belong to the experiment.
+        db: Records of the experiment.
+        folder: Folder of the records.
+        files: Names of the other files in the folder that belong to the experiment.
     """
 
     def __init__(self, db: sqlite3.Connection, folder: Path, files: Sequence[str]) -> None:
@@ -133,7 +133,7 @@ class DigestChain:
         self._ready = False
 
     def create_tables(self) -> None:
-        """Create the tables where there are none; to be called inside a transaction."""
+        """Create missing tables; must be called inside a transaction."""
         if self._ready:
             return
         database = self._db
@@ -201,7 +201,7 @@ class DigestChain:
     def end_trial(self, trial: int, subject: str) -> None:
         """Record the end of a trial."""
         running = self._read_running_digest(trial)
-        content = None  # it began before there were digests
+        content = None  # the trial began before the records had digests
         if running is not None:
             content = digest_bytes(running, encode_sqlite_values(self._db.execute(TRIAL_END_QUERY, (trial,)).fetchone()))
             self._db.execute("DELETE FROM under_way WHERE trial = ?", (trial,))

@@ -13,7 +13,7 @@ import numpy as np
 from holdfast.core.typing import FloatArray
 from holdfast.teleop.trials.recordings import End
 
-# The columns that the readers below take, in their order.
+# Columns that the functions below read, in their order.
 SUBJECT_COLUMNS = "code, number, row, kind, state, since, answers, note"
 ENTRY_COLUMNS = "id, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers"
 
@@ -47,14 +47,14 @@ class Subject:
     """Subject of an experiment.
 
     Attributes:
-        code: As the laboratory calls it; no name.
-        number: Running number, from 0: with the protocol's seed it makes the order of the scenarios.
-        row: Of the balanced square.
-        kind: A person, or not.
-        state: Of the session.
-        since: When the subject was added, UTC, ISO 8601.
-        answers: What the subject answered besides the ratings, for example to the questions of the beginning.
-        note: The experimenter's.
+        code: Code of the subject in the laboratory, not a name.
+        number: Number of the subject, from 0; with the protocol's seed it determines the order of the scenarios.
+        row: Row of the balanced square, from 0.
+        kind: Person, simulated person, or computer.
+        state: State of the session.
+        since: Time at which the subject was added, UTC, ISO 8601.
+        answers: Answers other than ratings, for example to the initial questions.
+        note: Note of the experimenter.
     """
 
     code: str
@@ -72,20 +72,20 @@ class TrialRecord:
     """Trial as recorded, without its cycles.
 
     Attributes:
-        id: Its number in the records.
-        subject: Code.
-        kind: What it is for.
-        position: In the session, from 0, counted for each kind.
+        id: Number of the trial in the records.
+        subject: Code of the subject.
+        kind: Purpose of the trial.
+        position: Position in the session, from 0, counted separately for each kind.
         task: Index from 0 of the protocol's task; -1 in training.
         scenario: Index from 0 of the protocol's scenario.
-        joint: Index from 0 of the joint that the task has fail; -1 for none.
-        q0: (n,) start, rad and m.
-        target: (m,) m.
-        began: UTC, ISO 8601.
-        ended: Likewise; None for a trial that was broken off or is under way.
-        end: How it ended.
-        rating: Step from 0; None where there is none.
-        answers: To further questions after the trial.
+        joint: Index from 0 of the joint that fails in the task; -1 for none.
+        q0: (n,) start configuration, rad and m.
+        target: (m,) centre of the target circle, m.
+        began: Start time, UTC, ISO 8601.
+        ended: End time, UTC, ISO 8601; None for a trial that was broken off or is in progress.
+        end: End of the trial.
+        rating: Rating, from 0; None without one.
+        answers: Answers to further questions after the trial.
     """
 
     id: int
@@ -143,7 +143,7 @@ def parse_trial_row(row: tuple[Any, ...]) -> TrialRecord:
 
 
 def pack_array(values: FloatArray) -> bytes:
-    """Pack numbers as they are stored."""
+    """Pack numbers in the stored format."""
     return np.ascontiguousarray(values, dtype="<f8").tobytes()
 
 

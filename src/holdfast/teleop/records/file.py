@@ -18,10 +18,10 @@ from holdfast.teleop.records.digests import RECORDS_FORMAT, DigestChain
 
 RECORDS_FILE = "records.sqlite"
 PROTOCOL_FILE = "protocol.yaml"
-LOCK_FILE = "serve.lock"  # held by who writes the records of a whole folder
+LOCK_FILE = "serve.lock"  # lock of the program that writes the records of a whole folder
 _UNFINISHED_FILE = RECORDS_FILE + ".new"  # the file while an experiment is being created
 _JOURNAL_FILE = _UNFINISHED_FILE + "-journal"  # written by SQLite
-_INITIAL_FORMAT = "1"  # format of a file without digests, which get their tables after the rest
+_INITIAL_FORMAT = "1"  # format of a file without digests, whose tables are created after the others
 _KNOWN_FORMATS = (_INITIAL_FORMAT, str(RECORDS_FORMAT))
 
 _CREATE_TABLES = """
@@ -53,9 +53,9 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
     """Write the files of a new experiment.
 
     Args:
-        folder: A new or empty folder.
-        protocol: The protocol.
-        metadata: Further entries of the table ``metadata``.
+        folder: New or empty folder.
+        protocol: Protocol of the experiment.
+        metadata: Further entries of the table ``about``.
 
     Raises:
         StoreError: The folder is not empty, or cannot be written.
@@ -82,13 +82,13 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
             database.executemany("INSERT INTO about VALUES (?, ?)", entries.items())
             DigestChain(database, folder, list_protocol_files(stored_protocol)).create_tables()
             database.execute("COMMIT")
-        unfinished.rename(folder / RECORDS_FILE)  # a folder with this file is whole
+        unfinished.rename(folder / RECORDS_FILE)  # a folder with this file is complete
     except (OSError, sqlite3.Error) as error:
         raise StoreError(f"cannot write to '{folder}': {error}; choose another folder") from error
 
 
 def _has_foreign_files(folder: Path, protocol: Protocol) -> bool:
-    """Return whether a folder holds anything but the files of an experiment whose creation was interrupted."""
+    """Return True if a folder contains other files than those of an experiment whose creation was interrupted."""
     names = {file.name for file in folder.iterdir()}
     return bool(names - {_UNFINISHED_FILE, _JOURNAL_FILE, PROTOCOL_FILE, protocol.arm_spec}) or bool(names) > (
         _UNFINISHED_FILE in names
@@ -96,16 +96,16 @@ def _has_foreign_files(folder: Path, protocol: Protocol) -> bool:
 
 
 def list_protocol_files(protocol: Protocol) -> list[str]:
-    """Return the names of the files in the folder that belong to the experiment besides the records."""
+    """Return the names of the files in the folder that belong to the experiment in addition to the records."""
     return [PROTOCOL_FILE] if protocol.arm_file is None else [PROTOCOL_FILE, protocol.arm_spec]
 
 
 def open_database(file: Path) -> tuple[sqlite3.Connection, bool]:
-    """Open the file, and return the connection and whether it is read-only.
+    """Open the file, and return the connection, and True if it is read-only.
 
     Raises:
-        StoreError: It can only be read, and not all of it is in it: it was copied, or made unwritable, while it was in use.
-        sqlite3.Error: It is not a file of SQLite.
+        StoreError: The file can only be read, and lacks the last changes, because it was copied or made read-only while in use.
+        sqlite3.Error: The file is not an SQLite file.
     """
     database = sqlite3.connect(file, isolation_level=None, timeout=30.0)
     try:
@@ -130,20 +130,20 @@ def _open_read_only(file: Path) -> sqlite3.Connection:
     if wal_file.is_file() and wal_file.stat().st_size:
         raise StoreError(
             f"'{file.parent}' cannot be written, and the last changes are still in '{wal_file.name}'; copy the whole folder to "
-            "where you may write, and open the copy"
+            "a folder that can be written, and open the copy"
         )
     return sqlite3.connect(f"{file.resolve().as_uri()}?mode=ro&immutable=1", uri=True, isolation_level=None)
 
 
 def open_experiment(folder: Path) -> tuple[sqlite3.Connection, Protocol, bool]:
-    """Open the experiment in a folder, and return the connection, the protocol, and whether the file is read-only.
+    """Open the experiment in a folder, and return the connection, the protocol, and True if the file is read-only.
 
     Raises:
-        StoreError: There is none, it is damaged, or of another format.
+        StoreError: There is no experiment, or it is damaged or of another format.
     """
     file = folder / RECORDS_FILE
     if not file.is_file():
-        raise StoreError(f"'{folder}' holds no experiment: there is no {RECORDS_FILE} in it; begin one in a new folder")
+        raise StoreError(f"'{folder}' contains no experiment, because it has no {RECORDS_FILE}; begin one in a new folder")
     try:
         database, read_only = open_database(file)
     except (sqlite3.Error, ValueError) as error:  # names in a damaged file need not be UTF-8
@@ -167,7 +167,7 @@ def _check_database(folder: Path, database: sqlite3.Connection) -> Protocol:
         raise _make_damage_error(file, check_result)
     if metadata["format"] not in _KNOWN_FORMATS:
         raise StoreError(
-            f"'{file}' has format {metadata['format']}; this holdfast reads {' and '.join(_KNOWN_FORMATS)}: use the one "
+            f"'{file}' has format {metadata['format']}; this version reads {' and '.join(_KNOWN_FORMATS)}, so use the version "
             f"that wrote it"
         )
     protocol = protocols.read_protocol(folder / PROTOCOL_FILE)
@@ -184,9 +184,7 @@ def _make_damage_error(file: Path, cause: object) -> StoreError:
 
 
 def get_file_identity(folder: Path) -> tuple[int, int] | None:
-    """Return the device and number of the records' file in a folder, None without one; a deleted file stays writable but is
-    another.
-    """
+    """Return the device and index number of the records' file, None without one; a deleted and re-created file differs."""
     try:
         status = (folder / RECORDS_FILE).stat()
     except OSError:
@@ -196,10 +194,10 @@ def get_file_identity(folder: Path) -> tuple[int, int] | None:
 
 @contextmanager
 def lock_records_folder(folder: Path) -> Iterator[None]:
-    """Lock the folder against a server, or against a second one, because neither sees the other's changes.
+    """Lock the folder against another server, because two servers do not see each other's changes.
 
     Raises:
-        StoreError: A server has it, or it cannot be written.
+        StoreError: A server holds the lock, or the folder cannot be written.
     """
     from holdfast.core.sweeps.folder import lock_folder
 
@@ -209,7 +207,7 @@ def lock_records_folder(folder: Path) -> Iterator[None]:
         except StoreError as error:
             if not isinstance(error.__cause__, BlockingIOError):
                 raise
-            raise StoreError(f"'{folder}' is served by another program already; stop that one first") from error
+            raise StoreError(f"'{folder}' is already served by another program; stop that one first") from error
         yield
 
 

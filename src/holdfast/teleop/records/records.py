@@ -1,7 +1,7 @@
-"""Records of an experiment in one SQLite file, written as things happen and safe against crashes.
+"""Records of an experiment in one SQLite file, written immediately and safe against crashes.
 
-What has been acknowledged, that is, what a method returned from, is on the disk: a killed program, or a power cut, loses at
-most what came after. Subjects have codes, never names.
+Every change whose method has returned is on the disk, so a killed program, or a power cut, loses at most later changes.
+Subjects have codes, never names.
 """
 
 from __future__ import annotations
@@ -52,14 +52,14 @@ _CODE_PATTERN = re.compile("[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 
 
 class Records:
-    """Records of one experiment in a folder: ``protocol.yaml`` and ``records.sqlite``.
+    """Records of one experiment in a folder: ``protocol.yaml`` and ``records.sqlite``; see :meth:`create` and :meth:`open`.
 
-    One connection, for one thread; several programs may have the same folder open. See :meth:`create` and :meth:`open`.
+    An object has one ``connection`` to the file, for one thread. Several programs may open the same folder at once.
 
     Attributes:
-        folder: The folder.
-        protocol: The protocol as it was when the experiment began.
-        read_only: Nothing can be changed, as the folder cannot be written.
+        folder: Folder of the experiment.
+        protocol: Protocol at the beginning of the experiment.
+        read_only: True if the folder cannot be written, so that nothing can be changed.
     """
 
     def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol, *, read_only: bool = False) -> None:
@@ -76,9 +76,9 @@ class Records:
         The protocol, and the arm's file if it has one, are copied into the folder.
 
         Args:
-            folder: The folder.
-            protocol: The protocol.
-            simulation: JSON data that define the results where all subjects are simulated; see :attr:`simulation`.
+            folder: New or empty folder.
+            protocol: Protocol of the experiment.
+            simulation: JSON data that determine the results if all subjects are simulated; see :attr:`simulation`.
 
         Raises:
             StoreError: The folder is not empty, or cannot be written.
@@ -88,10 +88,10 @@ class Records:
 
     @classmethod
     def open(cls, folder: str | Path) -> Records:
-        """Open the experiment in a folder; read-only where the folder cannot be written.
+        """Open the experiment in ``folder``; read-only if the folder cannot be written.
 
         Raises:
-            StoreError: There is none, it is damaged, or of another format.
+            StoreError: There is no experiment, or it is damaged or of another format.
         """
         connection, protocol, read_only = open_experiment(Path(folder))
         return cls(Path(folder), connection, protocol, read_only=read_only)
@@ -114,7 +114,7 @@ class Records:
 
     @property
     def simulation(self) -> dict[str, Any] | None:
-        """JSON data that define the results of a simulated experiment; None for an experiment with people."""
+        """JSON data that determine the results of a simulated experiment; None for an experiment with people."""
         row = self._db.execute("SELECT value FROM about WHERE key = 'simulation'").fetchone()
         return None if row is None else dict(json.loads(row[0]))
 
@@ -123,15 +123,15 @@ class Records:
     def add_subject(
         self, code: str | None = None, kind: SubjectKind = SubjectKind.PERSON, answers: Mapping[str, Any] | None = None
     ) -> Subject:
-        """Add a subject, with the row of the square that the fewest have completed.
+        """Add a subject, with the row of the square that was completed by the fewest subjects.
 
         Args:
-            code: As the laboratory calls the subject, no name; ``S01`` and so on if not given.
-            kind: A person, or not.
-            answers: To questions, as JSON takes them.
+            code: Code of the subject, not a name. Default: ``S01`` and so on.
+            kind: Person, simulated person, or computer.
+            answers: Answers to questions, as JSON data.
 
         Raises:
-            InputError: A code that is taken or has other characters than it may have.
+            InputError: The code is taken or has invalid characters.
         """
         with self.transaction():
             used_codes = {row[0] for row in self._db.execute("SELECT code FROM subjects")}
@@ -159,17 +159,17 @@ class Records:
                 "INSERT INTO subjects (code, number, row, kind, state, since, answers) VALUES (?, ?, ?, ?, ?, ?, ?)",
                 (code, number, row, kind, SubjectState.OPEN, format_utc_now(), json.dumps(dict(answers or {}))),
             )
-            # A number is never given twice, also where its subject was deleted.
+            # A number is never used twice, even if its subject was deleted.
             self._db.execute("INSERT OR REPLACE INTO about VALUES ('next', ?)", (str(number + 1),))
             self._chain.append_link("experiment")
             self._chain.append_link("subject", code)
         return self.subject(code)
 
     def subject(self, code: str) -> Subject:
-        """Return the subject with this code.
+        """Return the subject with the code ``code``.
 
         Raises:
-            InputError: There is none.
+            InputError: There is no such subject.
         """
         row = self._db.execute(f"SELECT {SUBJECT_COLUMNS} FROM subjects WHERE code = ?", (code,)).fetchone()
         if row is None:
@@ -183,7 +183,7 @@ class Records:
         return [parse_subject_row(row) for row in self._db.execute(f"SELECT {SUBJECT_COLUMNS} FROM subjects ORDER BY number")]
 
     def set_state(self, code: str, state: SubjectState) -> None:
-        """Set the state of a subject's session: completed, dropped, or open again.
+        """Set the session of the subject ``code`` to a ``state``: completed, dropped, or open again.
 
         Raises:
             InputError: There is no such subject.
@@ -191,7 +191,7 @@ class Records:
         self._update_subject(code, "state", state)
 
     def set_note(self, code: str, note: str) -> None:
-        """Set the experimenter's note about a subject.
+        """Replace the experimenter's ``note`` about the subject ``code``.
 
         Raises:
             InputError: There is no such subject.
@@ -199,7 +199,7 @@ class Records:
         self._update_subject(code, "note", note)
 
     def set_answers(self, code: str, answers: Mapping[str, Any]) -> None:
-        """Replace the answers of a subject.
+        """Replace the ``answers`` (JSON data) of the subject ``code``.
 
         Raises:
             InputError: There is no such subject.
@@ -207,7 +207,7 @@ class Records:
         self._update_subject(code, "answers", json.dumps(dict(answers)))
 
     def delete_subject(self, code: str) -> None:
-        """Delete a subject and all of his or her records for good: the space is overwritten.
+        """Delete the subject ``code`` and all of his or her records permanently: the space is overwritten.
 
         Raises:
             InputError: There is no such subject.
@@ -225,11 +225,11 @@ class Records:
     # ---- sessions of pages -----------------------------------------------------------------------------------------
 
     def give_key(self, code: str, key: str | None = None) -> str:
-        """Give a subject's session a new secret key, in place of an older one; only its hash is kept.
+        """Give a subject's session a new secret key, which replaces an older one; only its hash is stored.
 
         Args:
-            code: The subject.
-            key: That the page made; one is made here if not given.
+            code: Code of the subject.
+            key: Key from the page. Default: a new one.
 
         Raises:
             InputError: There is no such subject.
@@ -247,27 +247,28 @@ class Records:
         return key
 
     def key_holder(self, key: str) -> str | None:
-        """Return the code of the subject whose session has this key."""
+        """Return the code of the subject whose session has the key ``key``; None if there is none."""
         row = self._db.execute("SELECT subject FROM sessions WHERE key = ?", (_hash_key(key),)).fetchone()
         return None if row is None else str(row[0])
 
     def last_seq(self, code: str) -> int:
-        """Return the number of the last message of a subject's page that is on record; 0 for none."""
+        """Return the number of the last recorded message from the page of the subject ``code``; 0 for none."""
         return int(self._query_value("SELECT COALESCE((SELECT seq FROM sessions WHERE subject = ?), 0)", code))
 
     def set_last_seq(self, code: str, seq: int, size: int = 0) -> None:
-        """Set :meth:`last_seq` and add to the bytes :meth:`received_bytes`, in one transaction with the changes of the
-        message.
+        """Set :meth:`last_seq` of the subject ``code`` to ``seq``, and add ``size`` bytes to :meth:`received_bytes`.
+
+        This belongs in the transaction with the changes of the message.
         """
         self._db.execute("UPDATE sessions SET seq = ?, bytes = bytes + ? WHERE subject = ?", (seq, size, code))
         self._chain.update_session(code)
 
     def received_bytes(self, code: str) -> int:
-        """Return the number of message bytes on record of a subject's page."""
+        """Return the number of recorded message bytes from the page of the subject ``code``."""
         return int(self._query_value("SELECT COALESCE((SELECT bytes FROM sessions WHERE subject = ?), 0)", code))
 
     def upgrade_tables(self) -> None:
-        """Create the tables that are missing in a folder of an older holdfast, before the first write."""
+        """Create missing tables in a folder of an older version, before the first write."""
         with self.transaction():
             self._chain.create_tables()
 
@@ -279,24 +280,24 @@ class Records:
         """Begin a trial, and return its number.
 
         Args:
-            subject: Code.
-            kind: What it is for.
-            position: In the session, from 0.
-            scenario: Index from 0.
-            tasks: One task: start, target and joint.
-            task: Its index from 0 in the protocol; -1 in training.
+            subject: Code of the subject.
+            kind: Purpose of the trial.
+            position: Position in the session, from 0.
+            scenario: Index of the scenario, from 0.
+            tasks: Exactly one task, with start, target and joint.
+            task: Index of the task in the protocol, from 0; -1 in training.
 
         Returns:
             The number of the trial in the records.
 
         Raises:
-            InputError: There is no such subject or scenario, or not exactly one task.
+            InputError: The subject or scenario does not exist, or ``tasks`` has not exactly one task.
         """
         self.subject(subject)
         if len(tasks) != 1 or not 0 <= scenario < len(self.protocol.scenarios):
             raise InputError(f"a trial has one task and one of {len(self.protocol.scenarios)} scenarios, counted from 0")
         with self.transaction():
-            # What was left open is over now.
+            # A trial that is still open is over now.
             for (open_trial,) in self._db.execute(
                 "SELECT id FROM trials WHERE subject = ? AND end IS NULL", (subject,)
             ).fetchall():
@@ -322,25 +323,25 @@ class Records:
         return cursor.lastrowid
 
     def append_cycles(self, trial: int, first: int, time: FloatArray, *, velocity: FloatArray, q: FloatArray) -> None:
-        """Append cycles to a trial; when this returns they are on the disk.
+        """Append cycles to a trial; they are on the disk when this method returns.
 
         Args:
-            trial: Its number.
-            first: Index from 0 of the first of them: the next one of the trial.
-            time: (K,) s since the trial began, by the clock of who holds the stick; none before the one before it.
+            trial: Number of the trial.
+            first: Index of the first of these cycles, from 0, which must be the next one of the trial.
+            time: (K,) times since the trial began, s, by the clock of the operator's device; they must not decrease.
             velocity: (K, m) commands, m/cycle.
-            q: (K, n) configurations when each cycle began, rad and m.
+            q: (K, n) configurations at the beginning of each cycle, rad and m.
 
         Raises:
-            InputError: There is no such trial, it has ended, a cycle is missing or there already, its time runs backwards, or
-                the arrays do not fit.
+            InputError: The trial does not exist or has ended, a cycle is missing or already there, time decreases, or the
+                shapes do not match.
         """
         n, m = self.protocol.arm.n, self.protocol.rows.m
         if velocity.shape != (len(time), m) or q.shape != (len(time), n):
             raise InputError(f"{len(time)} cycles need commands ({len(time)}, {m}) and configurations ({len(time)}, {n})")
         if not (np.isfinite(velocity).all() and np.isfinite(q).all() and np.isfinite(time).all()):
-            raise InputError("a cycle holds NaN or infinity; nothing was recorded")
-        # SQLite knows no -0.0.
+            raise InputError("a cycle contains NaN or infinity; nothing was recorded")
+        # SQLite does not store -0.0.
         rows = [(trial, first + k, float(time[k]) + 0.0, pack_array(velocity[k]), pack_array(q[k])) for k in range(len(time))]
         with self.transaction():
             trial_row = self._db.execute("SELECT end FROM trials WHERE id = ?", (trial,)).fetchone()
@@ -358,29 +359,29 @@ class Records:
             self._chain.update_trial_digest(trial, [row[1:] for row in rows])
 
     def finish_trial(self, trial: int, end: End, q_end: FloatArray) -> None:
-        """Finish a trial with its end and the final configuration (n,) of the arm.
+        """Finish the trial with the number ``trial`` by its ``end`` and the final configuration ``q_end`` (n,), rad and m.
 
         Raises:
-            InputError: There is no such trial, or it has ended already.
+            InputError: The trial does not exist, or has already ended.
         """
         with self.transaction():
             changed = self._db.execute(
                 "UPDATE trials SET ended = ?, end = ? WHERE id = ? AND end IS NULL", (format_utc_now(), int(end), trial)
             ).rowcount
             if changed != 1:
-                raise InputError(f"trial {trial} does not exist or has ended already")
+                raise InputError(f"trial {trial} does not exist or has already ended")
             cycle_count = int(self._query_value("SELECT COUNT(*) FROM cycles WHERE trial = ?", trial))
-            # The last row has no command: it is where the arm is at the end.
+            # The last row has no command; it contains the final configuration.
             row = (cycle_count, -1.0, pack_array(np.zeros(self.protocol.rows.m)), pack_array(q_end))
             self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, *row))
             self._chain.update_trial_digest(trial, [row])
             self._chain.end_trial(trial, self._query_value("SELECT subject FROM trials WHERE id = ?", trial))
 
     def rate_trial(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
-        """Store the rating of a trial, a step from 0, and answers to further questions.
+        """Store the ``rating``, a step from 0, of the trial with the number ``trial``, and ``answers`` as JSON data.
 
         Raises:
-            InputError: There is no such trial, it is one of the training, or the rating has no such step.
+            InputError: The trial does not exist or is a training trial, or the rating has no such step.
         """
         if not 0 <= rating < len(self.protocol.rating):
             raise InputError(f"the rating is {rating}; it must be 0 to {len(self.protocol.rating) - 1}")
@@ -389,7 +390,7 @@ class Records:
             if entry is None:
                 raise InputError(f"trial {trial} does not exist")
             if entry.kind == TrialKind.TRAINING:
-                raise InputError(f"trial {trial} is one of the training, which has no ratings; rate trials that count")
+                raise InputError(f"trial {trial} is a training trial, which has no rating; rate trials that count")
             answers_json = json.dumps(dict(answers or {}))
             self._db.execute("UPDATE trials SET rating = ?, answers = ? WHERE id = ?", (rating, answers_json, trial))
             self._chain.append_link("rating", entry.subject, trial)
@@ -403,20 +404,28 @@ class Records:
         k: int | None = None,
         data: Mapping[str, Any] | None = None,
     ) -> None:
-        """Record an event: a pause, a dropped frame, a lost connection, a note."""
+        """Record an event, such as a pause, a dropped frame, a lost connection, or a note.
+
+        Args:
+            kind: Name of the event.
+            subject: Code of the subject; None for the whole experiment.
+            trial: Number of the trial, if the event belongs to one.
+            k: Index of the cycle, if the event belongs to one.
+            data: Details, as JSON data.
+        """
         row = (trial, subject, k, format_utc_now(), kind, json.dumps(dict(data or {})))
         with self.transaction():
             cursor = self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
             self._chain.append_link("event", subject, cursor.lastrowid)
 
     def events(self, kind: str | None = None) -> list[dict[str, Any]]:
-        """Return all events, or those of one kind, in the order of their recording."""
+        """Return all events, or those of the given ``kind``, in the order of their recording."""
         names = ("trial", "subject", "k", "at", "kind", "data")
         rows = self._db.execute(f"SELECT {', '.join(names)} FROM events WHERE ?1 IS NULL OR kind = ?1 ORDER BY id", (kind,))
         return [dict(zip(names, row, strict=True)) | {"data": json.loads(row[-1])} for row in rows]
 
     def entries(self, subject: str | None = None, kind: TrialKind | None = None) -> list[TrialRecord]:
-        """Return the trials, of one subject or of one kind, in the order in which they began."""
+        """Return all trials, or those of one ``subject`` (code) or one ``kind``, in the order in which they began."""
         condition = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
         return [
             parse_trial_row(row)
@@ -424,19 +433,19 @@ class Records:
         ]
 
     def entry(self, trial: int) -> TrialRecord | None:
-        """Return a trial by its number; None if there is no such trial."""
+        """Return the trial with the number ``trial``; None if there is no such trial."""
         row = self._db.execute(f"SELECT {ENTRY_COLUMNS} FROM trials WHERE id = ?", (trial,)).fetchone()
         return None if row is None else parse_trial_row(row)
 
     def latest_trial(self, subject: str) -> TrialRecord | None:
-        """Return the trial that a subject began last; None if there is none."""
+        """Return the trial that ``subject`` (code) began last; None if there is none."""
         row = self._db.execute(
             f"SELECT {ENTRY_COLUMNS} FROM trials WHERE subject = ? ORDER BY id DESC LIMIT 1", (subject,)
         ).fetchone()
         return None if row is None else parse_trial_row(row)
 
     def count_cycles(self, entry: TrialRecord) -> int:
-        """Return the number of cycles of a trial."""
+        """Return the number of cycles of the trial ``entry``."""
         return int(self._query_value("SELECT COUNT(*) FROM cycles WHERE trial = ? AND time >= 0", entry.id))
 
     def count_trials(self) -> dict[tuple[str, TrialKind], int]:
@@ -445,7 +454,7 @@ class Records:
         return {(code, TrialKind(kind)): count for code, kind, count in self._db.execute(query, (int(End.BROKEN_OFF),))}
 
     def read_tasks(self, entries: list[TrialRecord]) -> PointTasks:
-        """Return the tasks of some trials."""
+        """Return the tasks of the trials ``entries``."""
         n, m = self.protocol.arm.n, self.protocol.rows.m
         return PointTasks(
             np.array([entry.q0 for entry in entries]).reshape(-1, n),
@@ -454,9 +463,9 @@ class Records:
         )
 
     def read_trials(self, entries: list[TrialRecord]) -> Trials:
-        """Return the recorded motions of some trials.
+        """Return the recorded motions of the trials ``entries``.
 
-        Commands and configurations come from the file; tool points and actual velocities follow from them.
+        Commands and configurations are from the file; tool points and actual velocities are computed from them.
         """
         recorded = self.read_cycles(entries)
         plants = self.protocol.plants
@@ -487,11 +496,11 @@ class Records:
         )
 
     def read_cycles(self, entries: list[TrialRecord]) -> RecordedCycles:
-        """Return the stored rows of some trials."""
+        """Return the stored rows of the trials ``entries``."""
         all_times: list[float] = []
         velocity, q, first = bytearray(), bytearray(), [0]
         for entry in entries:
-            # The last row is where the arm was at the end; of a trial that was broken off, that before the last command.
+            # The last row is the final configuration; for a trial that was broken off, the one before the last command.
             rows = self._db.execute("SELECT time, velocity, q FROM cycles WHERE trial = ? ORDER BY k", (entry.id,)).fetchall()
             times, velocities, configurations = zip(
                 *(rows or [(np.nan, pack_array(np.zeros(self.protocol.rows.m)), pack_array(entry.q0))]), strict=True
@@ -511,7 +520,7 @@ class Records:
         return result
 
     def read_times(self, entry: TrialRecord) -> FloatArray:
-        """Return the time (K,) of each cycle in s since the trial began, by the clock of the operator's page."""
+        """Return the time (K,) of each cycle of ``entry``, s since the trial began, by the clock of the operator's page."""
         rows = self._db.execute("SELECT time FROM cycles WHERE trial = ? AND time >= 0 ORDER BY k", (entry.id,))
         return np.array([row[0] for row in rows])
 
@@ -519,24 +528,24 @@ class Records:
 
     @contextmanager
     def transaction(self) -> Iterator[None]:
-        """Apply all changes made inside, or none; they are acknowledged when the block ends.
+        """Apply all changes in a ``with`` block, or none; they are on the disk when the block ends.
 
         Raises:
             StoreError: The folder cannot be written, or was deleted.
         """
         if self.read_only:
-            raise StoreError(f"'{self.folder}' cannot be written; copy it to where you may write")
-        # Part of a larger change: undone by itself where it fails, and kept if the larger one is.
+            raise StoreError(f"'{self.folder}' cannot be written; copy it to a folder that can be written")
+        # Part of a larger change: undone separately if it fails, and kept if the larger one is.
         begin_statement, commit_statement, *undo_statements = _NESTED_TRANSACTION if self._depth else _OUTER_TRANSACTION
         self._db.execute(begin_statement)
         self._depth += 1
         try:
             yield
             if self._depth == 1 and get_file_identity(self.folder) != self._file_identity:
-                raise StoreError(f"the folder '{self.folder}' is not there any more, or is another one; nothing was recorded")
+                raise StoreError(f"the folder '{self.folder}' no longer exists, or was replaced; nothing was recorded")
             self._db.execute(commit_statement)
         except BaseException:
-            for statement in undo_statements if self._db.in_transaction else ():  # a full disk has ended it already
+            for statement in undo_statements if self._db.in_transaction else ():  # a full disk has already ended it
                 self._db.execute(statement)
             self._chain.reset_after_rollback()
             raise
@@ -545,7 +554,7 @@ class Records:
 
     @contextmanager
     def read_snapshot(self) -> Iterator[None]:
-        """Read from one moment inside, while others continue to write; nothing may be changed inside."""
+        """Read one state of the records in a ``with`` block, while others may write; nothing may be changed inside."""
         self._db.execute("BEGIN")
         try:
             yield
@@ -558,7 +567,7 @@ class Records:
         return self._db.total_changes
 
     def copy_to(self, target: sqlite3.Connection) -> None:
-        """Copy the file as it is at one moment, while others may continue to write."""
+        """Copy the file as it is at one moment to the open database ``target``, while others may continue to write."""
         self._db.backup(target)
 
     def _query_value(self, query: str, *values: Any) -> Any:

@@ -21,11 +21,11 @@ class NextTrial:
     """Next trial of a session.
 
     Attributes:
-        kind: Training, or a trial that counts.
-        position: In the session, from 0, counted for each kind.
+        kind: Purpose of the trial: training, or a trial that counts.
+        position: Position in the session, from 0, counted separately for each kind.
         task: Index from 0 of the protocol's task; -1 in training.
-        scenario: Index from 0.
-        tasks: The one task.
+        scenario: Index of the scenario, from 0.
+        tasks: Exactly one task.
     """
 
     kind: TrialKind
@@ -35,13 +35,13 @@ class NextTrial:
     tasks: PointTasks
 
 
-@lru_cache(maxsize=256)  # a fifth of a second, and asked for at every trial of a training
+@lru_cache(maxsize=256)  # computing takes 0.2 s, and every training trial calls it
 def training_tasks(protocol: Protocol, subject: int) -> PointTasks:
     """Return the training tasks of a subject, in order: random over the workspace, at the distance of the protocol.
 
     Args:
-        protocol: The protocol.
-        subject: Running number, which with the protocol's seed makes them.
+        protocol: Protocol of the experiment.
+        subject: Number of the subject, which with the protocol's seed determines the tasks.
 
     Source: Goel et al. 2003, section 6: pseudoinverse, no failure.
     """
@@ -62,8 +62,8 @@ class Session:
     """Session of one subject, from the records.
 
     Args:
-        records: The records.
-        code: The subject.
+        records: Records of the experiment.
+        code: Code of the subject.
 
     Raises:
         InputError: There is no such subject.
@@ -77,8 +77,8 @@ class Session:
     def next_trial(self) -> NextTrial | None:
         """Return the next trial; None when the session is over, or the subject failed the training.
 
-        A trial that was broken off is done again; one that was aborted is not. The state of a subject whose last trial is
-        done becomes *completed*.
+        A trial that was broken off is repeated; one that was aborted is not. After the last trial, the state of the subject
+        becomes *completed*.
         """
         protocol, code = self.records.protocol, self.subject.code
         if self.subject.state == SubjectState.DROPPED:
@@ -110,7 +110,7 @@ class Session:
         )
 
     def progress(self) -> str:
-        """Describe the progress in one phrase for people."""
+        """Describe the progress in one phrase."""
         trained, trials = (
             len(select_valid_trials(self.records.entries(self.subject.code, kind)))
             for kind in (TrialKind.TRAINING, TrialKind.TRIAL)

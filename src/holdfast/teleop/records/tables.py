@@ -32,10 +32,10 @@ if TYPE_CHECKING:
     from holdfast.teleop.bank.selection import Binning
 
 
-# _MAX_PATH_LENGTH_M and _PATIENCE_PATH_M: m
+# _MAX_PATH_LENGTH_M and _PATIENCE_PATH_M: lengths of motion at full speed, m
 _MAX_PATH_LENGTH_M = 50.0
 _PATIENCE_PATH_M = 2.5
-_STILL_FRACTION = 2e-5  # of a cycle's way at full speed
+_STILL_FRACTION = 2e-5  # of the motion in a cycle at full speed
 
 _TRIAL_COLUMNS = {
     "subject": ("", "code of the subject; no name"),
@@ -69,15 +69,15 @@ def trial_table(records: Records, kinds: Sequence[TrialKind] = (TrialKind.TRIAL,
     """Return a table with one row for each trial that was not repeated later.
 
     Args:
-        records: The records.
-        kinds: Which trials: those that count, or training too.
+        records: Records of the experiment.
+        kinds: Purposes of the trials that are included.
 
     Returns:
-        A table with the columns that :func:`describe_columns` describes; measures in the units of
+        Table with the columns of :func:`describe_columns`; measures have the units of
         :data:`holdfast.teleop.PERFORMANCE_MEASURES`.
 
     Raises:
-        StoreError: The records are damaged: something in them does not match its digest.
+        StoreError: The records are damaged: some content does not match its digest.
     """
     require_undamaged_records(records.folder)
     entries = [
@@ -95,9 +95,7 @@ def trial_table(records: Records, kinds: Sequence[TrialKind] = (TrialKind.TRIAL,
 
 
 def computer_table(protocol: Protocol) -> pd.DataFrame:
-    """Run the protocol's tasks under computer control in every scenario; a table with a row for each, as
-    :func:`trial_table`.
-    """
+    """Run the tasks of ``protocol`` under computer control in every scenario; return a row for each, as :func:`trial_table`."""
     facts = [
         {
             "subject": "computer",
@@ -118,8 +116,8 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
 def run_computer_trials(protocol: Protocol) -> Trials:
     """Run the protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
-    A trial is over after the time of 50 m at full speed, or when the end effector has been still for that of 2.5 m: 1000 and 50
-    of the paper's cycles.
+    A trial ends after the time of 50 m at full speed, or when the end effector has been still for the time of 2.5 m: 1000 and
+    50 of the paper's cycles.
     """
     limit = protocol.stick.limit
     rules = EndRules(
@@ -173,15 +171,14 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
     """Return a table with one row for each task of a bank, with every measure and CPM in every scenario.
 
     Args:
-        bank: N tasks as the computer did them.
-        arm: Whose tasks they are.
-        cells: Adds the cell of each task, from 0; -1 where a scenario was not completed.
+        bank: N tasks with the trials of the computer.
+        arm: Arm of the tasks.
+        cells: Cells of the tasks, which add a column with the cell, from 0; -1 where a scenario was not completed.
 
     Returns:
         ``task`` (from 1), ``joint`` (that fails; empty for none), the start (joint names, rad and m), the target (``target_x``
-        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where
-        the end effector
-        did not reach it.
+        and so on, m), then for each scenario with its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where the
+        end effector did not reach the target.
     """
     pd = import_extra("pandas", "stats")
 
@@ -203,11 +200,11 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
 
 def tool_paths(records: Records) -> Callable[[str | None, int, int], FloatArray | None]:
-    """Return a function for the tool path of a trial, in the form that :meth:`holdfast.teleop.analysis.Analysis.report` takes.
+    """Return a function for the tool path of a trial in ``records``, for :meth:`holdfast.teleop.analysis.Analysis.report`.
 
     Returns:
-        From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,
-        m, or None where no such trial was recorded.
+        Function of a subject's code (None means the computer) and the numbers of a task and a scenario (from 1). It returns
+        (K, m) tool points, m, or None if no such trial was recorded.
     """
     protocol = records.protocol
     by_computer = run_computer_trials(protocol)
@@ -225,10 +222,10 @@ def tool_paths(records: Records) -> Callable[[str | None, int, int], FloatArray 
 
 @reports_progress("reading the records")
 def cycle_table(records: Records) -> pd.DataFrame:
-    """Return a table with one row for each cycle of every trial, and one more for the final configuration of the arm.
+    """Return a table with one row for each cycle of every trial in ``records``, and one for each final configuration.
 
     Raises:
-        StoreError: The records are damaged: something in them does not match its digest.
+        StoreError: The records are damaged: some content does not match its digest.
     """
     require_undamaged_records(records.folder)
     return _build_cycle_table(records)
@@ -265,7 +262,7 @@ def _axis_name(axis: int, axis_count: int) -> str:
 
 
 def describe_columns(protocol: Protocol) -> pd.DataFrame:
-    """Return a table that describes every column of the tables: table, column, unit, description."""
+    """Return a table that describes every column of the tables of ``protocol``: table, column, unit, description."""
     pd = import_extra("pandas", "stats")
 
     rows = [("trials", name, *description) for name, description in _TRIAL_COLUMNS.items()]
@@ -280,15 +277,15 @@ def export_tables(records: Records, folder: str | Path, parquet: bool = False) -
     """Write ``trials``, ``cycles``, ``subjects`` and ``events``, with ``dictionary.csv`` and the protocol.
 
     Args:
-        records: The records.
-        folder: Made if it is not there; files of these names in it are replaced.
-        parquet: Parquet in place of CSV for the four tables.
+        records: Records of the experiment.
+        folder: Output folder, created if necessary; existing files of these names are replaced.
+        parquet: Write Parquet instead of CSV for the four tables.
 
     Returns:
-        The files.
+        Paths of the files.
 
     Raises:
-        HoldfastError: pandas is not installed, or Parquet was asked for and pyarrow is not installed.
+        HoldfastError: pandas is not installed, or ``parquet`` is true and pyarrow is not installed.
         StoreError: The records are damaged, or a file cannot be written.
     """
     pd = import_extra("pandas", "stats")

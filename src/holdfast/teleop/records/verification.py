@@ -16,10 +16,10 @@ from holdfast.teleop.records import digests
 from holdfast.teleop.records.file import RECORDS_FILE, open_database
 from holdfast.teleop.records.records import Records
 
-_STATE_KINDS = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
-# What damaged data make SQLite and the code that reads them raise.
+_STATE_KINDS = ("experiment", "subject", "rating")  # content that changes: only the last digest of each covers the present one
+# Errors of SQLite, and of the code that reads damaged data.
 _OF_DAMAGE = (sqlite3.Error, ValueError, TypeError, AttributeError, LookupError, OverflowError, MemoryError)
-_ITEM_QUERIES = {  # what must have a digest: number, subject, and what a person calls it
+_ITEM_QUERIES = {  # items that must have a digest: number, subject, and name for the user
     "trial": "SELECT id, subject, 'trial ' || id FROM trials WHERE end IS NOT NULL AND id > ? ORDER BY id",
     "rating": "SELECT id, subject, 'the rating of trial ' || id FROM trials WHERE id > ? ORDER BY id",
     "event": "SELECT id, subject, 'event ' || id FROM events WHERE id > ? ORDER BY id",
@@ -31,12 +31,12 @@ class VerificationReport:
     """Report of a verification.
 
     Attributes:
-        trials: How many trials there are that are over.
-        links: How many digests.
-        damages: What is not as it was written, trials first, in the order in which they ended: a sentence for each.
-        trials_without_digest: Trials that have no digest: they are from before there were any.
-        overall_digest: SHA-256 of the last digest of every session, hexadecimal: written down elsewhere, it shows a chain that
-            was made anew.
+        trials: Number of trials that are over.
+        links: Number of digests.
+        damages: Differences from the written content, one sentence each; trials first, in the order in which they ended.
+        trials_without_digest: Trials that were recorded before there were digests.
+        overall_digest: SHA-256 of the last digest of every session, hexadecimal. A copy of it, noted elsewhere, reveals a
+            rewritten chain.
     """
 
     trials: int = 0
@@ -50,7 +50,7 @@ class VerificationReport:
         lines = []
         if self.trials_without_digest:
             lines.append(
-                f"{len(self.trials_without_digest)} trials have no digest, as they were recorded before there were any: "
+                f"{len(self.trials_without_digest)} trials have no digest, because they were recorded before digests existed: "
                 f"{', '.join(map(str, self.trials_without_digest))}"
             )
         lines += [f"damaged: {sentence}" for sentence in self.damages[:20]]
@@ -66,7 +66,7 @@ def verify_records(folder: str | Path) -> VerificationReport:
     """Compare all stored data with their digests; nothing is changed.
 
     Args:
-        folder: Of the experiment; it may be served at the same time.
+        folder: Folder of the experiment, which may be served at the same time.
 
     Raises:
         StoreError: There is no experiment, or it cannot be read in this place.
@@ -74,19 +74,19 @@ def verify_records(folder: str | Path) -> VerificationReport:
     path = Path(folder)
     file = path / RECORDS_FILE
     if not file.is_file():
-        raise StoreError(f"'{path}' holds no experiment: there is no {RECORDS_FILE} in it; give the folder of one")
+        raise StoreError(f"'{path}' contains no experiment, because it has no {RECORDS_FILE}; give the folder of one")
     report = VerificationReport()
     try:
         database, _ = open_database(file)
         with closing(database):
-            # A damaged name or answer need not be text.
+            # A damaged name or answer may not be text.
             database.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
             database.execute("BEGIN")
             _DigestCheck(path, database, report).run()
-    # What a damaged file may make SQLite say, and what does not fit together any more.
+    # Errors of SQLite for a damaged file, and of data that are inconsistent.
     except _OF_DAMAGE as error:
         report.damages.append(f"'{file}' is damaged: {error}")
-    # A damaged name may hold what no terminal takes.
+    # A damaged name may contain characters that no terminal accepts.
     report.damages = [
         "".join(character if character.isprintable() else "?" for character in sentence) for sentence in report.damages
     ]
@@ -95,7 +95,7 @@ def verify_records(folder: str | Path) -> VerificationReport:
 
 @contextmanager
 def open_undamaged_records(folder: Path) -> Iterator[Records]:
-    """Open the records; where damage makes them unreadable, the error message names the damage.
+    """Open the records; if damage makes them unreadable, the error message names the damage.
 
     Raises:
         StoreError: There is no experiment, or it is damaged.
@@ -108,7 +108,7 @@ def open_undamaged_records(folder: Path) -> Iterator[Records]:
     except _OF_DAMAGE as error:
         require_undamaged_records(folder)
         raise StoreError(
-            f"'{folder}' is damaged: it holds other data than records ({error}); restore it from a backup"
+            f"'{folder}' is damaged: it contains other data than records ({error}); restore it from a backup"
         ) from error
 
 
@@ -116,7 +116,7 @@ def require_undamaged_records(folder: Path) -> None:
     """Compare everything that is stored with its digests before it is used.
 
     Raises:
-        StoreError: Something is not as it was written.
+        StoreError: Some content differs from the written one.
     """
     if damaged := verify_records(folder).damages:
         raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup")
@@ -126,9 +126,9 @@ class _DigestCheck:
     """One check of everything in the records.
 
     Args:
-        folder: Of the experiment.
-        database: The records, at one moment.
-        report: Is filled.
+        folder: Folder of the experiment.
+        database: Records at one moment.
+        report: Report that is filled.
     """
 
     def __init__(self, folder: Path, database: sqlite3.Connection, report: VerificationReport) -> None:
@@ -215,9 +215,9 @@ class _DigestCheck:
             if ("subject", code) not in covered:
                 self._other_damage.append(f"subject {code} has no digest, and should have one")
         if ("experiment", None) not in covered:
-            self._other_damage.append("what is said about the experiment has no digest, and should have one")
+            self._other_damage.append("the metadata of the experiment have no digest, and should have one")
         for (trial,) in self._db.execute("SELECT DISTINCT trial FROM cycles WHERE trial NOT IN (SELECT id FROM trials)"):
-            self._add_damage("trial", f"trial {trial} is missing, and its cycles are there")
+            self._add_damage("trial", f"trial {trial} is missing, but its cycles are present")
 
     def _check_running_trials(self) -> None:
         query = (
@@ -246,7 +246,7 @@ def _name_item(kind: str, subject: str | None, item: int | None) -> str:
     suffix = "" if subject is None else f" of {subject}"
     match kind:
         case "experiment":
-            return "what is said about the experiment"
+            return "the metadata of the experiment"
         case "subject":
             return f"subject {subject}"
         case "rating":

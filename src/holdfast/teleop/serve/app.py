@@ -32,8 +32,8 @@ from holdfast.teleop.serve.texts import ENGLISH_FILE
 from holdfast.teleop.serve.texts import load_texts as read_texts
 
 STATIC_FOLDER = Path(__file__).with_name("static")
-_BACKLOG_CONNECTIONS = 1024  # connections that the system keeps until they are taken ...
-_ACCEPT_BATCH_SIZE = 8  # ... so many at a time, so that stations are answered meanwhile
+_BACKLOG_CONNECTIONS = 1024  # connections that the system queues until they are accepted
+_ACCEPT_BATCH_SIZE = 8  # connections that are accepted at a time, so that stations are answered in between
 _INDEX_PAGE = "index.html"
 _CONTENT_TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -49,14 +49,15 @@ class ServerOptions:
     """Options of the server of an experiment.
 
     Attributes:
-        folder: Of the experiment.
-        guard: Token, key, hosts.
-        texts: A translation; None for English.
-        tlx: Ask for the NASA task load index.
-        static: Where the built page is.
-        english: Which texts there are.
-        protocol: Name or file; None for the protocol of the experiment, or the paper's for a new one.
-        behind_proxy: A proxy on this computer sets ``X-Forwarded-For`` and ``X-Forwarded-Proto``; otherwise both are ignored.
+        folder: Folder of the experiment.
+        guard: Token, key, and hosts.
+        texts: File of translated texts. None: English.
+        tlx: True to ask for the NASA task load index.
+        static: Folder of the built page.
+        english: File of the English texts, which determines the keys.
+        protocol: Name or file. None: the protocol of the experiment, or the paper's for a new one.
+        behind_proxy: True if a proxy on this computer sets ``X-Forwarded-For`` and ``X-Forwarded-Proto``; otherwise both are
+            ignored.
     """
 
     folder: Path
@@ -73,12 +74,12 @@ def open_or_create(folder: Path, protocol: str | None) -> Protocol:
     """Open the experiment in a folder, or begin one in a new folder, and return its protocol.
 
     Args:
-        folder: Of the experiment.
-        protocol: Name or file; None: that of the experiment, or the paper's for a new one.
+        folder: Folder of the experiment.
+        protocol: Name or file. None: the protocol of the experiment, or the paper's for a new one.
 
     Raises:
         StoreError: The folder is neither empty nor an experiment.
-        InputError: The experiment in it has another protocol.
+        InputError: The experiment in the folder has another protocol.
     """
     if not (folder / RECORDS_FILE).is_file():
         with Records.create(folder, read_protocol() if protocol is None else read_protocol(protocol)) as records:
@@ -86,7 +87,7 @@ def open_or_create(folder: Path, protocol: str | None) -> Protocol:
     with Records.open(folder) as records:
         if protocol is not None and read_protocol(protocol).to_yaml() != records.protocol.to_yaml():
             raise InputError(
-                f"'{folder}' holds an experiment with another protocol than '{protocol}'; leave --protocol out, "
+                f"'{folder}' contains an experiment with another protocol than '{protocol}'; leave --protocol out, "
                 "or give a new folder"
             )
         return records.protocol
@@ -96,8 +97,8 @@ def make_app(options: ServerOptions, ready: Callable[[], None] | None = None) ->
     """Open or begin the experiment, and return the application that serves it.
 
     Args:
-        options: Experiment, guard, texts, and page.
-        ready: Called when stations can connect.
+        options: Options of the server.
+        ready: Function that is called when stations can connect.
 
     Raises:
         StoreError: The built page is missing, or the folder is neither empty nor an experiment.
@@ -107,9 +108,9 @@ def make_app(options: ServerOptions, ready: Callable[[], None] | None = None) ->
 
     texts = read_texts(options.texts, options.english)
     answers = _load_page_handlers(options.static)
-    # It has its route, which asks for the key.
+    # It has a separate route, which requires the key.
     experimenter_page = answers.pop("/experimenter.html", None)
-    # After all that may fail: a server that cannot run begins nothing.
+    # After everything that may fail, so that a server that cannot run begins no experiment.
     protocol = open_or_create(options.folder, options.protocol)
     answers["/experiment.json"] = _make_file_handler(
         json.dumps(describe_experiment(protocol, texts, options.tlx)).encode(), ".json"
@@ -145,10 +146,10 @@ def serve_experiment(
     """Serve the experiment until interrupted.
 
     Args:
-        options: What.
-        host: To listen at.
-        port: Likewise; 0 for any that is free.
-        ready: Is told the port when stations may come.
+        options: Options of the server.
+        host: Host name or address on which the server listens.
+        port: Port on which it listens; 0 for any free port.
+        ready: Function that is called with the port when stations can connect.
 
     Raises:
         StoreError: The port is taken, or this computer has no such address; the built page is missing, or the folder is
@@ -167,7 +168,7 @@ def serve_experiment(
             ws=websocket,
             ws_max_size=MOST_BYTES,
             ws_ping_timeout=60.0,
-            ws_per_message_deflate=False,  # small messages on a near line: packing them takes longer than sending them
+            ws_per_message_deflate=False,  # compressing small messages takes longer than sending them on a local network
             log_level="warning",
             access_log=False,
             server_header=False,
@@ -183,7 +184,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         for listener in sockets or ():
-            listener.listen(_BACKLOG_CONNECTIONS)  # asyncio has set it to what is taken at once
+            listener.listen(_BACKLOG_CONNECTIONS)  # asyncio has set the backlog to the batch size
 
 
 def _open_listener(host: str, port: int) -> socket.socket:
@@ -205,7 +206,7 @@ def _open_listener(host: str, port: int) -> socket.socket:
 
 
 def _load_page_handlers(folder: Path) -> dict[str, Callable[[Request], Response]]:
-    """Return an answer for every built file by its exact path, so that no path of a URL reaches the file system."""
+    """Return a handler for every built file by its exact path, so that no path of a URL reaches the file system."""
     if not (folder / _INDEX_PAGE).is_file():
         raise StoreError(
             f"the built page is not in this installation ('{folder / _INDEX_PAGE}' is missing); install holdfast again, "

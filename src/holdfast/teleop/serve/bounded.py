@@ -15,11 +15,11 @@ from typing import Any
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
-_PATIENCE_RANGE_S = 10.0, 20.0  # s for the head of a request: drawn, so that who comes again does not come all at once
-_MAX_UNREAD_PEERS = 512  # connections at once whose peer has not read all that was sent; a page of a station is 0.1 MB
-_MIN_READ_BYTES = 8192  # bytes that a slow peer must read within the patience
-_MAX_OPEN_FILES = 8192  # that the server may have open, where the system lets it
-_LOG_LINES_PER_MINUTE = 20  # of the log, a minute
+_PATIENCE_RANGE_S = 10.0, 20.0  # time for the head of a request, s; random, so that clients do not all reconnect at once
+_MAX_UNREAD_PEERS = 512  # connections at once whose peer has not read everything that was sent; a station's page has 0.1 MB
+_MIN_READ_BYTES = 8192  # bytes that a slow peer must read within this time
+_MAX_OPEN_FILES = 8192  # open files of the server, if the system allows it
+_LOG_LINES_PER_MINUTE = 20  # lines of the log per minute
 
 _log = logging.getLogger(__name__)
 
@@ -28,7 +28,7 @@ def raise_file_limit() -> int:
     """Raise the limit of open files of this process where it is too low, and return the limit."""
     try:
         import resource
-    except ImportError:  # Windows, where sockets are no files
+    except ImportError:  # Windows, where sockets are not files
         return _MAX_OPEN_FILES
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     target = _MAX_OPEN_FILES if hard == resource.RLIM_INFINITY else min(_MAX_OPEN_FILES, hard)
@@ -41,12 +41,12 @@ def raise_file_limit() -> int:
 def make_bounded_protocols(
     max_silent: int, patience: tuple[float, float] = _PATIENCE_RANGE_S, max_unread: int = _MAX_UNREAD_PEERS
 ) -> tuple[type[asyncio.Protocol], type[asyncio.Protocol]]:
-    """Return the HTTP and the WebSocket protocol of one server, in which no connection can hold memory or a file for ever.
+    """Return the HTTP and the WebSocket protocol of a server, in which no connection can hold memory or a file indefinitely.
 
     Args:
-        max_silent: Maximum number of connections that have sent no whole request; the oldest is closed when there are more.
-        patience: Least and greatest time in seconds for the head of a request, and for a peer to read what was sent.
-        max_unread: Maximum number of connections whose peer has not read all that was sent; the oldest is closed likewise.
+        max_silent: Largest number of connections that have sent no complete request; above it, the oldest is closed.
+        patience: Least and greatest time in seconds for the head of a request, and for a peer to read the sent data.
+        max_unread: Largest number of connections whose peer has unread data; above it, the oldest is closed.
     """
     silent, unread = (_Deadlines(limit, patience) for limit in (max_silent, max_unread))
 
@@ -128,7 +128,7 @@ class _Deadlines:
             timer.cancel()
 
     def _check_progress(self, transport: asyncio.Transport, pending: int) -> None:
-        """Close a connection, unless its peer reads at a useful rate, however slow."""
+        """Close a connection, unless its peer reads at a useful rate."""
         if pending - transport.get_write_buffer_size() >= _MIN_READ_BYTES:
             self.start(transport)
         else:
@@ -136,7 +136,7 @@ class _Deadlines:
 
     def _abort_connection(self, transport: asyncio.Transport) -> None:
         self.stop(transport)
-        if transport.get_write_buffer_size():  # then the system too would keep what it has not sent: it must drop it
+        if transport.get_write_buffer_size():  # otherwise the system would keep the unsent data too
             linger = struct.pack("hh" if os.name == "nt" else "ii", 1, 0)
             transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
         transport.abort()
@@ -146,8 +146,8 @@ class RateLimitedLogFilter(logging.Filter):
     """Filter that passes few lines of a log per minute, because requests from anywhere must not fill a disk.
 
     Args:
-        lines: A minute.
-        clock: Seconds.
+        lines: Number of lines per minute.
+        clock: Function that returns the time in s.
     """
 
     def __init__(self, lines: int = _LOG_LINES_PER_MINUTE, clock: Callable[[], float] = time.monotonic) -> None:
@@ -168,7 +168,7 @@ class RateLimitedLogFilter(logging.Filter):
 
 
 def limit_asyncio_log(loop: asyncio.AbstractEventLoop) -> None:
-    """Limit the log lines of failures in asyncio too, such as no more files for a connection."""
+    """Limit the log lines of failures in asyncio as well, such as a lack of files for a connection."""
     log_filter = RateLimitedLogFilter()
 
     def log_failure(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:

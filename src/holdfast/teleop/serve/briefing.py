@@ -18,14 +18,14 @@ _PARALLEL_TOLERANCE = 1e-9
 
 
 def describe_experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
-    """Describe the experiment for JSON, without revealing the compared laws to the subject, not even by the protocol's name.
+    """Return the experiment as JSON data that do not reveal the compared laws to the subject, not even by the protocol's name.
 
     Args:
-        protocol: Of the experiment.
-        texts: That the page shows.
-        tlx: Ask for the NASA task load index.
+        protocol: Protocol of the experiment.
+        texts: Texts of the page.
+        tlx: True to ask for the NASA task load index.
     """
-    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # defines the indices of the laws in /arm.js
 
     center, workspace_radius = compute_planar_workspace(protocol.arm, protocol.rows)
     training = protocol.training
@@ -57,7 +57,7 @@ def describe_experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> 
 def describe_views(protocol: Protocol) -> list[dict[str, Any]]:
     """Describe the windows on the arm: each shows points of the base frame on two axes.
 
-    One for the two rows of a planar task; from above and from the side for a task of three rows.
+    A planar task with two rows has one window; a task with three rows has views from above and from the side.
     """
     rows = protocol.rows.rows[:, :3]
     if len(rows) == 1:
@@ -72,10 +72,9 @@ def describe_views(protocol: Protocol) -> list[dict[str, Any]]:
 
 
 def compute_planar_workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
-    """Compute center, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first
-    joint.
+    """Return the centre and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first joint.
 
-    The radius is None for an arm that is not planar, or that has prismatic joints. Joint limits play no part.
+    The radius is None for an arm that is not planar, or that has prismatic joints. Joint limits are ignored.
     """
     center = arm.frames_at_zero[0, :3, 3].tolist()
     rows = task.rows[:, :3]

@@ -16,8 +16,8 @@ from holdfast.teleop.serve.guard import RateLimiter
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Message, Pause, Refused, Unstored
 
 _MAX_UNANSWERED_MESSAGES = 512  # messages of one page that wait for the disk
-_GREETING_TIMEOUT_S = 10.0  # s for the first message
-# _BYTES_PER_SECOND and _BURST_BYTES: that a page may send in a second for ever, and at once after a pause
+_GREETING_TIMEOUT_S = 10.0  # time for the first message, s
+# _BYTES_PER_SECOND and _BURST_BYTES: bytes that a page may send per second in the long run, and at once after a pause
 _BYTES_PER_SECOND = 256 * 1024.0
 _BURST_BYTES = 4 * 2.0**20
 
@@ -26,11 +26,11 @@ class Connection:
     """Connection of a page: reads no faster than allowed, and answers in order.
 
     Args:
-        socket: The WebSocket, not yet accepted.
-        control: Of the server.
+        socket: WebSocket that is not yet accepted.
+        control: State of the server.
 
     Attributes:
-        code: The subject whose session the page holds; None before hello.
+        code: Code of the subject whose session the page holds; None before hello.
     """
 
     def __init__(self, socket: WebSocket, control: Control) -> None:
@@ -58,7 +58,7 @@ class Connection:
             if isinstance(result, Exception):
                 raise result
 
-    # ---- told by the server ----------------------------------------------------------------------------------------
+    # ---- calls from the server -------------------------------------------------------------------------------------
 
     def send_reply(self, reply: Message | Exception) -> None:
         """Send the reply to a message, in the order of the messages; an exception means that it could not be written."""
@@ -89,7 +89,7 @@ class Connection:
         self._is_closing = True
         self._queue_message(Bye(reason=reason))
 
-    # ---- inside ----------------------------------------------------------------------------------------------------
+    # ---- internal --------------------------------------------------------------------------------------------------
 
     def _queue_message(self, message: Message | None, is_reply: bool = False) -> None:
         self._outbox.append((message, is_reply))
@@ -130,7 +130,7 @@ class Connection:
             self._is_closing = self._is_closing or isinstance(reply, Bye)
 
     def _queue_refusal(self, reason: str) -> None:
-        """Queue a refusal through the writer, so that the answer has its place among the others."""
+        """Queue a refusal through the writer, so that the replies stay in order."""
         code = self.code
         assert code is not None
 
@@ -156,7 +156,7 @@ class Connection:
             while self._outbox:
                 message, counts = self._outbox.popleft()
                 answer_count = int(counts)
-                # One acknowledgement for all that are on the disk.
+                # One acknowledgement for all messages that are on the disk.
                 while isinstance(message, Ack) and self._outbox and isinstance(self._outbox[0][0], Ack):
                     message, _ = self._outbox.popleft()
                     answer_count += 1
@@ -174,6 +174,6 @@ class Connection:
 
 async def serve_session(socket: WebSocket) -> None:
     """Serve the route ``/session``."""
-    # A page that is gone, or was silent; and records that cannot be written, which the log tells of.
+    # Errors of a page that has disconnected or was silent, and of records that cannot be written, which the log reports.
     with suppress(WebSocketDisconnect, TimeoutError, HoldfastError):
         await Connection(socket, socket.app.state.control).run()

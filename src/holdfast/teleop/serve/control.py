@@ -25,7 +25,7 @@ DIFFERENCE_EVENT = "replay differs"
 _PAUSED_EVENT = "paused"
 _RESUMED_EVENT = "goes on"
 _EXPERIMENTER_DATA = {"by": "experimenter"}
-# _MAX_GREETING_PAGES and _MAX_PAGES: pages at once that have not said hello, and that have
+# _MAX_GREETING_PAGES and _MAX_PAGES: largest numbers of pages before and after hello
 _MAX_GREETING_PAGES = 64
 _MAX_PAGES = 256
 
@@ -46,15 +46,15 @@ class Control:
     """State of the server and the experimenter's actions; for use inside the event loop only.
 
     Args:
-        folder: Of the experiment.
-        loop: The event loop.
+        folder: Folder of the experiment.
+        loop: Event loop of the server.
 
     Attributes:
-        folder: Of the experiment.
-        writer: Owns the records that are written.
-        reader: Owns a connection of its own, for what takes longer and changes nothing.
-        live: What is watched.
-        protocol: Of the experiment.
+        folder: Folder of the experiment.
+        writer: Thread that writes the records.
+        reader: Thread with a separate connection, for long jobs that change nothing.
+        live: Broadcast of the state to the experimenter's pages.
+        protocol: Protocol of the experiment.
 
     Raises:
         StoreError: The folder cannot be opened.
@@ -90,7 +90,7 @@ class Control:
 
     @contextmanager
     def track_until_hello(self, page: _Page) -> Iterator[None]:
-        """List a page among those that have not sent hello; above the limit, the oldest is turned away."""
+        """List a page among those that have not sent hello; above the limit, the oldest one is disconnected."""
         self._greeting_pages[page] = None
         if len(self._greeting_pages) > _MAX_GREETING_PAGES:
             oldest = next(iter(self._greeting_pages))
@@ -108,7 +108,7 @@ class Control:
             StoreError: The records cannot be written.
         """
         if len(self._pages) >= _MAX_PAGES:
-            raise InputError(f"{_MAX_PAGES} pages take part already, the most there may be; try again later")
+            raise InputError(f"{_MAX_PAGES} pages take part already, the largest number; try again later")
         if (fault := self.writer.fault) is not None:
             # Whether it is over shows when something is written.
             await self.writer.run_job(lambda records: records.add_event("written again", data={"after": fault}))
@@ -122,7 +122,7 @@ class Control:
         if previous_page is not None and previous_page is not page:
             previous_page.bye("the session has moved to another page")
         subject = await self.writer.run_job(lambda records: records.subject(code))
-        # Not in the writer: it takes a while, and the others should not wait for it.
+        # Not in the writer, because it takes a while, and the other pages should not wait for it.
         await asyncio.to_thread(training_tasks, self.protocol, subject.number)
         welcome = await self.writer.run_job(
             lambda records: Station(records, code).make_welcome(entered.key, self.is_paused(code))
@@ -214,7 +214,7 @@ class Control:
         """Pause a session, or all of them, after the current trial, or resume.
 
         Raises:
-            InputError: There is no such subject, or it is to resume while all are paused.
+            InputError: There is no such subject, or one session is resumed while all are paused.
         """
         if subject is None:
             self._all_paused = paused
@@ -233,7 +233,7 @@ class Control:
         self.mark_subjects_changed()
 
     async def set_note(self, subject: str, note: str) -> None:
-        """Set the note about a subject, in place of an earlier one.
+        """Replace the note about a subject.
 
         Raises:
             InputError: There is no such subject, or the note is longer than 10,000 characters.
@@ -244,7 +244,7 @@ class Control:
         self.mark_subjects_changed()
 
     async def drop_subject(self, subject: str) -> None:
-        """End a subject's session for good; its records stay.
+        """End a subject's session permanently; its records are kept.
 
         Raises:
             InputError: There is no such subject.
@@ -255,7 +255,7 @@ class Control:
         self.mark_subjects_changed()
 
     async def renew_key(self, subject: str) -> str:
-        """Return a new key with which another page resumes a session; the earlier key is void.
+        """Return a new key with which another page resumes a session; the earlier key becomes invalid.
 
         Raises:
             InputError: There is no such subject, or the session is over.
@@ -273,11 +273,11 @@ class Control:
         return key
 
     async def describe_state(self) -> dict[str, Any]:
-        """Describe for JSON whether all sessions are paused, and the state of each."""
+        """Return for JSON whether all sessions are paused, and the state of each."""
         return {"paused": self._all_paused, "fault": self.writer.fault, "subjects": await self.describe_subjects()}
 
     async def describe_subjects(self) -> list[dict[str, Any]]:
-        """Describe the state of every subject's session for JSON."""
+        """Return the state of every subject's session for JSON."""
         rows = await self.reader.run_job(
             lambda records: (records.subjects(), records.count_trials(), _count_replay_differences(records))
         )

@@ -28,8 +28,8 @@ from holdfast.teleop.serve.messages import Code, Message, describe_error
 from holdfast.teleop.serve.process import run_job
 
 _MISSING_POLICIES = ("refuse", "complete", "mixed")  # see holdfast.teleop.analysis.analyse
-_MAX_REQUEST_BYTES = 64 * 1024  # of what is posted: the longest note fits
-# A report needs nothing but itself. It holds what subjects wrote, in an address that has the key: no script runs in it.
+_MAX_REQUEST_BYTES = 64 * 1024  # largest request body; the longest note fits
+# A report is self-contained. It contains text from subjects, and its address contains the key, so no script may run in it.
 _REPORT_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; sandbox"
 
 
@@ -69,8 +69,8 @@ def make_routes(guard: Guard, page: Callable[[Request], Response] | None) -> lis
     """Return all routes; ``request.app.state.control`` is the :class:`holdfast.teleop.serve.control.Control`.
 
     Args:
-        guard: Whose token a station's address needs.
-        page: Answers with the experimenter's page; None where it was not built.
+        guard: Guard, whose token is part of a station's address.
+        page: Handler of the experimenter's page; None if it was not built.
     """
     handlers = _ExperimenterHandlers(guard.token)
     api_routes: list[BaseRoute] = [
@@ -90,15 +90,15 @@ class _ExperimenterHandlers:
     """Handlers of the routes.
 
     Args:
-        token: Of the stations; None for none.
+        token: Token of the stations; None for none.
     """
 
     def __init__(self, token: str | None) -> None:
         self._token = token
-        self._job_lock = asyncio.Lock()  # tables and reports one at a time: each is a process
+        self._job_lock = asyncio.Lock()  # tables and reports run one at a time, because each is a process
 
     async def get_subjects(self, request: Request) -> Response:
-        """Answer with everything that the page shows, except the moving arm."""
+        """Return all data of the page, except the moving arm."""
         control = _get_control(request)
         constant = {
             "name": control.protocol.name,
@@ -123,23 +123,23 @@ class _ExperimenterHandlers:
         return JSONResponse({})
 
     async def post_drop(self, request: Request) -> Response:
-        """End a subject's session for good."""
+        """End a subject's session permanently."""
         posted = await _read_posted(request, SubjectRequest)
         await _get_control(request).drop_subject(posted.subject)
         return JSONResponse({})
 
     async def post_resume(self, request: Request) -> Response:
-        """Answer with an address that resumes a session in another page."""
+        """Return an address that resumes a session in another page."""
         posted = await _read_posted(request, SubjectRequest)
         control = _get_control(request)
         key = await control.renew_key(posted.subject)
         subject = await control.reader.run_job(lambda records: records.subject(posted.subject))
-        # A dry run stays one.
+        # A dry run remains a dry run.
         robot_query = {"robot": str(subject.number)} if subject.kind == SubjectKind.SIMULATED else {}
         return JSONResponse({"url": self._station_url(request, session=key, **robot_query)})
 
     async def get_export(self, request: Request) -> Response:
-        """Answer with all tables, zipped."""
+        """Return all tables as a zip archive."""
         control = _get_control(request)
         output = await self._run_job("export", control)
         file_name = f"{control.folder.resolve().name or 'experiment'}.zip"
@@ -147,7 +147,7 @@ class _ExperimenterHandlers:
         return FileResponse(file, media_type="application/zip", filename=file_name, background=BackgroundTask(output.cleanup))
 
     async def get_report(self, request: Request) -> Response:
-        """Answer with the analysis, as ``holdfast teleop analyse`` writes it."""
+        """Return the analysis, as ``holdfast teleop analyse`` writes it."""
         missing = request.query_params.get("missing", "refuse")
         if missing not in _MISSING_POLICIES:
             raise InputError(f"missing must be one of {', '.join(_MISSING_POLICIES)}")
@@ -157,7 +157,7 @@ class _ExperimenterHandlers:
         return HTMLResponse(page, headers={"content-security-policy": _REPORT_POLICY})
 
     async def _run_job(self, job: str, control: Control, *arguments: str) -> TemporaryDirectory[str]:
-        """Run a job, and return the folder with its output; the caller cleans it up."""
+        """Run a job, and return the folder with its output, which the caller removes."""
         async with self._job_lock:
             output = TemporaryDirectory(prefix=f"holdfast-{job}-")
             try:
@@ -174,7 +174,7 @@ class _ExperimenterHandlers:
 
 
 def _list_starts_and_targets(protocol: Protocol) -> dict[str, Any]:
-    """Describe the possible positions of arm and target as a station's plan, with the first subject's training."""
+    """Return the possible positions of arm and target in the form of a station's plan, with the first subject's training."""
     tasks = {"training": training_tasks(protocol, 0), "trials": protocol.tasks}
     return {
         key: [
@@ -186,9 +186,7 @@ def _list_starts_and_targets(protocol: Protocol) -> dict[str, Any]:
 
 
 async def stream_live(socket: WebSocket) -> None:
-    """Serve the route ``/live``: the list of subjects now and when it changes, and the moving arms; incoming messages are
-    refused.
-    """
+    """Serve the route ``/live``: the list of subjects, now and after changes, and the moving arms; messages are rejected."""
     await socket.accept()
     sending, disconnected = asyncio.ensure_future(_send_updates(socket)), asyncio.ensure_future(socket.receive())
     try:
@@ -208,7 +206,7 @@ async def stream_live(socket: WebSocket) -> None:
 
 async def _send_updates(socket: WebSocket) -> None:
     control = _get_control(socket)
-    control.mark_subjects_changed()  # a list comes as soon as there is somebody who watches, that is, in the next line
+    control.mark_subjects_changed()  # the list is sent as soon as the page is connected, which is in the next line
     async for message in control.live.stream_messages():
         await socket.send_text(json.dumps(message))
 
@@ -236,7 +234,7 @@ def _with_error_responses(endpoint: Endpoint) -> Endpoint:
         except HoldfastError as error:
             return make_refusal(request, 500, str(error))
         except ClientDisconnect:
-            return Response(status_code=400)  # nobody receives it: the connection ended within the request
+            return Response(status_code=400)  # not received by anyone: the connection ended within the request
 
     return answer_request
 

@@ -21,7 +21,7 @@ from holdfast.core.files import hosts
 
 _TOKEN_PATTERN = re.compile("[A-Za-z0-9_-]{12,128}")
 _GUESSABLE_WORDS = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")
-# _MAX_FAILED_ATTEMPTS and _ATTEMPTS_PER_SECOND: wrong tokens and keys of one address at once, and a second after that
+# _MAX_FAILED_ATTEMPTS and _ATTEMPTS_PER_SECOND: wrong tokens and keys of one address, at once and per second after that
 _MAX_FAILED_ATTEMPTS = 200.0
 _ATTEMPTS_PER_SECOND = 1.0
 _MAX_ADDRESSES = 1024
@@ -31,12 +31,12 @@ _EXPERIMENTER_PATHS = ("/experimenter", "/live")
 
 @dataclass(frozen=True)
 class Guard:
-    """Secrets that a request must show.
+    """Secrets that a request must contain.
 
     Attributes:
-        token: That pages of stations must have; None for none: only where nobody but this computer can ask.
-        key: The experimenter's.
-        loopback: Only names of this computer are right in the Host header.
+        token: Token of the stations' pages; None if only this computer can connect.
+        key: Key of the experimenter.
+        loopback: True if the Host header must name this computer.
     """
 
     token: str | None = None
@@ -44,7 +44,7 @@ class Guard:
     loopback: bool = True
 
     def explain_foreign_request(self, scope: Scope) -> str | None:
-        """Return why a request does not come from this server's pages, a typed address, or a link; None if it does."""
+        """Return the reason if a request is not from this server's pages, a typed address, or a link; None if it is."""
         headers = Headers(scope=scope)
         origins = headers.getlist("origin")
         host_fault = hosts.request_rejection_reason(
@@ -59,7 +59,7 @@ class Guard:
         return None
 
     def name_missing_secret(self, scope: Scope) -> str | None:
-        """Return which secret a request lacks; None if it shows what its path needs."""
+        """Return a message about the secret that a request lacks; None if it has everything that its path needs."""
         path = scope["path"]
         if any(path == prefix or path.startswith(prefix + "/") for prefix in _EXPERIMENTER_PATHS):
             return (
@@ -72,31 +72,29 @@ class Guard:
         return None
 
     def has_token(self, scope: Scope) -> bool:
-        """Return whether the token is in the query, or in the cookie that the page was given with it."""
+        """Return True if the token is in the query, or in the cookie of the page."""
         return self.token is None or any(
             _equals_secret(value, self.token)
             for value in (_query_value(scope, "token"), _cookie_value(scope, _cookie_name(self.token)))
         )
 
     def has_experimenter_key(self, scope: Scope) -> bool:
-        """Return whether the key is in the query; no cookie has it, because a subject may use the experimenter's browser."""
+        """Return True if the key is in the query; no cookie has it, because a subject may use the experimenter's browser."""
         return _equals_secret(_query_value(scope, "key"), self.key)
 
     def has_secret_in_query(self, scope: Scope) -> bool:
-        """Return whether the query has a token or a key, right or wrong; the cookie does not count, because its name depends on
-        the token.
-        """
+        """Return True if the query has a token or a key, right or wrong; cookies, named after the token, do not count."""
         return (self.token is not None and bool(_query_value(scope, "token"))) or bool(_query_value(scope, "key"))
 
     def make_cookie(self, scope: Scope) -> str | None:
-        """Return the cookie that lets the page's own requests in; None if there is none to set."""
+        """Return the cookie that admits the page's own requests; None if there is none to set."""
         if self.token is None or scope["path"] != "/":
             return None
         return f"{_cookie_name(self.token)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
 
 
 def is_cross_origin_request(scope: Scope) -> bool:
-    """Return whether the browser states that a page of another server caused the request."""
+    """Return True if the browser states that a page of another server caused the request."""
     return Headers(scope=scope).get("sec-fetch-site", "none") not in ("same-origin", "none")
 
 
@@ -104,8 +102,8 @@ def check_token(token: str) -> None:
     """Check that a token cannot be guessed and fits into a URL.
 
     Raises:
-        InputError: It is shorter than 12 characters, has others than letters, digits, - and _, or is easily guessed: few
-            different characters, a sequence, the same part again and again, hardly more than a common word.
+        InputError: The token is shorter than 12 characters, has other characters than letters, digits, - and _, or is easily
+            guessed: few different characters, a sequence, a repeated part, or hardly more than a common word.
     """
     example = "for example the output of 'openssl rand -hex 16'"
     if not _TOKEN_PATTERN.fullmatch(token):
@@ -128,7 +126,7 @@ class FailedAttempts:
     """Counts of wrong tokens and keys, by address.
 
     Args:
-        clock: Seconds.
+        clock: Function that returns the time in s.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -136,7 +134,7 @@ class FailedAttempts:
         self._limiters: dict[str, RateLimiter] = {}
 
     def count_attempt(self, address: str) -> None:
-        """Count one more attempt from an address."""
+        """Count one attempt from an address."""
         limiter = self._limiters.pop(address, None) or RateLimiter(_ATTEMPTS_PER_SECOND, _MAX_FAILED_ATTEMPTS, self._clock)
         self._limiters[address] = limiter
         limiter.reserve_and_get_wait()
@@ -144,13 +142,13 @@ class FailedAttempts:
             del self._limiters[next(iter(self._limiters))]
 
     def has_too_many_failures(self, address: str) -> bool:
-        """Return whether an address has shown more wrong tokens and keys than it may."""
+        """Return True if an address has sent more wrong tokens and keys than allowed."""
         limiter = self._limiters.get(address)
         return limiter is not None and limiter.reserve_and_get_wait(0) > 0
 
 
 class GuardedApp:
-    """Application behind a guard, which refuses invalid requests and sets headers on the valid ones."""
+    """Application behind a guard, which rejects invalid requests and sets headers on valid ones."""
 
     def __init__(self, app: ASGIApp, guard: Guard) -> None:
         self._app, self._guard = app, guard
@@ -169,7 +167,7 @@ class GuardedApp:
             if fault is not None and self._guard.has_secret_in_query(scope) and not is_cross_origin_request(scope):
                 must_wait = self._count_attempt(scope)
         if must_wait:
-            fault = "too many wrong tokens or keys came from this address; wait"
+            fault = "too many wrong tokens or keys came from this address; wait a moment"
         if fault is not None and scope["type"] == "websocket":
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": fault})
@@ -182,7 +180,7 @@ class GuardedApp:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 for name, value in _security_headers(Headers(scope=scope).get("host", ""), fault is None).items():
-                    headers.setdefault(name, value)  # a report has a stricter policy of its own
+                    headers.setdefault(name, value)  # a report has its own stricter policy
                 cookie = self._guard.make_cookie(scope) if fault is None else None
                 if cookie is not None:
                     headers["set-cookie"] = cookie
@@ -194,7 +192,7 @@ class GuardedApp:
             await PlainTextResponse(f"Refused: {fault}.\n", status_code=429 if must_wait else 403)(scope, receive, with_headers)
 
     def _count_attempt(self, scope: Scope) -> bool:
-        """Count a wrong token or key, and return whether its address has shown too many."""
+        """Count a wrong token or key, and return True if its address has sent too many."""
         client = scope.get("client")
         address = "" if client is None else client[0]
         must_wait = self._attempts.has_too_many_failures(address)
@@ -219,9 +217,9 @@ class RateLimiter:
     """Rate limit of messages or bytes: ``rate`` per second in the long run, and up to ``burst`` at once after a pause.
 
     Args:
-        rate: Per second.
-        burst: At once.
-        clock: Seconds.
+        rate: Units per second.
+        burst: Units at once.
+        clock: Function that returns the time in s.
     """
 
     def __init__(self, rate: float = 200.0, burst: float = 2000.0, clock: Callable[[], float] = time.monotonic) -> None:
@@ -257,5 +255,5 @@ def _cookie_value(scope: Scope, name: str) -> str | None:
 
 
 def _cookie_name(token: str) -> str:
-    # Cookies know no ports: two servers of one computer need two names.
+    # Cookies are shared between ports, so two servers on one computer need two names.
     return f"holdfast-{hashlib.sha256(token.encode()).hexdigest()[:12]}"

@@ -8,16 +8,16 @@ from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Any
 
-_QUEUE_LENGTH = 64  # messages for a watcher who does not keep up; older ones are dropped
-_MIN_INTERVAL_S = 1 / 15  # s between two of the same topic
-_SUBJECTS_INTERVAL_S = 0.5  # s between two lists of subjects
+_QUEUE_LENGTH = 64  # messages for a page that is too slow; older ones are dropped
+_MIN_INTERVAL_S = 1 / 15  # time between two messages of one topic, s
+_SUBJECTS_INTERVAL_S = 0.5  # time between two lists of subjects, s
 
 
 class StatusBroadcaster:
     """Broadcaster of messages to the experimenter's pages, for use inside the event loop only.
 
     Args:
-        clock: Seconds.
+        clock: Function that returns the time in s.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -35,8 +35,8 @@ class StatusBroadcaster:
         """Send a message to all connected pages.
 
         Args:
-            message: As JSON takes it.
-            topic: Of one topic at most 15 messages a second pass, the others are dropped; None for messages that all pass.
+            message: JSON data.
+            topic: Topic of which at most 15 messages a second are sent, and the others dropped. None: all messages are sent.
         """
         if not self._queues:
             return

@@ -1,7 +1,7 @@
 """Jobs in a separate process, so that no station waits: ``python -m holdfast.teleop.serve.process JOB DIR OUT ...``.
 
-The tables of an experiment, and its statistics, take seconds of a processor and hundreds of megabytes: in the server they would
-hold up the event loop, which shares the interpreter's lock, and the memory would stay with it.
+The tables of an experiment, and its statistics, take seconds of processor time and hundreds of megabytes. Inside the server
+they would block the event loop, which shares the interpreter's lock, and the server would keep the memory.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.teleop.records.records import Records
 
-_REFUSED_EXIT_CODE = 3  # exit code: what was printed is a sentence for people
+_REFUSED_EXIT_CODE = 3  # the job printed an error message for the user
 
 _log = logging.getLogger(__name__)
 
@@ -27,8 +27,8 @@ async def run_job(job: str, *arguments: str) -> None:
     """Run one of the jobs of this module in another process.
 
     Raises:
-        InputError: What the job was refused with.
-        HoldfastError: It failed; the log has the reason.
+        InputError: The job rejected its input.
+        HoldfastError: The job failed; the log has the reason.
     """
     command = [sys.executable, "-m", __name__, job, *arguments]
     finished = await asyncio.to_thread(subprocess.run, command, stdin=subprocess.DEVNULL, capture_output=True, check=False)
@@ -65,7 +65,7 @@ _JOB_FUNCTIONS: dict[str, Callable[..., None]] = {"export": _export_archive, "re
 
 def _run_job_function(job: str, folder: str, out: str, *arguments: str) -> int:
     if hasattr(os, "nice"):
-        os.nice(10)  # after the stations
+        os.nice(10)  # lower priority than the stations
     try:
         _JOB_FUNCTIONS[job](Path(folder), Path(out), *arguments)
     except HoldfastError as error:

@@ -1,7 +1,7 @@
 """Session of a subject over its messages: the changes of the records by each message, and the refusals.
 
-A station keeps nothing between messages but the subject's code: everything else is in the records, so that a rolled back
-transaction, or a killed server, leaves nothing behind that is not true.
+A station stores only the subject's code between messages. Everything else is in the records, so that a rolled back
+transaction, or a killed server, leaves no wrong state behind.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused, Sequenced, 
 from holdfast.teleop.trials.recordings import End
 
 _TRIAL_ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
-_LIMIT_TOLERANCE = 1e-9  # of the stick's limit
+_LIMIT_TOLERANCE = 1e-9  # of the joystick's limit
 _MAX_ANSWERS = 1000
-_MAX_SESSION_S = 8 * 3600  # s
+_MAX_SESSION_S = 8 * 3600  # longest session, s
 # _BYTES_PER_CYCLE and _BYTES_PER_NUMBER: bytes of a message about one cycle, and of each of its numbers
 _BYTES_PER_CYCLE = 80
 _BYTES_PER_NUMBER = 25
@@ -35,9 +35,9 @@ class MessageOutcome:
     """Outcome of a message.
 
     Attributes:
-        reply: To the page.
-        entry: The trial that it was about, as it was before; None for none.
-        finished: Number of the trial that it ended; None for none.
+        reply: Reply to the page.
+        entry: Trial of the message, in its state before; None for none.
+        finished: Number of the trial that the message ended; None for none.
     """
 
     reply: Ack | Refused | Bye
@@ -50,8 +50,8 @@ class Admission:
     """Subject and key of an admitted page.
 
     Attributes:
-        code: The subject.
-        key: Of the session.
+        code: Code of the subject.
+        key: Key of the session.
     """
 
     code: str
@@ -61,7 +61,7 @@ class Admission:
 def admit_page(records: Records, hello: Hello) -> Admission | Refused | Bye:
     """Admit a page that sends hello: as a new subject, or to a session that is resumed.
 
-    A code that is taken may be given again as long as nothing is on record of it: the page never saw the answer to its hello.
+    A code without records may be used again, because the page never received the answer to its hello.
     """
     if hello.format != messages.MESSAGE_FORMAT:
         reason = f"the page speaks format {hello.format} and the server {messages.MESSAGE_FORMAT}; reload the page"
@@ -102,8 +102,8 @@ class Station:
     """Session of one subject.
 
     Args:
-        records: The records.
-        code: The subject.
+        records: Records of the experiment.
+        code: Code of the subject.
     """
 
     def __init__(self, records: Records, code: str) -> None:
@@ -149,12 +149,12 @@ class Station:
         last_seq, seq = records.last_seq(self.code), message.seq
         max_bytes = message_quota_bytes(records.protocol)
         if records.received_bytes(self.code) + size > max_bytes:
-            reason = f"the session has sent {max_bytes // 2**20} MiB, the most that one may; tell the experimenter"
+            reason = f"the session has sent {max_bytes // 2**20} MiB, the largest amount; tell the experimenter"
             return MessageOutcome(Refused(seq=seq, reason=reason, last=last_seq))
         if seq <= last_seq:
             return MessageOutcome(Refused(seq=seq, reason=f"message {seq} is on record already", last=last_seq))
         if seq > last_seq + 1:
-            return MessageOutcome(Refused(seq=seq, reason=f"message {seq} came, and {last_seq + 1} is the next", last=last_seq))
+            return MessageOutcome(Refused(seq=seq, reason=f"message {seq} arrived, but {last_seq + 1} is next", last=last_seq))
         entry = records.latest_trial(self.code)
         try:
             with records.transaction():
@@ -168,12 +168,12 @@ class Station:
 
     @singledispatchmethod
     def _apply(self, message: Sequenced, entry: TrialRecord | None) -> int | None:
-        """Change the records, and return the number of a trial that is over now."""
+        """Change the records, and return the number of a trial that this ends."""
         raise AssertionError(message)
 
     @_apply.register
     def _(self, message: messages.AnswersMessage, entry: TrialRecord | None) -> int | None:
-        # The newest answers are the subject's; the events keep all of them, also where a form is filled in twice.
+        # The newest answers are those of the subject; the events keep all of them, even if a form is filled in twice.
         subject = self.records.subject(self.code)
         new_answers = {f"{message.form}.{key}": value for key, value in message.answers.items()}
         earlier = {key: value for key, value in subject.answers.items() if key.split(".")[0] != message.form}
@@ -213,7 +213,7 @@ class Station:
         velocity = np.array(message.velocity)
         top_speed = float(np.linalg.norm(velocity, axis=1).max())
         if top_speed > protocol.stick.limit * (1 + _LIMIT_TOLERANCE):
-            raise InputError(f"a command of {top_speed:g} m/cycle is beyond the stick's limit of {protocol.stick.limit:g}")
+            raise InputError(f"a command of {top_speed:g} m/cycle is beyond the joystick's limit of {protocol.stick.limit:g}")
         if protocol.cycle_limit is not None and message.first + len(velocity) > protocol.cycle_limit:
             raise InputError(f"a trial has at most {protocol.cycle_limit} cycles")
         self.records.append_cycles(trial.id, message.first, np.array(message.time), velocity=velocity, q=np.array(message.q))
@@ -228,7 +228,7 @@ class Station:
         if message.end == "time" and self.records.count_cycles(trial) != protocol.cycle_limit:
             raise InputError("the time of this trial is not over")
         self.records.finish_trial(trial.id, _TRIAL_ENDS[message.end], np.array(message.q))
-        Session(self.records, self.code).next_trial()  # after the last one the session is completed
+        Session(self.records, self.code).next_trial()  # completes the session after its last trial
         return trial.id
 
     @_apply.register
@@ -236,9 +236,9 @@ class Station:
         if entry is None or not _is_finished(entry):
             raise InputError("there is no finished trial to rate")
         if entry.kind == TrialKind.TRAINING:
-            raise InputError("the last trial is one of the training, which has no rating")
+            raise InputError("the last trial is a training trial, which has no rating")
         if entry.rating is not None:
-            raise InputError("the trial has its rating already")
+            raise InputError("the trial already has a rating")
         self.records.rate_trial(entry.id, message.rating, message.answers)
         return None
 
@@ -250,24 +250,24 @@ class Station:
 
 
 def _is_finished(entry: TrialRecord) -> bool:
-    """Return whether a trial is over and counts; a trial that was broken off is repeated."""
+    """Return True if a trial is over and counts; a trial that was broken off is repeated."""
     return entry.ended is not None and entry.end != End.BROKEN_OFF
 
 
 def _require_running_trial(entry: TrialRecord | None) -> TrialRecord:
     if entry is None or entry.ended is not None:
-        raise InputError("no trial is under way")
+        raise InputError("no trial is in progress")
     return entry
 
 
 def message_quota_bytes(protocol: Protocol) -> int:
-    """Return the number of message bytes that a session may send: those of eight hours of steering, and 16 MiB at least."""
+    """Return the number of message bytes that a session may send: enough for eight hours of steering, and at least 16 MiB."""
     numbers_per_cycle = protocol.arm.n + protocol.rows.m + 1
     return max(16 * 2**20, int(_MAX_SESSION_S * protocol.rate * (_BYTES_PER_CYCLE + _BYTES_PER_NUMBER * numbers_per_cycle)))
 
 
 def _build_plan(records: Records, row: int, number: int) -> messages.Plan:
-    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import number_scenario_laws  # defines the indices of the laws in /arm.js
 
     protocol = records.protocol
     training = training_tasks(protocol, number)

@@ -12,7 +12,7 @@
           - {name: hand, kind: choice, label: Which hand?, options: [{value: right, label: right}, {value: left, label: left}]}
         submit: Continue
 
-The English file, ``texts/en.yaml``, says which keys and forms there are; a laboratory may change the questions.
+The English file, ``texts/en.yaml``, determines the keys and forms; a laboratory may change the questions.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ class Texts:
     """Texts of a page.
 
     Attributes:
-        strings: By key.
-        forms: The forms, in order, as the page takes them.
+        strings: Texts by key.
+        forms: Forms in order, in the format of the page.
     """
 
     strings: Mapping[str, str]
@@ -101,12 +101,11 @@ def load_texts(path: Path | None = None, english: Path = ENGLISH_FILE) -> Texts:
     """Load the texts of a file, or the English ones.
 
     Args:
-        path: A translation; None for English.
-        english: Which keys and forms there are.
+        path: File of translated texts. None: English.
+        english: File of the English texts, which determines the keys and forms.
 
     Raises:
-        InputError: A file that cannot be read, has not the same keys and forms as the English one, or not the same words in
-            braces.
+        InputError: A file cannot be read, or its keys, its forms, or its words in braces differ from those of the English file.
     """
     english_texts = _load_file(english)
     if path is None:
@@ -130,7 +129,7 @@ def copy_english_texts(path: Path) -> Path:
     """Copy the English texts to a file, to translate.
 
     Raises:
-        StoreError: It is there already, or cannot be written.
+        StoreError: The file exists already, or cannot be written.
     """
     if reading.path_exists(path):
         raise StoreError(f"'{path}' exists already; choose another name")

@@ -1,7 +1,7 @@
 """Threads that own the records: one for writing, and one for reading.
 
-The writer collects the changes that came within a few milliseconds, applies each, by itself, inside one transaction, commits
-once, and only then answers: what has been answered is on the disk, and one ``fsync`` serves all stations.
+The writer collects the changes of a few milliseconds, applies each of them separately inside one transaction, commits once, and
+only then replies. Every confirmed change is therefore on the disk, and one ``fsync`` serves all stations.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from holdfast.core.errors import HoldfastError, StoreError
 from holdfast.core.typing import T
 from holdfast.teleop.records.records import Records
 
-_GATHER_TIME_S = 0.008  # s that the first change of a transaction waits for others
+_GATHER_TIME_S = 0.008  # time for which the first change of a transaction waits for others, s
 _MAX_TRANSACTION_JOBS = 512  # changes in one transaction
 
 _log = logging.getLogger(__name__)
@@ -33,17 +33,18 @@ Job = tuple[Callable[[Records], Any], Callable[[Any], None]]
 class RecordsThread:
     """Thread that owns the records of a folder and runs its jobs in order.
 
-    Answers are given in the event loop, and where a job failed the answer is the exception.
+    Results are delivered in the event loop; if a job fails, the result is its exception.
 
     Args:
-        folder: Of the experiment.
-        loop: The event loop.
-        writes: Jobs change the records, and are committed together; else they only read, one by one.
-        on_fault: Is told, in the event loop, when the records cannot be written any more, and why; None when they can again.
+        folder: Folder of the experiment.
+        loop: Event loop of the server.
+        writes: True if jobs change the records and are committed together; False if they only read, one by one.
+        on_fault: Function that is called in the event loop with the reason when the records cannot be written, and with None
+            when they can be written again.
 
     Attributes:
-        protocol: Of the experiment.
-        fault: Why the records cannot be written; None if they can.
+        protocol: Protocol of the experiment.
+        fault: Reason why the records cannot be written; None if they can.
 
     Raises:
         StoreError: The folder cannot be opened.
@@ -69,7 +70,7 @@ class RecordsThread:
     def submit_job(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
         """Submit a job; ``answer`` is called in the event loop with its result, or with its exception.
 
-        A job that fails must leave nothing half done: jobs of several changes use :meth:`holdfast.teleop.Records.transaction`.
+        A job that fails must not leave a partial change; a job of several changes uses :meth:`Records.transaction`.
         """
         self._jobs.put((job, answer))
 
@@ -109,7 +110,7 @@ class RecordsThread:
                 pass
 
     def _run_transaction(self, records: Records) -> bool:
-        """Run one transaction, and return False when there will be no more."""
+        """Run one transaction, and return False after the last one."""
         jobs: list[Job] = []
         job = self._jobs.get()
         deadline = time.monotonic() + _GATHER_TIME_S
@@ -125,7 +126,7 @@ class RecordsThread:
         if jobs:
             results = self._run_jobs(records, jobs)
             answers = [answer for _, answer in jobs]
-            # The loop may have stopped: then nobody waits for an answer.
+            # The loop may have stopped, so that no reply is expected.
             if not self._loop.is_closed():
                 self._loop.call_soon_threadsafe(_deliver_results, answers, results)
         return job is not None
@@ -135,7 +136,7 @@ class RecordsThread:
         try:
             with records.transaction() if self._writes else nullcontext():
                 results = [_call_job(job, records) for job, _ in jobs]
-        # A full disk, a folder that was deleted, a lock that somebody else keeps: none of it happened.
+        # Full disk, deleted folder, or lock of another program: no change was applied.
         except (sqlite3.Error, StoreError) as error:
             self._set_record_error(str(error))
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
@@ -153,7 +154,7 @@ class RecordsThread:
 
 
 def _make_atomic(job: Callable[[Records], T]) -> Callable[[Records], T]:
-    """Return a job of which all is done, or nothing."""
+    """Return a job that is applied completely or not at all."""
 
     def run_atomic(records: Records) -> T:
         with records.transaction():
@@ -167,7 +168,7 @@ def _call_job(job: Callable[[Records], Any], records: Records) -> Any:
         return job(records)
     except HoldfastError as error:
         return error
-    except (sqlite3.OperationalError, sqlite3.InternalError):  # a full disk takes the whole transaction with it
+    except (sqlite3.OperationalError, sqlite3.InternalError):  # a full disk cancels the whole transaction
         raise
     except Exception as error:
         _log.exception("a job of the records failed")

@@ -23,11 +23,11 @@ class EndRules:
     """Rules that end a trial.
 
     Attributes:
-        radius: Of the target circle, m.
-        at_rest: The end effector must also get no command there: so with people, not with the computer.
-        cycle_limit: Cycles allowed.
-        still: m per cycle; an end effector that is commanded but moves less ...
-        patience: ... for so many cycles one after the other is still, and the trial is over.
+        radius: Radius of the target circle, m.
+        at_rest: True if the end effector must also get no command in the circle, as with people.
+        cycle_limit: Largest number of cycles.
+        still: Motion per cycle, m, below which a commanded end effector counts as still.
+        patience: Number of consecutive still cycles after which the trial ends.
 
     Source: Goel et al. 2003, section 4, for radius and rest; limit, ``still`` and ``patience`` are ours.
     """
@@ -47,35 +47,34 @@ class EndRules:
 
 
 class Operator(ABC):
-    """Operator who holds the joystick in a batch of trials."""
+    """Operator of the joystick in a batch of trials."""
 
     @abstractmethod
     def begin(self, x: FloatArray, target: FloatArray) -> None:
-        """Begin a batch of trials with tool points (N, m) and targets (N, m), m."""
+        """Begin a batch of N trials with tool points ``x`` (N, m) and targets ``target`` (N, m), m."""
 
     @abstractmethod
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """Return the velocity (K, m), m/cycle, that the operator commands, before dead zone and limit.
 
         Args:
-            rows: (K,) which trials of the batch are under way.
-            cycle: From 0.
-            x: (K, m) where their tool points are, m.
-            target: (K, m) their targets.
+            rows: (K,) indices of the trials in progress.
+            cycle: Index of the control cycle, from 0.
+            x: (K, m) tool points of these trials, m.
+            target: (K, m) targets of these trials, m.
         """
 
     def gives_up(self, rows: IndexArray, cycle: int) -> NDArray[np.bool_]:
-        """Return (K,) True where the operator aborts the trial."""
+        """Return (K,) True for the trials in progress, with indices ``rows`` (K,), that the operator aborts in ``cycle``."""
         del cycle
         return np.zeros(rows.size, dtype=bool)
 
 
 class ComputerOperator(Operator):
-    """Operator that steers straight at the target: ``Ke`` times the error, within the joystick's limit; eq. (6) with Ke in
-    1/cycle.
+    """Operator that steers straight to the target: ``Ke`` times the error, within the joystick's limit.
 
     Args:
-        gain: Ke, 1/cycle.
+        gain: Gain Ke, 1/cycle.
 
     Source: Goel et al. 2003, eq. (6); the gain is reconstructed.
     """
@@ -94,7 +93,7 @@ class ComputerOperator(Operator):
 
 
 class RecordedOperator(Operator):
-    """Operator that repeats the commands of recorded trials, cycle by cycle, and gives no command when they are over."""
+    """Operator that repeats the commands of N recorded ``trials``, cycle by cycle, and gives no command after their end."""
 
     def __init__(self, trials: Trials) -> None:
         self._trials = trials
@@ -102,7 +101,7 @@ class RecordedOperator(Operator):
     def begin(self, x: FloatArray, target: FloatArray) -> None:
         """See :meth:`Operator.begin`."""
         if len(x) != len(self._trials):
-            raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} others; give the same trials")
+            raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} trials; give equal numbers")
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
         """See :meth:`Operator.command_velocity`."""
@@ -132,20 +131,20 @@ def drive_trials(
     """Run a batch of trials and record them.
 
     Args:
-        plants: One for each law, all with the same arm and task rows.
-        plant_of: (N,) which plant each trial has.
+        plants: Plants, one for each law, all with the same arm and task rows.
+        plant_of: (N,) index of the plant of each trial.
         q0: (N, n) start configurations, rad and m.
         target: (N, m) centres of the target circles, m.
-        healthy: (N, n) 1, or 0 for joints that are locked from the start.
-        operator: Who holds the stick.
-        stick: The stick; None: what the operator wants is commanded as it is, as when replaying.
-        rules: When a trial is over.
+        healthy: (N, n) mask: 1, or 0 for joints that are locked from the start.
+        operator: Operator of the joystick.
+        stick: Joystick. None: commands of the operator are not limited, as for a replay.
+        rules: Rules that end a trial. Default: ``EndRules()``.
 
     Returns:
-        The :class:`holdfast.teleop.Trials`.
+        The recorded trials.
 
     Raises:
-        InputError: Arrays that do not fit each other.
+        InputError: The shapes of the arrays do not match.
     """
     end_rules = EndRules() if rules is None else rules
     n, m = plants[0].n, plants[0].m

@@ -1,6 +1,6 @@
 """Simulated people who operate the joystick; every result made with them states that it is simulated.
 
-The parameters are a plausible population, never fitted to the paper's statistics. Where no source is named they are assumed.
+The parameters are a plausible population and were never fitted to the paper's statistics. Without a source they are assumed.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.teleop.trials.driving import Operator
 from holdfast.teleop.trials.stick import Joystick
 
-# _STOP_RADIUS_FRACTION and _RESTART_RADIUS_FRACTION: of the circle's radius: where the stick is released, and where it is used
-# again
+# _STOP_RADIUS_FRACTION and _RESTART_RADIUS_FRACTION: fractions of the circle's radius at which the joystick is released, and at
+# which it is used again
 _STOP_RADIUS_FRACTION = 0.6
 _RESTART_RADIUS_FRACTION = 0.9
-_NOISE_MEMORY_S = 0.2  # s
-_DETOUR_DURATION_S = 1.5  # s: how long another direction is tried
-_LOST_DISTANCE_M = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
+_NOISE_MEMORY_S = 0.2  # correlation time of the noise, s
+_DETOUR_DURATION_S = 1.5  # time for which another direction is tried, s
+_LOST_DISTANCE_M = 0.05  # increase of the distance to the target over one look-back that counts as moving away, m
 
 
 @dataclass(frozen=True)
@@ -30,16 +30,16 @@ class Person:
     """Steering parameters of one simulated person.
 
     Attributes:
-        delay: From what is seen to what the end effector begins to do, s. About 0.24 s for a simple reaction: Card,
+        delay: Delay from a visual stimulus to the motion of the end effector, s. About 0.24 s for a simple reaction: Card,
             Moran, Newell 1983, the model human processor.
-        lag: Time constant of hand and stick, s: a first-order lag; 0.1 to 0.2 s: McRuer and Jex 1967.
+        lag: Time constant of hand and joystick, s, a first-order lag; 0.1 to 0.2 s: McRuer and Jex 1967.
         noise: Standard deviation of the command, as a fraction of its size: Harris and Wolpert 1998, noise grows with the
             signal.
-        bias: The direction is misjudged by this angle throughout a trial, rad; drawn anew, with its sign, for each trial.
-        slowing: The speed is the distance to go divided by this time, s, within the limit of the stick.
-        look_back: If the end effector is farther from the target than this long ago, s, or was still, the straight way is
-            given up ...
-        turn: ... for a while, for one turned away by this angle, rad; left and right by turns, farther each time.
+        bias: Angle by which the direction is misjudged throughout a trial, rad; its sign is random in each trial.
+        slowing: Time, s, that divides the distance to go to give the speed, within the limit of the joystick.
+        look_back: Time over which progress is observed, s. If the end effector moved away from the target or was still, the
+            operator leaves the straight path.
+        turn: Angle between the straight and the new direction, rad; left and right alternately, larger each time.
         gives_up: Time after which the trial is aborted, s.
     """
 
@@ -74,13 +74,15 @@ _PARAMETER_SPREAD = {
 
 
 def sample_people(count: int, seed: int = 0, middle: Person | None = None) -> list[Person]:
-    """Sample simulated people: every parameter is log-normal around that of ``middle``.
+    """Sample a number (``count``) of simulated people with a ``seed``.
+
+    Every parameter has a log-normal distribution around that of ``middle`` (default: ``Person()``).
 
     Raises:
-        InputError: Fewer than one person.
+        InputError: ``count`` is below 1.
     """
     if count < 1:
-        raise InputError(f"{count} simulated operators were asked for; give 1 or more")
+        raise InputError(f"{count} simulated operators are requested; give 1 or more")
     typical = Person() if middle is None else middle
     generator = np.random.default_rng(seed)
     factors = {name: np.exp(generator.normal(0.0, spread, count)) for name, spread in _PARAMETER_SPREAD.items()}
@@ -93,11 +95,11 @@ class SimulatedPeople(Operator):
     """Operator with one simulated person for each trial of a batch.
 
     Args:
-        people: (N,) who does each trial.
-        rate: Control cycles per second.
-        stick: Whose limit they know.
-        radius: Of the target circle, m.
-        seed: Of the noise and of misjudged directions.
+        people: (N,) person who does each trial.
+        rate: Control cycles per second, Hz.
+        stick: Joystick, whose limit the people know.
+        radius: Radius of the target circle, m.
+        seed: Seed of the noise and of misjudged directions.
     """
 
     def __init__(self, people: Sequence[Person], rate: float, stick: Joystick, *, radius: float, seed: int = 0) -> None:
@@ -127,7 +129,7 @@ class SimulatedPeople(Operator):
         self._detour_until, self._detours = np.full(count, -1.0), np.zeros(count, dtype=np.int64)
         self._calm_until = np.zeros(count)
         self._side = np.where(self._generator.random(count) < 0.5, -1.0, 1.0)
-        # Of the last cycles.
+        # Values of the last cycles.
         self._seen_positions = np.zeros((3 + int(np.ceil((self._delay + self._look_back).max())), count, m))
 
     def command_velocity(self, rows: IndexArray, cycle: int, x: FloatArray, *, target: FloatArray) -> FloatArray:
@@ -170,14 +172,14 @@ class SimulatedPeople(Operator):
         cycle_before = np.floor(clipped).astype(np.int64)
         fraction = (clipped - cycle_before)[:, None]
         length = len(self._seen_positions)
-        # The fraction is 0 where there is no later cycle yet.
+        # The fraction is 0 if there is no later cycle yet.
         return np.asarray(
             (1 - fraction) * self._seen_positions[cycle_before % length, rows]
             + fraction * self._seen_positions[(cycle_before + 1) % length, rows]
         )
 
     def _update_correlated_noise(self) -> None:
-        """Update the correlated noise of unit variance, for all trials, whether they are over or not."""
+        """Update the correlated noise of unit variance for all trials, including those that are over."""
         decay = float(np.exp(-1 / (self._rate * _NOISE_MEMORY_S)))
         innovation = self._generator.normal(size=self._wobble.shape)
         self._wobble = decay * self._wobble + np.sqrt(1 - decay * decay) * innovation
@@ -186,10 +188,10 @@ class SimulatedPeople(Operator):
         """Start a detour in another direction where the straight one makes no progress or leads away from the target.
 
         Args:
-            rows: (K,) trials under way.
-            cycle: Now.
-            moved: (K,) how far the end effector is from where it was one look-back ago, m.
-            retreat: (K,) by how much it is farther from the target, m.
+            rows: (K,) indices of the trials in progress.
+            cycle: Index of the current cycle.
+            moved: (K,) distance of the end effector from its position one look-back ago, m.
+            retreat: (K,) increase of the distance to the target since then, m.
         """
         is_established = cycle - self._delay[rows] >= self._look_back[rows]
         may_detour = is_established & (cycle >= self._calm_until[rows]) & ~self._stopped[rows]
@@ -202,7 +204,7 @@ class SimulatedPeople(Operator):
 
 
 def _rotate_direction(direction: FloatArray, angle: FloatArray, reference: FloatArray) -> FloatArray:
-    """Rotate unit vectors (K, m) by angles (K,): to the left in the plane, towards ``aside`` in space."""
+    """Rotate unit vectors (K, m) by angles (K,), rad: to the left in the plane, towards ``reference`` in space."""
     if direction.shape[1] == 2:
         normal = np.stack([-direction[:, 1], direction[:, 0]], axis=1)
     else:
@@ -214,17 +216,17 @@ def _rotate_direction(direction: FloatArray, angle: FloatArray, reference: Float
 def rate_comfort(time: ArrayLike, ideal: ArrayLike, steps: int = 4, *, seed: int = 0) -> NDArray[np.int64]:
     """Rate the comfort of trials like a simulated person, from the ratio of their time to the ideal time.
 
-    The first step ends at 1.5 times, each further one 1.6 times later (with four steps: 1.5, 2.4, 3.8), all blurred by a
-    factor of 1.2 up or down (one standard deviation). Assumed, and not fitted.
+    The first step ends at a ratio of 1.5, and each further step at a ratio that is larger by a factor of 1.6 (with four steps:
+    1.5, 2.4, 3.8). All ratios are blurred by a factor of 1.2 up or down (one standard deviation). Assumed, and not fitted.
 
     Args:
-        time: (N,) completion times, any unit; NaN where the trial was not completed: the last step.
-        ideal: (N,) times straight at full speed.
-        steps: Of the rating.
-        seed: Of the blur.
+        time: (N,) completion times, any unit; NaN for trials that were not completed, which get the last step.
+        ideal: (N,) times of straight motion at full speed, same unit.
+        steps: Number of steps of the rating.
+        seed: Seed of the blur.
 
     Returns:
-        (N,) steps from 0.
+        (N,) ratings, from 0.
     """
     durations, ideal_durations = np.broadcast_arrays(np.asarray(time, dtype=np.float64), np.asarray(ideal, dtype=np.float64))
     noise = np.random.default_rng(seed).normal(0.0, np.log(1.2), durations.shape)

@@ -1,7 +1,7 @@
 """Measures of performance of recorded trials, M1 to M12, and the combined performance measure CPM.
 
-The table of the source is lost: the twelve are a reconstruction from its text. All are "larger is worse"; all but M12, the
-operator's own rating, are computed from the recorded trial alone, so that they exist for the computer too.
+The table of the source is lost, and the twelve measures are a reconstruction from its text. All are "larger is worse". All but
+M12, the operator's own rating, are computed from the recorded trial alone, so that they exist for the computer too.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (11) for CPM; the measures are reconstructed.
 """
@@ -23,9 +23,9 @@ class Measure:
     """Measure of performance of a trial.
 
     Attributes:
-        name: M1 to M12.
-        about: What it is, for people.
-        unit: As it is stored.
+        name: Name, M1 to M12.
+        about: Name of the measured quantity.
+        unit: Unit of the stored value.
     """
 
     name: str
@@ -47,20 +47,22 @@ PERFORMANCE_MEASURES = (
     Measure("M11", "command variation", "m/cycle"),
     Measure("M12", "subjective operator assessment", "1"),
 )
-RECORDED_MEASURES = 11  # of them: all but the rating
-_MIN_SPEED_FRACTION = 1e-12  # of the command: below it the end effector has no direction
+RECORDED_MEASURES = 11  # number of measures without the rating
+_MIN_SPEED_FRACTION = 1e-12  # of the command: a slower end effector has no direction
 
 
 def compute_measures(trials: Trials) -> FloatArray:
     """Compute the measures M1 to M11 of each trial.
 
-    With the commanded velocity v, its actual velocity a at the beginning of a cycle, its position x, and the straight
-    segment from the start to the target:
+    v is the commanded velocity, a the actual velocity at the beginning of a cycle, x the position, and the segment is the
+    straight line from the start to the target:
 
-    * M1 number of cycles; M2 length of the polygon through the x; M3, M4 largest and mean distance of the x from the segment;
-      M5 sum of all increases of the distance to the target; M6 sum of all changes of all joints (rad; and m, of prismatic
+    * M1 number of cycles; M2 length of the polygon through all x; M3, M4 largest and mean distance of x from the segment;
+      M5 sum of all increases of the distance to the target; M6 sum of all changes of all joints (rad, and m for prismatic
       joints);
     * M7, M8 mean and largest ``|v - a| / |v|`` over the cycles with a command; M9, M10 mean and largest angle between v and a
+      over those in which the end effector moved as well; M11 sum of the changes of v.
+
       over those in which the end effector moved as well; M11 sum of the changes of v.
 
     Means over no cycle are 0.

@@ -23,24 +23,24 @@ _MAX_UNROLLED_OPERATIONS = 40_000  # operations in one call, about
 class JoystickPlant:
     """Arm under a failure-unaware control law, driven cycle by cycle.
 
-    A commanded velocity is held for a cycle; the law is evaluated anew in each of the explicit Euler sub-steps of the cycle,
-    and joints that are locked do not follow. Where the law has no answer, at a singular configuration, the arm is still.
+    A commanded velocity is held for a cycle. The law is evaluated in each of the explicit Euler sub-steps of the cycle, and
+    locked joints do not follow. Where the law has no solution, at a singular configuration, the arm is still.
 
-    The same row gives the same bits whatever the batch, so that a recorded trial can be replayed exactly.
+    The same row gives the same bits in every batch, so that a recorded trial can be replayed exactly.
 
     Args:
-        law: Its task must have linear rows in the base frame only; the law's own gain and speed limit play no part.
-        substeps: In one cycle.
+        law: Control law, whose task must have only linear rows in the base frame; its gain and speed limit are not used.
+        substeps: Number of sub-steps in a cycle.
 
     Attributes:
-        law: The law.
-        substeps: In one cycle.
+        law: Control law.
+        substeps: Number of sub-steps in a cycle.
         n: Number of joints.
-        m: Number of task rows: of the stick's axes.
+        m: Number of task rows, which are the axes of the joystick.
 
     Raises:
-        TaskError: A task with angular rows, or in the tool's frame.
-        InputError: Fewer than one sub-step.
+        TaskError: The task has angular rows, or rows in the tool's frame.
+        InputError: There is no sub-step.
 
     Source: Goel et al. 2003, eq. (2) to (5) and section 4; the sub-steps are ours.
     """
@@ -60,17 +60,17 @@ class JoystickPlant:
         return self._kernel.single_row()
 
     def step_one(self, q: FloatArray, velocity: FloatArray, healthy: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Compute one cycle of one arm, without checks: for a control loop, and not for several threads at once.
+        """Compute one cycle of one arm, without checks, for a control loop; it must not be called by several threads at once.
 
         The first call compiles, which takes up to a second the first time and milliseconds later.
 
         Args:
             q: (n,) configuration, rad and m.
             velocity: (m,) command, m/cycle.
-            healthy: (n,) 1, or 0 for a locked joint.
+            healthy: (n,) mask: 1, or 0 for a locked joint.
 
         Returns:
-            (n,) configuration at the end of the cycle, and (m,) the tool point's velocity at its beginning, m/cycle.
+            (n,) configuration at the end of the cycle, rad and m, and (m,) tool point velocity at its beginning, m/cycle.
         """
         n, arguments = self.n, self._buffer
         arguments[:n], arguments[n : n + self.m], arguments[n + self.m :] = q, velocity, healthy
@@ -82,7 +82,16 @@ class JoystickPlant:
         return result[:n].copy(), actual
 
     def step_batch(self, q: FloatArray, velocity: FloatArray, healthy: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Compute one cycle of N arms: as :meth:`step_one`, with (N, n), (N, m) and (N, n), to (N, n) and (N, m)."""
+        """Compute one cycle of N arms.
+
+        Args:
+            q: (N, n) configurations, rad and m.
+            velocity: (N, m) commands, m/cycle.
+            healthy: (N, n) mask: 1, or 0 for a locked joint.
+
+        Returns:
+            Configurations (N, n) and velocities (N, m), as :meth:`step_one`.
+        """
         n = self.n
         result = self._kernel.rows(q, velocity, healthy)
         actual = np.ascontiguousarray(result[:, n:])
@@ -91,7 +100,7 @@ class JoystickPlant:
         return np.ascontiguousarray(result[:, :n]), actual
 
     def position(self, q: FloatArray) -> FloatArray:
-        """Return the task components (N, m) of the tool point, m, of configurations (N, n)."""
+        """Return the task components (N, m) of the tool point, m, at configurations ``q`` (N, n), rad and m."""
         points = self.law.arm.forward_kinematics(np.atleast_2d(q))[:, :3, 3]
         return np.asarray(points @ self.law.task.rows[:, :3].T)
 
@@ -100,27 +109,27 @@ def check_joystick_task(task: Task) -> None:
     """Check that a joystick can command the components of a task.
 
     Raises:
-        TaskError: Angular rows, or rows in the tool's frame.
+        TaskError: The task has angular rows, or rows in the tool's frame.
     """
     if task.angular or task.frame != "base":
         raise TaskError(
-            f"a stick commands the tool point's velocity in the base frame; task '{task.name}' has other rows, "
+            f"a joystick commands the tool point's velocity in the base frame; task '{task.name}' has other rows, "
             "use planar or position"
         )
 
 
 @lru_cache(maxsize=16)
 def make_euler_substep(law: Law, substeps: int = SUBSTEPS_PER_CYCLE) -> ca.Function:
-    """Return one explicit Euler step of a control cycle as a symbolic function, which :class:`JoystickPlant` compiles and the
-    page runs.
+    """Return one explicit Euler step of a control cycle as a symbolic function, for :class:`JoystickPlant` and the page.
 
-    Takes q (n,), the velocity (m,), m/cycle, and healthy (n,), 1 or 0; gives the next q and the tool point's velocity (m,) now.
+    The function takes q (n,), the velocity (m,), m/cycle, and the mask (n,), 1 or 0, and returns the next q and the present
+    velocity (m,) of the tool point.
     """
     arm, n = law.arm, law.arm.n
     q, v, healthy = kinematics.joint_symbols(arm), ca.SX.sym("v", law.task.m), ca.SX.sym("healthy", n)
     rates = healthy * law.rates(q, v)
     q_next = q + rates / substeps
-    # A singular configuration makes the rates NaN, and the comparison false: the arm is still.
+    # At a singular configuration the rates are NaN and the comparison is false, so that the arm is still.
     is_finite = ca.sumsqr(q_next) < 1e30
     actual = ca.DM(law.task.rows) @ kinematics.world_jacobian(arm, q) @ rates
     return ca.Function(

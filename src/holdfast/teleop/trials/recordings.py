@@ -17,20 +17,20 @@ class End(SentenceEnum):
 
     ARRIVED = 0, "the end effector reached the target circle"
     STILL = 1, "the end effector was still although it was commanded to move"
-    TIME = 2, "the cycles allowed were over"
+    TIME = 2, "the cycle limit was reached"
     ABORTED = 3, "the operator gave up"
-    BROKEN_OFF = 4, "the recording stops before the trial was over"
+    BROKEN_OFF = 4, "the recording stops before the end of the trial"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RecordedCycles:
-    """Stored rows of N trials, trial i's at ``first[i]`` to ``first[i + 1]``, with its end in the last of them.
+    """Recorded rows of N trials: trial i has rows ``first[i]`` to ``first[i + 1]``, the last of which is its end.
 
     Attributes:
-        time: (R,) s since the trial began, by the clock of who held the stick; NaN at the end.
-        velocity: (R, m) commanded in each cycle, after dead zone and limit, m/cycle; NaN at the end.
-        q: (R, n) configuration when the cycle began, and when the trial ended, rad and m.
-        first: (N + 1,) where each trial begins; the last entry is R.
+        time: (R,) time since the trial began, s, by the clock of the operator's device; NaN at the end.
+        velocity: (R, m) command in each cycle, after dead zone and limit, m/cycle; NaN at the end.
+        q: (R, n) configuration at the beginning of each cycle, and at the end of the trial, rad and m.
+        first: (N + 1,) index of the first row of each trial; the last entry is R.
     """
 
     time: FloatArray
@@ -41,17 +41,17 @@ class RecordedCycles:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Trials:
-    """N recorded trials; their C cycles are concatenated, trial i's at ``first[i]`` to ``first[i + 1]``.
+    """N recorded trials with C cycles in total: trial i has cycles ``first[i]`` to ``first[i + 1]``.
 
     Attributes:
-        velocity: (C, m) commanded in each cycle, after dead zone and limit, m/cycle.
-        q: (C, n) configuration when the cycle began, rad and m.
-        x: (C, m) tool point then, m.
-        actual: (C, m) the tool point's velocity then, m/cycle.
-        first: (N + 1,) where each trial begins; the last entry is C.
-        q_end: (N, n) configuration when the trial ended.
-        x_end: (N, m) tool point then.
-        target: (N, m) centre of the target circle, m.
+        velocity: (C, m) command in each cycle, after dead zone and limit, m/cycle.
+        q: (C, n) configuration at the beginning of each cycle, rad and m.
+        x: (C, m) tool point at that time, m.
+        actual: (C, m) velocity of the tool point at that time, m/cycle.
+        first: (N + 1,) index of the first cycle of each trial; the last entry is C.
+        q_end: (N, n) configuration at the end of each trial, rad and m.
+        x_end: (N, m) tool point at the end of each trial, m.
+        target: (N, m) centre of each target circle, m.
         end: (N,) :class:`holdfast.teleop.End`.
     """
 
@@ -79,7 +79,7 @@ class Trials:
         return np.asarray(self.end == End.ARRIVED)
 
     def of_cycle(self) -> NDArray[np.int64]:
-        """Return the trial (C,) of each cycle."""
+        """Return the index (C,) of the trial of each cycle."""
         return np.repeat(np.arange(len(self)), self.cycles)
 
     def start(self) -> FloatArray:
@@ -90,15 +90,15 @@ class Trials:
         return starts
 
     def path(self, i: int) -> FloatArray:
-        """Return the tool point (K + 1, m) of trial i, from start to end, m."""
+        """Return the tool point (K + 1, m) of trial ``i``, by its index, from start to end, m."""
         return np.vstack([self.x[self.first[i] : self.first[i + 1]], self.x_end[i]])
 
     def configurations(self, i: int) -> FloatArray:
-        """Return the configurations (K + 1, n) of trial i, from start to end, rad and m."""
+        """Return the configurations (K + 1, n) of trial ``i``, by its index, from start to end, rad and m."""
         return np.vstack([self.q[self.first[i] : self.first[i + 1]], self.q_end[i]])
 
     def take(self, rows: Sequence[int] | NDArray[np.int64]) -> Trials:
-        """Return some of the trials, in the given order."""
+        """Return the trials with indices ``rows`` (K,), in this order."""
         chosen = np.asarray(rows, dtype=np.int64)
         cycle_counts = self.cycles[chosen]
         first = np.concatenate([[0], np.cumsum(cycle_counts)])
@@ -117,7 +117,7 @@ class Trials:
 
     @staticmethod
     def concatenate(parts: Sequence[Trials]) -> Trials:
-        """Return the trials of several sets, one set after the other."""
+        """Return the trials of all ``parts``, one after the other."""
         starts = np.cumsum([0, *(len(part.velocity) for part in parts)])
         first = np.concatenate([*(part.first[:-1] + start for part, start in zip(parts, starts, strict=False)), starts[-1:]])
         names = ("velocity", "q", "x", "actual", "q_end", "x_end", "target", "end")

@@ -17,13 +17,13 @@ from holdfast.model.arm.task import Task
 
 @dataclass(frozen=True)
 class Scenario:
-    """Condition of a trial: a control law, and whether the task's joint has failed.
+    """Condition of a trial: a control law, and the state of the task's joint.
 
     Attributes:
-        number: As people count, from 1.
+        number: Number of the scenario, from 1.
         law: Name of the control law.
-        options: Of the law, for example ``pre_failure_error``.
-        failed: The joint is locked at its start angle from the beginning of the trial.
+        options: Options of the law, for example ``pre_failure_error``.
+        failed: True if the joint is locked at its start angle from the beginning of the trial.
     """
 
     number: int
@@ -34,14 +34,14 @@ class Scenario:
 
     @property
     def label(self) -> str:
-        """Label for people: ``failed, pseudoinverse``."""
+        """Label of the scenario: ``failed, pseudoinverse``."""
         return f"{'failed' if self.failed else 'healthy'}, {self.law}"
 
     def make_law(self, arm: Arm, task: str | Task | Sequence[str] = "planar") -> Law:
-        """Make the control law of an arm for the task components that the joystick commands.
+        """Return the control law of an ``arm`` for the rows of a ``task`` that the joystick commands.
 
         Raises:
-            InputError: Unknown law, or an option that it does not have.
+            InputError: The law, or one of its options, is unknown.
         """
         return by_name(self.law, arm, task=task, **self.options)
 
@@ -62,7 +62,7 @@ class PointTasks:
     Attributes:
         q0: (N, n) start configurations, rad and m.
         target: (N, m) centres of the target circles, m.
-        joint: (N,) index from 0 of the joint that is locked, at its start angle, in scenarios with a failure; -1 for none.
+        joint: (N,) index from 0 of the joint that is locked at its start angle in scenarios with a failure; -1 for none.
     """
 
     q0: FloatArray
@@ -73,12 +73,12 @@ class PointTasks:
         return len(self.joint)
 
     def healthy_mask(self, failed: bool | NDArray[np.bool_]) -> FloatArray:
-        """Return the mask (N, n): 1, or 0 for a joint that is locked; ``failed`` for all tasks, or (N,) for each."""
+        """Return the mask (N, n): 1, or 0 for a locked joint; ``failed`` is one value for all tasks, or (N,)."""
         mask = np.ones(self.q0.shape)
         locked = np.flatnonzero((self.joint >= 0) & failed)
         mask[locked, self.joint[locked]] = 0.0
         return mask
 
     def take(self, rows: NDArray[np.int64]) -> PointTasks:
-        """Return some of the tasks, in the given order."""
+        """Return the tasks with indices ``rows`` (K,), in this order."""
         return PointTasks(self.q0[rows], self.target[rows], self.joint[rows])

@@ -19,11 +19,11 @@ class GuideContext:
     """Values that the text of a step can mention.
 
     Attributes:
-        worst: The joint whose lock cost most when the tour began.
-        remaining: What is left of the manipulability now, if the worst joint locks or with what has failed.
-        remaining_before: The same when the joint was locked first.
-        is_hopeless: A direction is lost with that joint in every configuration.
-        is_busy: Something is being computed.
+        worst: Name of the joint whose lock costs most at the start of the tour.
+        remaining: Remaining manipulability now, if the worst joint locks or with the failed joints.
+        remaining_before: Remaining manipulability when the joint was first locked.
+        is_hopeless: True if a direction is lost with that joint in every configuration.
+        is_busy: True during a computation.
     """
 
     worst: str
@@ -38,11 +38,11 @@ class TourStep:
     """Step of the tour.
 
     Attributes:
-        title: Its title.
-        text: What it says, from what is to be seen.
-        actions: What it asks of the window; ``worst`` in place of a joint is the worst one.
-        button_label: What the button for the next step says.
-        always: It makes sense where no configuration is better than another.
+        title: Title of the step.
+        text: Function that returns the text of the step.
+        actions: Actions in the window; ``worst`` instead of a joint means the worst one.
+        button_label: Label of the button for the next step.
+        always: True if the step is useful even if no configuration is better than another.
     """
 
     title: str
@@ -98,15 +98,15 @@ TOUR_STEPS = (
     TourStep("Move without knowing", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
     TourStep("Your turn", _explain_next_steps, (("clear", None), ("heal", None), ("home", None)), "Done"),
 )
-LOST_MANIPULABILITY = 1e-6  # of the manipulability: what is left of a direction that is lost
+LOST_MANIPULABILITY = 1e-6  # remaining fraction of the manipulability below which a direction is lost
 
 
 class TourGuide:
     """Progress of the tour in one window.
 
     Args:
-        request_action: ``ask(what, value)`` does something in the window.
-        show_html: Is given the HTML of a step and the label of the button after it; an empty text ends the tour.
+        request_action: Function ``ask(what, value)`` that requests an action in the window.
+        show_html: Function that is called with the HTML of a step and the next button label; an empty text ends the tour.
     """
 
     def __init__(self, request_action: Callable[[str, Any], None], show_html: Callable[[str, str], None]) -> None:
@@ -116,7 +116,7 @@ class TourGuide:
         self._worst, self._before, self._hopeless = 0, "", False
 
     def begin_tour(self, reading: LiveReading) -> None:
-        """Show the first step, about the joint that is the worst one now; steps without an effect are left out."""
+        """Show the first step, about the joint that is the worst now; steps without an effect are left out."""
         bars = reading.bars
         self._hopeless = isinstance(bars, str) or bool(bars.values[bars.worst] < LOST_MANIPULABILITY)
         self._worst = 0 if isinstance(bars, str) else bars.worst

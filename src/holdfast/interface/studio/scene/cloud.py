@@ -16,8 +16,8 @@ from holdfast.model.arm.model import Arm
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.run import assess, load
 
-MAX_POINTS = 2500  # points that are drawn
-REGION_POSES = 1200  # of a region around the end effector
+MAX_POINTS = 2500  # largest number of drawn points
+REGION_POSES = 1200  # number of poses in a region around the end effector
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,11 @@ class RegionCloud:
     """Poses of a region, coloured by the index of the configuration found for each.
 
     Attributes:
-        label: What it is, for people.
+        label: Caption of the cloud.
         points: (N, 3) tool points, m.
         colors: (N, 3) RGB, 0 to 255; dark is bad, bright is good; grey: no configuration found.
         q: (N, n) configurations, rad and m; NaN where none was found.
-        values: (N,) of the index.
+        values: (N,) values of the index.
     """
 
     label: str
@@ -54,8 +54,8 @@ def read_cloud(arm: Arm, path: str) -> RegionCloud:
     """Read the region of a results folder of ``holdfast assess``.
 
     Raises:
-        StoreError: It is not one.
-        InputError: It is of another arm.
+        StoreError: The folder is not a results folder.
+        InputError: The results are of another arm.
     """
     assessment = load(path)
     if assessment.arm.fingerprint != arm.fingerprint:

@@ -21,9 +21,9 @@ class CellObjects:
     """Cell objects of one window.
 
     Args:
-        scene: The window's viser scene.
-        machine: The arm and its cell.
-        moved_objects: Objects that are elsewhere, with x, y, z and quaternion x, y, z, w.
+        scene: Viser scene of the window.
+        machine: Compiled arm with its cell.
+        moved_objects: Objects that were moved, with x, y, z and quaternion x, y, z, w.
         request_action: ``ask("pick", name)`` when an object is clicked, ``ask("object", (name, numbers))`` when it is dragged.
     """
 
@@ -98,7 +98,7 @@ class CellObjects:
     _error_text = ""
 
     def draw_shortest_distance(self, q: FloatArray) -> tuple[str, bool]:
-        """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too near."""
+        """Draw the shortest distance at q (n,); return a text about the nearest object, and True if it is too near."""
         if self._error_text or self._clearance is None or self._clearance.obstacles is None:
             self._line.visible = False
             return self._error_text or "The cell is empty.", bool(self._error_text)

@@ -1,7 +1,7 @@
 enum { N = COUNT, SMOOTHED = 5 };
 static const double DT = CONST_DT;
 
-/* The joint that alone was above its bound, on average over the cycles that isolate it; -1 if there is none. */
+/* The only joint above its threshold, on average over the cycles that isolate it; -1 if there is none. */
 static int find_lone_joint(const NAME_state *s) {
     int k, lone = -1, above = 0;
     for (k = 0; k < N; ++k)
@@ -19,7 +19,7 @@ static void answer(NAME_state *s, int joint, NAME_kind kind, double loss) {
     s->verdict.suspect = kind == GUARD_CONTACT ? find_lone_joint(s) : -1;
 }
 
-/* Rates, and the residual of the momentum. */
+/* Update the rates and the residual of the momentum. */
 static void observe(NAME_state *s, const double *q, const double *torque) {
 #if WITH_TORQUES
     double p[N], energy[N], known;
@@ -58,7 +58,7 @@ static void begin_anew(NAME_state *s) {
     for (k = 0; k < N; ++k) s->r[k] = 0;
 }
 
-/* Follow straight lines over cycles that were passed over; after too many begin anew, once the filters have settled. */
+/* Interpolate linearly over skipped cycles; after too many, restart the observer and wait until the filters settle. */
 static void bridge(NAME_state *s, const double *q, const double *torque) {
     double start[N], between[N], felt[N];
     long k;
@@ -76,7 +76,7 @@ static void bridge(NAME_state *s, const double *q, const double *torque) {
     s->missed = s->known = 0;
 }
 
-/* How far the tool's measured pose is from where the joints have it, and the Jacobian column by column. */
+/* Measured minus computed tool pose, and the Jacobian column by column. */
 static void off_tool(const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
     double there[12], ends[3 * N], turn[9];
     int i, j, k;
@@ -89,7 +89,7 @@ static void off_tool(const double *q, const double *pose, double residual[6], do
     rotation_vector(turn, residual + 3);
 }
 
-/* A sample of the tool's pose: its own residual, its smoothed one in units of the bounds, the Jacobian column by column. */
+/* Add a sample of the tool pose: its residual, the smoothed one in units of the thresholds, the Jacobian by columns. */
 static double look(NAME_state *s, const double *q, const double *pose, double residual[6], double jacobian[6 * N]) {
     double mean[6] = {0}, w;
     long since;
@@ -102,14 +102,14 @@ static double look(NAME_state *s, const double *q, const double *pose, double re
     for (i = 0; i < 6; ++i) mean[i] /= some;
     w = larger(sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) / CONST_POSITION,
                sqrt(mean[3] * mean[3] + mean[4] * mean[4] + mean[5] * mean[5]) / CONST_ANGLE);
-    since = s->cycle - s->seen_at < CONST_LONGEST ? s->cycle - s->seen_at : CONST_LONGEST; /* of long silence it proves nothing */
+    since = s->cycle - s->seen_at < CONST_LONGEST ? s->cycle - s->seen_at : CONST_LONGEST; /* one sample after a long gap is no evidence */
     if (s->seen) s->over_w = larger(0, s->over_w + (w - 1) * (double)since * DT);
     s->seen += 1;
     s->seen_at = s->cycle;
     return w;
 }
 
-/* Of `rows`, in squares of deviations, what a force at the far end of link `last` cannot explain; end: from the tool there. */
+/* Part of `rows`, in squared deviations, that a force at the far end of link `last` does not explain; end: from the tool. */
 static double left_by_force(const NAME_state *s, const double *rows, const double *jacobian, const double *end, int last) {
     double column[3][N], rest[N], size, before, along, left = 0;
     int i, j, k;
@@ -135,7 +135,7 @@ static double left_by_force(const NAME_state *s, const double *rows, const doubl
     return left;
 }
 
-/* By how many squares of deviations a force on a link explains the change of the residual torques better than one joint. */
+/* Squared deviations by which a force on a link explains the change of the residual torques better than one joint. */
 static double better_by_force(const NAME_state *s, const double *q) {
     double there[12], jacobian[6 * N], ends[3 * N], rows[N], whole = 0, most = 0, least = HUGE_VAL;
     int k;
@@ -149,7 +149,7 @@ static double better_by_force(const NAME_state *s, const double *q) {
     return whole - most - least;
 }
 
-/* A cycle after the alarm: sums, which are all that the decision needs. */
+/* Add a cycle after the alarm to the sums that the decision needs. */
 static void follow(NAME_state *s, const double *q, const double *reference, const double *z, const double *y) {
     int k;
     s->count += 1;
@@ -189,7 +189,7 @@ static void follow(NAME_state *s, const double *q, const double *reference, cons
     }
 }
 
-/* What each joint's sensor would leave unexplained of a sample of the tool's pose. */
+/* Add the part of a tool pose sample that an error of each joint sensor would not explain. */
 static void explain(NAME_state *s, double w, const double residual[6], const double jacobian[6 * N]) {
     double whole = 0, best = HUGE_VAL, next = HUGE_VAL, along, size;
     int i, k;
@@ -300,7 +300,7 @@ void NAME_leave_out(NAME_state *s, int joint) {
 
 void NAME_skip(NAME_state *s, long cycles) {
     int k;
-    for (; cycles > 0; --cycles, s->missed += 1) /* a pose of these is not compared with anything */
+    for (; cycles > 0; --cycles, s->missed += 1) /* a pose of these cycles is not used */
         for (s->cycle += 1, k = 0; k < N; ++k) s->past[s->cycle % (GUARD_LATE + 1)][k] = HUGE_VAL;
 }
 
@@ -320,7 +320,7 @@ void NAME_step(NAME_state *s, const double q[COUNT], const double reference[COUN
         for (k = 0; k < N && torque && finite_all(torque, N); ++k) s->felt[k] += torque[k];
         return;
     }
-    h = (double)(s->missed + 1) * DT; /* longer after cycles without a sample */
+    h = (double)(s->missed + 1) * DT; /* longer after skipped cycles */
     bridge(s, q, torque);
     observe(s, q, torque);
     for (k = 0; k < N && s->referred; ++k)

@@ -3,9 +3,9 @@
 
 #define GUARD_JOINTS COUNT
 #define GUARD_RATE RATE_HZ
-/* Cycles by which a pose comes after it was taken. */
+/* Latency of a tool pose, cycles. */
 #define GUARD_LATE LATE_CYCLES
-/* What made this file, of which arm (Arm.fingerprint in Python), and a digest of the bounds and the sensors. */
+/* Version of holdfast, fingerprint of the arm (Arm.fingerprint in Python), and digest of the thresholds and sensors. */
 #define GUARD_HOLDFAST "VERSION"
 #define GUARD_ARM "FINGERPRINT"
 #define GUARD_PARAMETERS "DIGEST"
@@ -19,9 +19,9 @@ typedef enum {
     GUARD_CONTACT
 } NAME_kind;
 
-/* What is known: without an alarm the rest means nothing. joint: from 0, -1 if none is to blame or it is not known yet.
-   loss: fraction of its torque that the motor lost, -1 where that is not the question.
-   suspect: the joint that alone was above its bound, where the kind is a contact; -1 otherwise. */
+/* Verdict; without an alarm, the other fields are meaningless. joint: faulty joint from 0, or -1 if there is none yet.
+   loss: fraction of its torque that the motor lost, or -1 if the kind involves no loss.
+   suspect: the only joint above its threshold if the kind is a contact, or -1. */
 typedef struct {
     int alarm;
     double time;
@@ -31,7 +31,7 @@ typedef struct {
     int suspect;
 } NAME_verdict;
 
-/* One for each arm that is watched; nothing else is kept anywhere. r: residual torques, over_...: seconds of excess. */
+/* Complete state of the monitor of one arm. r: residual torques; over_...: accumulated excess, s. */
 typedef struct {
     double v[COUNT], r[COUNT], level[COUNT];
     double over_z[COUNT], over_y[COUNT], over_w;
@@ -46,32 +46,32 @@ typedef struct {
 
 extern const char *const NAME_joints[COUNT];
 
-/* Before the first cycle, and to forget everything. */
+/* Reset the monitor; call it before the first cycle. */
 void NAME_init(NAME_state *state);
 
-/* Forget the alarm and what led to it, while the arm goes on. */
+/* Clear the alarm and its accumulated excess while the arm keeps moving. */
 void NAME_rearm(NAME_state *state);
 
-/* Watch on without a joint that was stopped, until NAME_init: the alarm is forgotten, and what follows the motion begins anew. */
+/* Exclude a stopped joint from monitoring until NAME_init, clear the alarm, and restart the observer. */
 void NAME_leave_out(NAME_state *state, int joint);
 
-/* So many cycles went by without a sample, as if each had been passed over. */
+/* Skip a number of cycles without samples. */
 void NAME_skip(NAME_state *state, long cycles);
 
-/* Where a joint is by the tool's measured pose, (4, 4) row by row, if all others are where their sensors say; rad or m.
-   Metres and radians weigh alike. */
+/* Position of a joint by the measured tool pose, (4, 4) by rows, if the sensors of all other joints are right; rad or m.
+   Metres and radians have equal weights. */
 double NAME_joint_by_tool(const double q[COUNT], const double pose[16], int joint);
 
-/* One control cycle, GUARD_RATE of them a second. What is known then is in *verdict, and may be revised for 2 s after an alarm.
-   q, reference: measured and commanded joint values, rad and m; a cycle with NaN is passed over.
-   torque: commanded torques, N m and N, or NULL. pose: the tool's, measured GUARD_LATE cycles ago, (4, 4) by rows, or NULL. */
+/* Process one control cycle, GUARD_RATE of them per second. *verdict may be revised for 2 s after an alarm.
+   q, reference: measured and commanded joint positions, rad and m; a cycle with NaN is skipped.
+   torque: commanded torques, N m and N, or NULL. pose: tool pose measured GUARD_LATE cycles ago, (4, 4) by rows, or NULL. */
 void NAME_step(NAME_state *state, const double q[COUNT], const double reference[COUNT], const double *torque,
                const double *pose, NAME_verdict *verdict);
 
-/* What has told no number for 50 ms: 1 joints (or torques), 2 the tool once it has been seen, 3 both, 0 nothing. */
+/* Signals without a value for 50 ms: 1 joints (or torques), 2 tool pose after its first sample, 3 both, 0 none. */
 int NAME_stale(const NAME_state *state);
 
-/* A word for each kind. */
+/* Name of a kind. */
 const char *NAME_kind_name(NAME_kind kind);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /*
- * Reads a record from standard input, one cycle a line (COUNT measured joint values, COUNT references, COUNT torques), and says
- * what the monitor says. In a controller NAME_step stands in the cycle.
+ * Reads a log from standard input, one cycle per line (COUNT measured positions, COUNT references, COUNT torques), and prints
+ * the verdict of the monitor. A controller calls NAME_step in its control cycle.
  * cc -std=c99 NAME.c NAME_example.c -lm -o NAME_example
  */
 #include "NAME.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 int main(void) {
-    static NAME_state state; /* one for each arm */
+    static NAME_state state; /* one per arm */
     double cycle[3 * COUNT];
     NAME_verdict verdict = {0, 0, -1, GUARD_UNKNOWN, -1, -1};
     int k, known = 0;
@@ -20,7 +20,7 @@ int main(void) {
         if (verdict.alarm && !known) printf("alarm at %.3f s\n", verdict.time);
         known = verdict.alarm;
     }
-    if (!known) puts("no fault seen, which does not prove that there is none");
+    if (!known) puts("no fault detected, which does not prove that there is none");
     else if (verdict.joint < 0) printf("no joint is known: %s\n", NAME_kind_name(verdict.kind));
     else printf("%s: %s\n", NAME_joints[verdict.joint], NAME_kind_name(verdict.kind));
     return known ? 3 : 0;

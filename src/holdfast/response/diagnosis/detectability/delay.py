@@ -17,27 +17,28 @@ from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S
 def expected_delays(
     bounds: Bounds, reference: ArrayLike, *, stiffness: ArrayLike, damping: ArrayLike, onset: float = 0.0
 ) -> FloatArray:
-    """Return the time (n,) in s from a lock of each joint to its alarm; infinite where the motion ends before.
+    """Return the time (n,) in s from a lock of each joint to its alarm; infinite where the motion ends before the alarm.
 
-    A joint that locks falls behind its reference by ``d``, and its servo asks ``K d + D d'`` more of it. That torque, filtered
-    as the observer filters, is the residual; the first of torque and tracking whose excess is long enough alarms.
+    A locked joint falls behind its reference by ``d``, and its servo adds a torque of ``K d + D d'``. This torque, filtered
+    like the signals of the observer, is the residual. The alarm is raised by the first of torque and tracking error whose
+    accumulated excess reaches its limit.
 
     Args:
-        bounds: Of the healthy arm.
-        reference: (T, n) rad and m, at the rate of the bounds.
-        stiffness: (n,) K of the servos, N m/rad and N/m.
-        damping: (n,) D, N m s/rad and N s/m.
-        onset: s, of the lock.
+        bounds: Detection thresholds of the healthy arm.
+        reference: (T, n) references, rad and m, at the rate of the thresholds.
+        stiffness: (n,) stiffness K of the servos, N m/rad and N/m.
+        damping: (n,) damping D of the servos, N m s/rad and N s/m.
+        onset: Time of the lock, s.
 
     Raises:
-        InputError: Another number of joints, or an onset beyond the motion.
+        InputError: The number of joints differs, or the onset is beyond the motion.
 
-    Source: derived here. What friction and a healthy lag add is left out: measured delays are 0.6 to 1.2 times these.
+    Source: derived here. Friction and a healthy lag are neglected; measured delays are 0.6 to 1.2 times these.
     """
     motion, period = np.asarray(reference, dtype=np.float64), 1 / bounds.rate
     joint_count = len(bounds.joints)
     if motion.ndim != 2 or motion.shape[1] != joint_count:
-        raise InputError(f"reference has shape {motion.shape}; it must be (T, {joint_count}), a row for each time")
+        raise InputError(f"reference has shape {motion.shape}; it must be (T, {joint_count}), one row per sample")
     onset_row = round(onset / period)
     if not 0 <= onset_row < len(motion) - 1:
         raise InputError(f"onset is {onset:g} s; it must lie within the motion of {len(motion) * period:g} s")

@@ -14,11 +14,13 @@ from holdfast.response.faults.log import Log
 
 
 def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
-    """Return references (T, n), rad and m, and samples per second, of a recording or of a table of ``time_s`` and a column for
-    each joint.
+    """Read a motion of an ``arm`` from a ``file``: a log, or a CSV table with ``time_s`` and one column for each joint.
+
+    Returns:
+        References (T, n), rad and m, and their sample rate, Hz.
 
     Raises:
-        InputError: Unreadable, or neither.
+        InputError: The file cannot be read, or has neither format.
     """
     path = Path(file)
     first_bytes = path.read_bytes()[:6] if path.is_file() else b""
@@ -33,6 +35,6 @@ def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
 
 
 def resample_motion(q: FloatArray, rate: float, new_rate: float) -> FloatArray:
-    """Return a motion at another sample rate, by linear interpolation between its samples."""
+    """Return a motion (T, n) at another sample rate in Hz, by linear interpolation between its samples."""
     t = np.arange(int(np.floor((len(q) - 1) / rate * new_rate + 1e-9)) + 1) / new_rate
     return np.stack([np.interp(t, np.arange(len(q)) / rate, column) for column in q.T], axis=1)

@@ -23,8 +23,8 @@ from holdfast.response.diagnosis.detectability.separation import hypothesis_sepa
 from holdfast.response.diagnosis.sensors import Sensors
 
 _ONSET_COUNT = 40  # times along the motion at which a joint may lock
-_SERVO_BANDWIDTH_RAD_S = 2 * np.pi * 10  # rad/s, of servos that nobody described
-_MOVING_FRICTION_FACTOR = 2.0  # times dry friction: so much gravity moves a joint whose motor is dead
+_SERVO_BANDWIDTH_RAD_S = 2 * np.pi * 10  # rad/s, of the default servos
+_MOVING_FRICTION_FACTOR = 2.0  # times dry friction: gravity torque that moves a joint whose motor is dead
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -32,14 +32,14 @@ class Observability(Result):
     """Detectability of locked joints on a motion. Hypothesis 0 is that no joint is locked.
 
     Attributes:
-        arm: The arm.
-        duration: s, of the motion.
-        separation: (n + 1, n + 1) of hypotheses by the tool's measured pose, the lock there from the beginning; above 9.2 they
-            can be told apart.
-        delays: (K, n) s from a lock at one of K times of the motion to its alarm by joint sensors and torques, infinite where
-            there is none; None without bounds.
-        strayed: (K, n) m, how far the tool is from where it should be then.
-        alike: Joints whose lock looks like a dead motor that friction holds; None without bounds.
+        arm: Arm of the motion.
+        duration: Duration of the motion, s.
+        separation: (n + 1, n + 1) separation of the hypotheses by the measured tool pose, in nats, if the lock is present from
+            the beginning. Hypotheses above 9.2 are separable.
+        delays: (K, n) time in s from a lock at one of K times of the motion to its alarm by joint sensors and torques;
+            infinite without an alarm. None without thresholds.
+        strayed: (K, n) position error of the tool at the time of that alarm, m. None without thresholds.
+        alike: Joints whose lock looks like a dead motor that friction holds. None without thresholds.
     """
 
     arm: Arm
@@ -62,7 +62,7 @@ class Observability(Result):
 
 
 @check_arguments
-@reports_progress("looking ahead")
+@reports_progress("predicting detections")
 def predict_detection(
     arm: Arm,
     motion: ArrayLike,
@@ -76,18 +76,18 @@ def predict_detection(
     """Predict which locks of single joints a motion makes detectable, before the arm executes it.
 
     Args:
-        arm: The arm.
+        arm: Arm that will execute the motion.
         motion: (T, n) references, rad and m.
-        rate: Samples a second.
-        sensors: How good the tool's measured pose is; 100 samples a second of it are counted.
-        bounds: Of the healthy arm: then also how soon joint sensors and torques notice.
-        stiffness: (n,) of the servos, N m/rad and N/m; those of 10 Hz if not given.
-        damping: (n,) N m s/rad and N s/m, likewise.
+        rate: Sample rate of the motion, Hz.
+        sensors: Accuracy of the measured tool pose, with 100 samples per second. Default: ``Sensors()``.
+        bounds: Detection thresholds of the healthy arm. With them, detection delays by joint sensors and torques are computed.
+        stiffness: (n,) stiffness of the servos, N m/rad and N/m. Default: servos of 10 Hz.
+        damping: (n,) damping of the servos, N m s/rad and N s/m. Default: servos of 10 Hz.
 
     Raises:
-        InputError: Another number of joints, fewer than two samples, bounds of another arm, or only one of stiffness
-            and damping.
-        ArmError: With bounds and without stiffness, if inertial data are missing or impossible.
+        InputError: The number of joints differs, there are fewer than two samples, the thresholds are of another arm, or only
+            one of stiffness and damping is given.
+        ArmError: Thresholds are given without stiffness, and inertial data are missing or impossible.
 
     Source: derived here; see :func:`holdfast.response.diagnosis.expected_delays` and
         :func:`holdfast.response.diagnosis.plan_identification`.

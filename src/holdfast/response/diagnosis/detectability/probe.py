@@ -37,11 +37,11 @@ from holdfast.response.diagnosis.detectability.separation import (
 from holdfast.response.diagnosis.sensors import Sensors
 from holdfast.response.faults.log import Log
 
-PLAN_RATE_HZ = 100.0  # Hz, of the plan
+PLAN_RATE_HZ = 100.0  # sample rate of the plan, Hz
 REST_BEFORE_S = 0.2
 REST_AFTER_S = 0.3
-RAMP_TIME_S = 0.3  # of acceleration
-_LIMIT_MARGIN = 0.05  # rad or m from a limit
+RAMP_TIME_S = 0.3  # duration of acceleration and of deceleration, s
+_LIMIT_MARGIN = 0.05  # smallest distance from a joint limit, rad or m
 _DIRECTION_COUNT = 24
 _MAX_LEGS = 3
 
@@ -51,15 +51,16 @@ class ProbingMotion(Result):
     """Self-motion with the locks that it can isolate. Joints count from 0; hypothesis 0 is that no joint is locked.
 
     Attributes:
-        arm: The arm.
-        task: What the tool keeps.
-        suspects: Joints that may be locked.
-        t: (T,) s.
+        arm: Arm that executes the motion.
+        task: Task whose value stays constant along the motion.
+        suspects: Candidate joints, which may be locked.
+        t: (T,) sample times, s.
         q: (T, n) references, rad and m.
-        separation: (n + 1, n + 1) of hypotheses, nothing and each joint locked, in nats; above 9.2 they can be told apart.
-        visible: (n,) the largest rate of each joint over self-motions of unit rate where it begins.
-        sensors: How good the measured pose is.
-        tool: m, how far the tool strays on the plan.
+        separation: (n + 1, n + 1) separation of the hypotheses "healthy" and "joint locked", in nats; above 9.2, two are
+            separable.
+        visible: (n,) largest rate of each joint over self-motions of unit rate at the start.
+        sensors: Accuracy of the measured pose.
+        tool: Largest position error of the tool on the plan, m.
     """
 
     arm: Arm
@@ -91,32 +92,32 @@ class ProbingMotion(Result):
         return tuple(name for name in names if name not in self.untestable and name not in inseparable)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the references as other motions are written: ``time_s`` and a column for each joint.
+        """Write the references to the CSV file ``file`` with ``time_s`` and one column for each joint, and return its path.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         return write_table(file, "probe", ["time_s", *joint_columns(self.arm)], np.column_stack([self.t, self.q]))
 
     def resample(self, rate: float) -> FloatArray:
-        """Return the references (K, n) at a sample rate in Hz, by linear interpolation of the plan."""
+        """Return the references (K, n) at the sample rate ``rate``, Hz, by linear interpolation of the plan."""
         return resample_motion(self.q, PLAN_RATE_HZ, rate)
 
     def decide(self, log: Log) -> Identification:
-        """Identify the locked joint from a recording of this motion; see :func:`holdfast.response.diagnosis.identify`."""
+        """Identify the locked joint from a ``log`` of this motion; see :func:`holdfast.response.diagnosis.identify`."""
         return identify(self.arm, log, suspects=[self.arm.joint_names[joint] for joint in self.suspects], sensors=self.sensors)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Identification(Result):
-    """Identification of a locked joint from a recording of a probing motion.
+    """Identification of a locked joint from a log of a probing motion.
 
     Attributes:
-        joint: The locked one; None if it was not decided, or none of the suspects is.
-        remaining: What explains the pose about as well as the best: joints, and "none" for no lock.
-        cleared: Joints that are not locked: without a lock the pose is explained better by far.
-        time: s, of the decision, or of the end of the record.
-        displacement: m, of the measured tool then, from where it was at rest.
+        joint: Name of the locked joint; None if the test is inconclusive or no candidate joint is locked.
+        remaining: Hypotheses that explain the pose about as well as the best one: joints, and "none" for no lock.
+        cleared: Joints that are not locked, because no lock explains the pose far better.
+        time: Time of the decision, or of the end of the log, s.
+        displacement: Distance of the measured tool at that time from its position at rest, m.
     """
 
     joint: str | None
@@ -141,27 +142,29 @@ def plan_identification(
     margin: float = 0.0,
     seed: int = 0,
 ) -> ProbingMotion:
-    """Plan a self-motion from which the tool's pose alone reveals which joint is locked.
+    """Plan a self-motion from which the tool pose alone reveals which joint is locked.
 
-    With one degree of redundancy it goes one of the two ways, with more one of 24 random ones: that which tells most pairs of
-    suspects apart. Where pairs remain it goes on from its end, three legs at most.
+    With one degree of redundancy, the planner compares the two directions, and with more, 24 random directions. It chooses the
+    direction that separates the most pairs of candidate joints. While some pairs remain, it adds a leg, up to three in total.
 
     Args:
-        arm: The arm.
-        q: (n,) where it is, rad and m.
-        suspects: Joints, by name or number from 0; all if not given.
-        task: What the tool keeps.
-        duration: s of each leg, at most.
+        arm: Arm that executes the motion.
+        q: (n,) start configuration, rad and m.
+        suspects: Candidate joints, by name or index from 0. Default: all joints.
+        task: Task whose value stays constant.
+        duration: Longest duration of each leg, s.
         speed: Norm of the joint rates, rad/s and m/s.
-        sensors: How good the measured pose is.
-        clearance: What is kept clear on the plan and under the lock of every suspect; None: not looked at.
-        margin: m, with ``clearance``.
-        seed: Of the random directions.
+        sensors: Accuracy of the measured pose. Default: ``Sensors()``.
+        clearance: Collision model for the plan and for the motion under the lock of every candidate joint. None: collisions
+            are not checked.
+        margin: Smallest distance to objects and between links, m; used with ``clearance``.
+        seed: Seed of the random directions.
 
     Raises:
-        InputError: An unknown joint, no redundancy, a time too short to move, or a configuration that is not clear.
+        InputError: A joint is unknown, the arm is not redundant for the task, the time is too short to move, or the start
+            configuration is not collision-free.
 
-    Source: derived here; the bound on what any motion can tell is Wald's.
+    Source: derived here; the bound on the information in any motion is Wald's.
     """
     required_task, sensors = as_task(arm, task), sensors or Sensors()
     start = arm.check_configurations(q)
@@ -169,12 +172,12 @@ def plan_identification(
         raise InputError(f"q has shape {start.shape}; it must be one configuration")
     if arm.n <= required_task.m:
         raise InputError(
-            f"'{arm.name}' has no redundancy for task '{required_task.name}', so it has no self-motions; keep fewer rows"
+            f"'{arm.name}' has no redundancy for task '{required_task.name}', so it has no self-motions; choose fewer rows"
         )
     if not duration > 2 * RAMP_TIME_S or not speed > 0:
         raise InputError(f"duration is {duration:g} s and speed {speed:g}; they must be above {2 * RAMP_TIME_S:g} and above 0")
     if clearance is not None and not clearance(start) > margin:
-        raise InputError("the configuration is not clear of itself or of the cell by the margin; begin elsewhere")
+        raise InputError("the start configuration collides, or is closer than the margin to itself or the cell; choose another")
     chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(candidate) for candidate in suspects)
     motion = np.repeat(start[None], round(REST_BEFORE_S * PLAN_RATE_HZ), axis=0)
     rng, best_score = np.random.default_rng(seed), (-1, 0.0)
@@ -212,32 +215,32 @@ def plan_identification(
 def identify(
     arm: Arm, log: Log, *, suspects: Sequence[str | int] | None = None, sensors: Sensors | None = None
 ) -> Identification:
-    """Identify the locked joint from the tool's measured pose on a motion alone, without the joint sensors.
+    """Identify the locked joint from the measured tool pose on a motion alone, without the joint sensors.
 
-    Samples are taken in their order until one hypothesis leads all others by ``ln 10^4``. The mean over the rest before the
-    motion is taken off.
+    Samples are processed in order until one hypothesis leads all others by ``ln 10^4``. The mean pose at rest before the
+    motion is subtracted.
 
     Args:
-        arm: The arm.
-        log: A record with the tool's pose that begins at rest, of a lock that was there from its beginning.
-        suspects: Joints, by name or number from 0; all if not given.
-        sensors: How good the measured pose is.
+        arm: Arm that was recorded.
+        log: Log with the tool pose that begins at rest, with the lock present from its beginning.
+        suspects: Candidate joints, by name or index from 0. Default: all joints.
+        sensors: Accuracy of the measured pose. Default: ``Sensors()``.
 
     Raises:
-        InputError: Another number of joints, no pose, or no sample of it before the references move.
+        InputError: The number of joints differs, or the log has no pose, or none before the references move.
 
-    Source: derived here, a sequential test of likelihood ratios (Wald).
+    Source: derived here, a sequential likelihood ratio test (Wald).
     """
     if log.n != arm.n:
-        raise InputError(f"the record has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
+        raise InputError(f"the log has {log.n} joints and '{arm.name}' has {arm.n}; give the arm that was recorded")
     if log.x is None or log.quat is None:
-        raise InputError("the record has no measured pose of the tool; record x and quat")
+        raise InputError("the log has no measured pose of the tool; record x and quat")
     chosen = tuple(range(arm.n)) if suspects is None else tuple(arm.joint_index(candidate) for candidate in suspects)
     pose_rows = np.flatnonzero(np.isfinite(log.x).all(axis=1) & np.isfinite(log.quat).all(axis=1))
     is_moving = np.abs(log.q_ref - log.q_ref[0]).max(axis=1) > 1e-9
     resting = pose_rows[pose_rows < (int(is_moving.argmax()) if is_moving.any() else len(is_moving))]
     if not resting.size:
-        raise InputError("the tool's pose is not measured before the references move; begin the record at rest")
+        raise InputError("the log has no tool pose before the references move; begin the log at rest")
     measured = np.zeros((len(pose_rows), 4, 4))
     measured[:, :3, :3], measured[:, :3, 3] = rotations_of_quaternions(log.quat[pose_rows]), log.x[pose_rows]
     motion = np.concatenate([log.q_ref[:1], log.q_ref[pose_rows]])
@@ -283,7 +286,7 @@ def _trace_self_motions(
     tangents = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     configurations, tool_pose = np.repeat(start[None], len(tangents), axis=0), arm.forward_kinematics(home)
     curves, count, is_active = [configurations], np.ones(len(tangents), dtype=int), np.ones(len(tangents), dtype=bool)
-    # Where it begins within the room of a limit it may leave that.
+    # A start within the margin of a limit may move away from the limit.
     lower, upper = np.minimum(arm.lower + _LIMIT_MARGIN, start), np.maximum(arm.upper - _LIMIT_MARGIN, start)
     for _ in range(int(length / step_length)):
         inverse, null_basis = null_space(arm, task, configurations)

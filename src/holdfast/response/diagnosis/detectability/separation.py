@@ -14,26 +14,28 @@ from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.arm.task import Task, as_task
 from holdfast.response.diagnosis.sensors import Sensors
 
-# One explanation against another: a wrong one leads by so much once in 10,000 times.
+# Log-likelihood ratio between two hypotheses, nats: a wrong one leads by this much once in 10,000 times.
 LOG_LIKELIHOOD_THRESHOLD = float(np.log(1e4))
-# Samples that share one systematic error, and that, m and rad: measured poses are not independent for long.
+# Number of samples that share one systematic error, and that error in m and rad: poses are independent only over a short time.
 _CORRELATED_SAMPLES = 25
 _SYSTEMATIC_DEVIATIONS = (0.5e-3, 1e-3)
 
 
 @check_arguments
 def self_motion_rates(arm: Arm, q: ArrayLike, task: str | Task | Sequence[str] = "pose") -> FloatArray:
-    """Return the largest rate of each joint over self-motions of unit rate, which limits its visibility to them, (n,) or (N,
-    n).
+    """Return the largest rate of each joint over self-motions of unit rate, which limits its visibility to them.
 
-    They are the norms of the rows of an orthonormal basis of the null space, and where the task's Jacobian has full rank they
-    are the relative manipulabilities of the locked joints: **a joint is visible to self-motions exactly as far as its lock is
-    tolerable**.
+    The rates are the norms of the rows of an orthonormal basis of the null space. Where the task's Jacobian has full rank, they
+    equal the relative manipulabilities of the locked joints: **the visibility of a joint in self-motions equals the tolerance
+    to its lock**. A joint whose lock is intolerable cannot be tested by a self-motion.
 
     Args:
         arm: The arm.
-        q: (n,) or (N, n), rad and m.
-        task: What the tool keeps.
+        q: (n,) or (N, n) configurations, rad and m.
+        task: Task whose value stays constant.
+
+    Returns:
+        Rates (n,) or (N, n), between 0 and 1.
 
     Source: derived here, from relative manipulability (Roberts and Maciejewski 1996).
     """
@@ -83,9 +85,9 @@ def inverse_pose_deviations(sensors: Sensors) -> FloatArray:
 
 
 def hypothesis_separations(arm: Arm, q: FloatArray, sensors: Sensors) -> FloatArray:
-    """Return ``D_ij = 1/2 sum_k |e(X^i_k, X^j_k)|^2``, (n + 1, n + 1), in deviations, of samples (K, n) of a motion.
+    """Return the separations ``D_ij = 1/2 sum_k |e(X^i_k, X^j_k)|^2``, (n + 1, n + 1), of samples (K, n) of a motion.
 
-    A test tells i from j with an error of epsilon if D is above ``ln(1/epsilon)`` (Wald).
+    Errors e are in deviations. A test distinguishes i from j with an error of epsilon if D is above ``ln(1/epsilon)`` (Wald).
     """
     poses, weight = tool_poses_by_hypothesis(arm, q), inverse_pose_deviations(sensors)
     separation = np.zeros((arm.n + 1, arm.n + 1))

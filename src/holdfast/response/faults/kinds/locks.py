@@ -66,11 +66,20 @@ class SlippingClutchKind(_HoldingKind):
 
 @register_kind(LockedKind())
 def locked(joints: Joints = None, *, at: Value | str = "here", **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault that stops the joint at the onset for good; with ``at``, rad or m, when the joint next passes there."""
+    """Return a fault that stops a joint permanently.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        at: Position at which the joint locks when it next passes it, rad or m. Default: its position at the onset.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("locked", {"at": at}, joints, **when)
 
 
 @register_kind(SlippingClutchKind())
 def slipping_clutch(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a clutch: a brake holds the link, while the sensor, on the motor's side, follows the reference."""
+    """Return a fault of a clutch: a brake holds the link, and the sensor on the motor's side follows the reference.
+
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("slipping_clutch", {}, joints, **when)

@@ -45,7 +45,7 @@ class WeakKind(_MotorKind):
         super().check(joint, numbers)
         if "gain" in numbers and joint.model.jnt_actgravcomp[joint.joint_id]:
             raise InputError(
-                f"the motor of '{joint.name}' compensates gravity inside MuJoCo, which no gain reaches; give the torque as a "
+                f"the motor of '{joint.name}' compensates gravity inside MuJoCo, which no gain affects; give the torque as a "
                 "control, or use ceiling"
             )
         if "ceiling" in numbers:
@@ -66,7 +66,7 @@ class WeakKind(_MotorKind):
 
 
 class FrictionKind(FaultKind):
-    """More friction."""
+    """Increased friction."""
 
     code = 3
     parameters = ((FaultParameter("coulomb", 0.0), FaultParameter("viscous", 0.0)),)
@@ -78,7 +78,7 @@ class FrictionKind(FaultKind):
 
 
 class ReducedSpeedKind(_MotorKind):
-    """A motor whose driving torque falls with its speed."""
+    """A motor whose driving torque decreases with its speed."""
 
     code = 5
     parameters = ((FaultParameter("velocity", 0.0, includes_ends=False),),)
@@ -120,7 +120,10 @@ class CommandDropoutKind(_MotorKind):
 
 @register_kind(LimpKind())
 def limp(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a motor without torque: the joint is free-swinging."""
+    """Return a fault of a motor without torque, so that the joint is free-swinging.
+
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("limp", {}, joints, **when)
 
 
@@ -128,8 +131,13 @@ def limp(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
 def weak(
     joints: Joints = None, *, gain: Value | None = None, ceiling: Value | None = None, **when: Unpack[FaultTiming]
 ) -> Fault:
-    """Return a fault of a motor with ``gain`` times its torque, or a torque limit of ``ceiling`` times its effort,
-    each 0 to 1.
+    """Return a fault of a motor with partial torque loss; give ``gain`` or ``ceiling``.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        gain: Remaining torque as a fraction of the commanded torque, between 0 and 1.
+        ceiling: Torque limit as a fraction of the motor's effort, between 0 and 1.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
     """
     return Fault("weak", {"gain": gain, "ceiling": ceiling}, joints, **when)
 
@@ -138,19 +146,33 @@ def weak(
 def friction(
     joints: Joints = None, *, coulomb: Value | None = None, viscous: Value | None = None, **when: Unpack[FaultTiming]
 ) -> Fault:
-    """Return a fault with more friction: ``coulomb``, N m (N), and ``viscous``, N m s/rad (N s/m), at least one of them."""
+    """Return a fault with increased friction; give at least one of its parameters.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        coulomb: Additional dry friction, N m (N for a prismatic joint).
+        viscous: Additional viscous friction, N m s/rad (N s/m for a prismatic joint).
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("friction", {"coulomb": coulomb, "viscous": viscous}, joints, **when)
 
 
 @register_kind(ReducedSpeedKind())
 def reduced_speed(joints: Joints = None, *, velocity: Value, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a motor that drives with at most effort times 1 - speed / ``velocity``, rad/s or m/s, and brakes as
-    before.
+    """Return a fault of a motor whose driving torque decreases linearly with speed: effort times 1 - speed / ``velocity``.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        velocity: Speed at which no driving torque remains, rad/s or m/s. The braking torque does not change.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
     """
     return Fault("reduced_speed", {"velocity": velocity}, joints, **when)
 
 
 @register_kind(CommandDropoutKind())
 def command_dropout(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a joint that receives no new commands: the last one holds."""
+    """Return a fault of a joint that receives no new commands and keeps its last one.
+
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("command_dropout", {}, joints, **when)

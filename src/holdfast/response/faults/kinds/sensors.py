@@ -71,23 +71,44 @@ class SensorNoiseKind(_SensorKind):
 
 @register_kind(SensorBiasKind())
 def sensor_bias(joints: Joints = None, *, bias: Value, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a sensor whose reading is off by ``bias``, rad or m, with a random sign."""
+    """Return a fault of a joint sensor with a constant error.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        bias: Magnitude of the error, rad or m; its sign is random.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("sensor_bias", {"bias": bias}, joints, **when)
 
 
 @register_kind(SensorDriftKind())
 def sensor_drift(joints: Joints = None, *, rate: Value, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a sensor whose reading drifts at ``rate``, rad/s or m/s, with a random sign."""
+    """Return a fault of a joint sensor whose error grows linearly with time.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        rate: Magnitude of the drift rate, rad/s or m/s; its sign is random.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("sensor_drift", {"rate": rate}, joints, **when)
 
 
 @register_kind(SensorFreezeKind())
 def sensor_freeze(joints: Joints = None, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a sensor whose reading keeps its value from the onset."""
+    """Return a fault of a joint sensor whose reading keeps its value from the onset.
+
+    ``joints`` are names of possible joints (None: any), and ``when`` are options of :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("sensor_freeze", {}, joints, **when)
 
 
 @register_kind(SensorNoiseKind())
 def sensor_noise(joints: Joints = None, *, deviation: Value, **when: Unpack[FaultTiming]) -> Fault:
-    """Return a fault of a sensor with normal noise of this standard deviation, rad or m, on every reading."""
+    """Return a fault of a joint sensor with normal noise on every reading.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        deviation: Standard deviation of the noise, rad or m.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
+    """
     return Fault("sensor_noise", {"deviation": deviation}, joints, **when)

@@ -28,7 +28,7 @@ class ReducedRangeKind(FaultKind):
         if "travel" in numbers:
             travel = float(numbers["travel"])
             lower, upper = (lower, position + travel) if travel > 0 else (position + travel, upper)
-        # A stop behind the joint would throw it: it begins where the joint is.
+        # A stop beyond the joint would throw it back, so the stop is then at the position of the joint.
         lower = max(lower, min(float(numbers.get("lower", lower)), position))
         upper = min(upper, max(float(numbers.get("upper", upper)), position))
         return lower, upper
@@ -53,7 +53,13 @@ def reduced_range(
     upper: Value | None = None,
     **when: Unpack[FaultTiming],
 ) -> Fault:
-    """Return a fault with a stop ``travel``, rad or m, from the position at the onset, on a random side, or at ``lower``,
-    ``upper``.
+    """Return a fault with a stop inside the range of a joint; give ``travel``, or ``lower``, ``upper`` or both.
+
+    Args:
+        joints: Name or names of the joints that can have the fault. None: any joint.
+        travel: Distance of the stop from the position at the onset, rad or m; its side is random.
+        lower: Position of a lower stop, rad or m.
+        upper: Position of an upper stop, rad or m.
+        **when: Times and probabilities, see :class:`holdfast.response.faults.Fault`.
     """
     return Fault("reduced_range", {"travel": travel, "lower": lower, "upper": upper}, joints, **when)

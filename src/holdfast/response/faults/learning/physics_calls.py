@@ -1,8 +1,8 @@
-"""Faults that are in the model of an environment only while MuJoCo computes its motion.
+"""Insert faults into the model of an environment only while MuJoCo computes its motion.
 
-An environment steps its model inside its own ``step``, between code of its own that may read the model. MuJoCo has no callback
-after a step in which a change could be undone, so the functions of MuJoCo's Python package that compute the motion are
-replaced while a wrapped environment steps, wherever a module has them. Derived here.
+An environment steps its model inside its ``step`` method, between other code that may read the model. MuJoCo has no callback
+after a step in which a change could be undone. Therefore, the functions of MuJoCo's Python package that compute the motion are
+replaced while a wrapped environment steps, in every module that has them. Derived here.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ _PHYSICS_FUNCTIONS = re.compile(r"mj_(step[12]?|forward(Skip)?|fwd[A-Z]\w+|Euler
 
 
 class PhysicsInterceptor:
-    """Faults of one injector, in its model only during the functions of MuJoCo that compute the motion of its data.
+    """Insert the faults of one injector during the MuJoCo functions that compute the motion of its data.
 
     Attributes:
-        call_count: Number of these functions that were called.
+        call_count: Number of calls of these functions.
     """
 
     def __init__(self, injector: FaultInjector) -> None:
@@ -35,7 +35,7 @@ class PhysicsInterceptor:
 
     @contextmanager
     def intercept(self) -> Iterator[None]:
-        """Insert the faults in every computation inside a ``with`` block, and take them out after each."""
+        """Insert the faults in every computation inside a ``with`` block, and remove them after each."""
         key = id(self.injector.data)
         with _PATCH_LOCK:
             if not _WATCHED_MODELS:
@@ -60,9 +60,9 @@ class PhysicsInterceptor:
 
 
 _PATCH_LOCK = threading.Lock()
-_WATCHED_MODELS: dict[int, PhysicsInterceptor] = {}  # by the address of MjData: environments may step in threads
+_WATCHED_MODELS: dict[int, PhysicsInterceptor] = {}  # by the address of MjData, because environments may step in threads
 _REPLACED_FUNCTIONS: dict[str, tuple[Any, Any]] = {}  # a function of MuJoCo and its replacement, by name
-_MODULE_BINDINGS: dict[tuple[int, str], tuple[dict[str, Any], str, Any, Any]] = {}  # names in modules that mean such a function
+_MODULE_BINDINGS: dict[tuple[int, str], tuple[dict[str, Any], str, Any, Any]] = {}  # names in modules bound to such a function
 
 
 def _find_function_aliases() -> None:

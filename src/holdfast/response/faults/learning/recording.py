@@ -1,4 +1,4 @@
-"""Write the episodes of an environment one after the other into a folder, and read them back."""
+"""Write the episodes of an environment to a folder, and read them back."""
 
 from __future__ import annotations
 
@@ -27,14 +27,15 @@ class Episode:
     Attributes:
         file: ``000000.npz``, with the arrays of a :class:`holdfast.response.faults.Log` (``q_ref`` is NaN for joints that
             follow no reference), and ``action`` (T, ...) and ``reward`` (T,).
-        seed: That the environment was reset with; None if it was not.
-        episode: Of the fault model.
-        events: Its faults.
-        id: Their digest.
-        feasible: Whether the goal was within reach, as :class:`holdfast.response.faults.Feasibility` has it.
-        outcome: ``terminated``, ``truncated`` or ``left``: reset or closed before its end.
-        versions: Of packages.
-        success: Success at the end, by ``is_success`` or ``success`` in the last ``info``; None if the environment has neither.
+        seed: Seed of the environment's reset; None if it had none.
+        episode: Index of the episode in the fault model.
+        events: Faults of the episode.
+        id: Digest of the faults.
+        feasible: Feasibility of the goal, as in :class:`holdfast.response.faults.Feasibility`.
+        outcome: ``terminated``, ``truncated`` or ``left`` (reset or closed before its end).
+        versions: Versions of the packages.
+        success: Success at the end, from ``is_success`` or ``success`` in the last ``info``; None if the environment has
+            neither.
     """
 
     file: Path
@@ -52,22 +53,22 @@ class Episode:
         """Load the log of the episode.
 
         Raises:
-            InputError: It cannot be read.
+            InputError: The file cannot be read.
         """
         return Log.load(self.file)
 
 
 def read_episodes(folder: str | Path) -> tuple[Episode, ...]:
-    """Read the episodes that a :class:`holdfast.response.faults.FaultWrapper` recorded in a folder, in order.
+    """Read the episodes that a :class:`holdfast.response.faults.FaultWrapper` recorded in ``folder``, in order.
 
     Raises:
-        InputError: There are none, or a line cannot be read.
+        InputError: The folder has no episodes, or a line cannot be read.
     """
     path = Path(folder) / INDEX_FILE_NAME
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
-        raise InputError(f"'{folder}' has no {INDEX_FILE_NAME}; give a folder that an environment recorded into") from error
+        raise InputError(f"'{folder}' has no {INDEX_FILE_NAME}; give a folder into which an environment recorded") from error
     episodes = []
     for number, line in enumerate(lines, start=1):
         try:
@@ -83,10 +84,10 @@ class EpisodeRecorder:
     """Writer of episodes into a folder; existing episodes stay.
 
     Args:
-        folder: Made if it is not there.
+        folder: Output folder, created if necessary.
 
     Raises:
-        StoreError: It cannot be made or read.
+        StoreError: The folder cannot be created or read.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -106,10 +107,10 @@ class EpisodeRecorder:
     def finish_episode(
         self, *, seed: int | None, episode: int, events: FaultEvents, feasible: str, outcome: str, success: bool | None = None
     ) -> None:
-        """Write the episode, if it had two steps or more.
+        """Write the episode, if it has two steps or more.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         steps, self._steps = self._steps, []
         if len(steps) < 2:

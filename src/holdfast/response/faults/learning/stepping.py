@@ -1,6 +1,6 @@
-"""One step of many arms in the kinematic closed loop with faults: a kernel in which each row has the faults of its episode.
+"""One step of many arms in the kinematic closed loop with faults, as a kernel in which each row has the faults of its episode.
 
-The faults are in the program, not around it, so that rows with different faults make one call, on the processor or on a GPU.
+The kernel contains all faults, so that rows with different faults need only one call, on the processor or on a GPU.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from holdfast.response.faults.batch import FaultBatch
 from holdfast.response.faults.kind import MAX_PARAMETERS, FaultKind, fault_kinds, find_kind
 from holdfast.response.faults.step_symbols import KERNEL_INFINITY, StepSymbols
 
-TIME_TOLERANCE_S = 1e-9  # s: what begins at a step's time is there
-STATE_PARTS = ("q", "told", "place", "shown", "command")  # (n,) each, see `step_kernel`
-GOAL_NUMBERS = 12  # numbers of an episode besides 7 n: its goal
+TIME_TOLERANCE_S = 1e-9  # a fault that begins this close to the time of a step is active, s
+STATE_PARTS = ("q", "told", "place", "shown", "command")  # (n,) each, see `build_step_kernel`
+GOAL_NUMBERS = 12  # numbers of an episode in addition to 7 n: its goal
 
 
 @cached_kernel
@@ -29,11 +29,11 @@ def build_step_kernel(law: Law) -> Kernel:
     """Build the kernel ``(state, is_over, episode, action, noise, limits, setting) -> state, is_over, observation, reward,
     terminated, truncated``.
 
-    A state holds where the joints are, what their sensors tell, where each was when its fault began, what the sensor before
-    a slipping clutch shows, the command of the last step, and the time. The law sees what is told; the action, (n,) rates in
-    units of the velocity limits, is added to its rates. An episode is where it starts, its goal, place before rotation, and its
-    faults; where ``is_over`` is 1 the row begins that in place of a step. ``limits`` are lower, upper and velocity, (3 n,);
-    ``setting`` is period, horizon and the two tolerances.
+    A state contains the joint positions, the sensor readings, the positions at the onsets of the faults, the readings of
+    sensors before a slipping clutch, the commands of the last step, and the time. The law uses the sensor readings; the action,
+    (n,) rates in units of the velocity limits, is added to its rates. An episode contains its start, its goal (position before
+    rotation), and its faults; a row in which ``is_over`` is 1 begins this episode instead of a step. ``limits`` are lower,
+    upper and velocity, (3 n,); ``setting`` contains period, horizon and the two tolerances.
     """
     arm, task, n = law.arm, law.task, law.arm.n
     sizes = {"state": len(STATE_PARTS) * n + 1, "over": 1, "episode": GOAL_NUMBERS + 7 * n, "action": n, "noise": n}
@@ -57,7 +57,7 @@ def build_step_kernel(law: Law) -> Kernel:
 
     error, _ = task_error_and_jacobian(arm, task, q_measured, target_position, target_rotation)
     rates = law.inverse(law.jacobian(q_measured), law.scale_velocity(law.command(error)))
-    rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # where the law has no answer: none
+    rates = ca.if_else(ca.sumsqr(rates) < KERNEL_INFINITY, rates, ca.SX.zeros(n))  # zero where the law has no solution
     commanded_rates = StepSymbols.clip(rates + StepSymbols.clip(action, -1.0, 1.0) * max_speeds, -max_speeds, max_speeds)
     step = StepSymbols(
         first=parameters[0::3],
@@ -107,14 +107,14 @@ def make_fault_rows(batch: FaultBatch) -> FloatArray:
     """Return the kernel's rows (N, 6 n) of episodes: code, onset, end, and parameters.
 
     Raises:
-        InputError: A fault of a motor's torque, or a lock at an angle, which a loop of rates alone does not have.
+        InputError: A fault is one of a motor's torque, or a lock at an angle, which a loop of rates does not represent.
     """
     for events in batch.episodes:
         for event in events:
             kind = find_kind(event.kind)
             if kind.needs_torques or kind.is_delayed(event.parameters):
                 raise InputError(
-                    f"'{event.sentence()}' needs bodies and motors, and this loop has rates alone; use "
+                    f"'{event.sentence()}' needs bodies and motors, and this loop contains only rates; use "
                     "holdfast.simulate_faults or a FaultWrapper"
                 )
     absent = np.zeros((len(fault_kinds()) + 1, MAX_PARAMETERS))  # the last row: no fault

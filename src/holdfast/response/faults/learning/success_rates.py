@@ -16,7 +16,7 @@ class SuccessRate:
 
     Attributes:
         counts: Successes and episodes by ``yes``, ``no``, ``not found`` and ``unknown``.
-        confidence: Of the intervals.
+        confidence: Confidence level of the intervals, between 0 and 1.
     """
 
     counts: dict[str, tuple[int, int]]
@@ -24,7 +24,7 @@ class SuccessRate:
     confidence: float = 0.95
 
     def rate(self, feasible: str = "yes") -> Interval | None:
-        """Compute the rate among the episodes of one feasibility, with its Clopper-Pearson interval; None without episodes."""
+        """Return the success rate of episodes by their ``feasible`` answer, with its Clopper-Pearson interval; None if none."""
         success_count, episode_count = self.counts[feasible]
         return Interval.from_counts(success_count, episode_count, self.confidence) if episode_count else None
 
@@ -44,25 +44,25 @@ def success_rate(
 ) -> SuccessRate:
     """Count the successes of recorded episodes, separately for each feasibility of the goal.
 
-    Report the rate of the feasible episodes: in the others no policy, or none that was found, could have reached the goal.
+    Report the rate of the feasible episodes, because in the others no policy could have reached the goal, or none was found.
 
     Args:
         episodes: Episodes from :func:`holdfast.response.faults.read_episodes`.
-        reached: ``reached(episode)``, True for a success; by default the success that the environment reported.
-        confidence: Of the intervals, between 0 and 1.
+        reached: Function ``reached(episode)`` that returns True for a success. Default: the success in the record.
+        confidence: Confidence level of the intervals, between 0 and 1.
 
     Raises:
-        InputError: No episodes, an environment that reports no success, or a confidence out of bounds.
+        InputError: There are no episodes, the environment reports no success, or the confidence is out of bounds.
     """
     if not episodes or not 0 < confidence < 1:
         raise InputError(
-            f"there are {len(episodes)} episodes and the confidence is {confidence:g}; give one or more, and 0 to 1"
+            f"there are {len(episodes)} episodes and the confidence is {confidence:g}; give at least one episode, and 0 to 1"
         )
     counts = dict.fromkeys(("yes", "no", "not found", "unknown"), (0, 0))
     for episode in episodes:
         result = episode.success if reached is None else bool(reached(episode))
         if result is None:
-            raise InputError(f"'{episode.file.name}' has no success, as its environment reports none; give reached(episode)")
+            raise InputError(f"'{episode.file.name}' has no success, because its environment reports none; give reached")
         success_count, episode_count = counts[episode.feasible]
         counts[episode.feasible] = success_count + result, episode_count + 1
     return SuccessRate(counts, confidence=confidence)

@@ -1,4 +1,4 @@
-"""Environment of Gymnasium's vector API with many arms in the kinematic closed loop and drawn faults."""
+"""Environment of Gymnasium's vector API with many arms in the kinematic closed loop and random faults."""
 
 from __future__ import annotations
 
@@ -20,50 +20,51 @@ from holdfast.response.faults.step_symbols import KERNEL_INFINITY
 
 try:
     from gymnasium.vector import VectorEnv
-except ImportError:  # said when one is made, so that the rest can be imported
+except ImportError:  # reported when an environment is created, so that the other names can be imported
     VectorEnv = object
 
 Goals = Callable[[np.random.Generator, int], FloatArray]
 UNLIMITED_SPEED_RAD_S = 2 * np.pi  # rad/s or m/s of a joint without a velocity limit
-LIMIT_MARGIN_FRACTION = 0.05  # of a joint's range, kept from its limits at the start and by the goals that are drawn
+LIMIT_MARGIN_FRACTION = 0.05  # of a joint's range: distance of starts and random goals from the limits
 
 
 class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     """N arms with a control law each, whose joints fail while they move to their targets (needs ``holdfast-arms[learn]``).
 
-    The loop is kinematic: joints do what they are told, within limits and speeds. A step of all arms is one call of one
-    kernel. The action, (N, n) in -1 to 1, is added to the law's joint rates, in units of the velocity limits: with an action
-    of zeros the law alone moves the arms, and knows of no failure. An observation holds what the joint sensors tell (n,),
-    the error of the task's rows by that (m,), m and rad, and the last commanded rates (n,). The reward is minus the true
-    tool's distance from its target, m and rad. An episode is terminated where that is within the tolerance, and truncated at
-    the horizon; the arm starts anew with the next step (``AutoresetMode.NEXT_STEP``).
+    The loop is kinematic: joints execute their commands exactly, within position and velocity limits. A step of all arms is one
+    call of one kernel. The action, (N, n) in -1 to 1, is added to the law's joint rates, in units of the velocity limits. With
+    an action of zeros the law alone moves the arms, without information about failures. An observation contains the readings of
+    the joint sensors (n,), the resulting error of the task's rows (m,), m and rad, and the last commanded rates (n,). The
+    reward is minus the distance of the true tool pose from its target, m and rad. An episode is terminated if this distance is
+    within the tolerance, and truncated at the horizon; the arm restarts with the next step (``AutoresetMode.NEXT_STEP``).
 
-    Row i has the episodes i, i + N, ... of the fault model; their kinds are locks, ranges, speeds, sensors, dropouts and
-    clutches: rates have no torque that could fail. Of each joint the first fault of an episode counts. What has failed is in
-    ``info["fault"]``: ``kind`` (N, n) as in :class:`holdfast.response.faults.FaultBatch`, ``active`` (N, n), ``id`` (N,).
+    Row i has the episodes i, i + N, ... of the fault model. Possible kinds are locks, ranges, speeds, sensors, dropouts and
+    clutches, because rates have no torque that could fail. Only the first fault of a joint in an episode counts.
+    ``info["fault"]`` contains the faults: ``kind`` (N, n) as in :class:`holdfast.response.faults.FaultBatch`, ``active`` (N,
+    n), ``id`` (N,).
 
-    Arrays are NumPy's. On a GPU (``hf.set_backend("cuda")`` before the environment is made) observations, rewards and both
-    ends, 0 or 1, are arrays of doubles there, for ``from_dlpack`` of PyTorch, JAX or CuPy without a copy, and actions may be;
-    the state stays there. Of each step one number for each arm comes back, whether its episode is over, with the next step,
-    and the numbers of new episodes go there.
+    Arrays are NumPy arrays. On a GPU (``hf.set_backend("cuda")`` before the environment is created) observations, rewards and
+    both end flags, 0 or 1, are arrays of doubles on the GPU, for ``from_dlpack`` of PyTorch, JAX or CuPy without a copy.
+    Actions may be such arrays, and the state remains on the GPU. Per step, only one number per arm, the end flag of its
+    episode, is copied back with the next step, and the numbers of new episodes are copied to the GPU.
 
     Args:
-        law: The law, with its arm, task, gain and speed limit.
-        num_envs: N.
-        faults: A fault model; None: nothing fails.
-        period: s, of a step.
-        horizon: s, of an episode.
-        goals: ``goals(generator, count) -> (count, 4, 4)`` tool poses in the world, m; of random configurations if not given.
-        start: (n,) where each episode begins; random if not given.
-        tolerance: m and rad.
-        reveal: False: ``info`` says nothing of the faults, and only ``env.fault`` does, which no policy sees.
-        stream: On a GPU: handle of the stream to use; 1 is the default one.
+        law: Control law, with its arm, task, gain and speed limit.
+        num_envs: Number N of arms.
+        faults: Fault model. None: no faults.
+        period: Duration of a step, s.
+        horizon: Duration of an episode, s.
+        goals: ``goals(generator, count) -> (count, 4, 4)`` tool poses in the world, m. Default: poses of random configurations.
+        start: (n,) configuration at which each episode begins, rad and m. Default: random.
+        tolerance: Distances from the goal that count as success, m and rad.
+        reveal: False: ``info`` contains no faults; they are only in ``env.fault``, which policies do not see.
+        stream: Handle of the GPU stream; 1 is the default stream.
 
     Attributes:
-        fault: What ``info["fault"]`` tells.
+        fault: Content of ``info["fault"]``.
 
     Raises:
-        InputError: A fault that a loop of rates does not have, or numbers that are not above 0.
+        InputError: A loop of rates cannot represent a fault, or a number is not above 0.
         HoldfastError: Gymnasium is not installed.
     """
 
@@ -89,8 +90,8 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
 
         if num_envs < 1 or not 0 < period <= horizon < np.inf:
             raise InputError(
-                f"there are {num_envs} arms, steps of {period:g} s and a horizon of {horizon:g} s; give an arm or more, and a "
-                "period above 0 and at most the horizon"
+                f"there are {num_envs} arms, steps of {period:g} s and a horizon of {horizon:g} s; give at least one arm, and "
+                "a period above 0 and at most the horizon"
             )
         self.law, self.num_envs, self.faults = law, int(num_envs), FaultModel([]) if faults is None else faults
         self.period, self.horizon, self.tolerance, self._reveal = float(period), float(horizon), tolerance, reveal
@@ -119,13 +120,13 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         self._fault_codes[:] = -1.0
         self._episode_numbers, self._event_ids = np.arange(row_count) - row_count, np.full(row_count, FaultEvents().id)
         self._is_over, self._has_begun = self._upload(np.ones(row_count)), False
-        # What stays on a GPU from step to step.
+        # Arrays that stay on a GPU from step to step.
         state, setting = np.zeros((row_count, len(STATE_PARTS) * n + 1)), np.array([self.period, self.horizon, *self.tolerance])
         device_arrays = map(self._upload, [self._episodes, state, np.zeros(n), self._limits, setting])
         self._episode_table, self._state, self._no_noise, *self._setting = device_arrays
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Reset all arms; with a seed also the episodes of the faults from the first one on."""
+        """Reset all arms; with ``seed``, also restart the fault episodes with the first one. ``options`` are ignored."""
         if seed is not None:
             self._np_random, self._np_random_seed = np.random.default_rng(seed), seed
             self._allocate_arrays()
@@ -140,8 +141,11 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Step all arms by one period. Rows whose episode was over begin the next one, and their action is ignored.
 
+        Args:
+            actions: (N, n) additional joint rates in units of the velocity limits, -1 to 1.
+
         Raises:
-            InputError: Actions of another shape, or that are not numbers (of arrays on a GPU the next step tells).
+            InputError: Actions have another shape or contain NaN (for arrays on a GPU, raised by the next step).
         """
         if tuple(np.shape(actions)) != self.action_space.shape:
             expected_text = f"they must be {self.action_space.shape}, a row for each arm"
@@ -149,7 +153,7 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         is_over = np.asarray(self._is_over)
         if np.isnan(is_over).any():
             raise InputError(
-                f"{_describe_invalid_action(is_over)} in the last step, and where that arm was is lost; reset the environment"
+                f"{_describe_invalid_action(is_over)} in the last step, so the state of that arm is lost; reset the environment"
             )
         if not self._on_gpu or _is_on_host(actions):
             clipped_actions = np.where(is_over[:, None] > 0, 0.0, np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0))
@@ -173,13 +177,13 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         """True joint positions (N, n), rad and m, independent of the sensors."""
         return np.asarray(self._state)[:, : self.law.arm.n]
 
-    # ---- inside ------------------------------------------------------------------------------------------------------
+    # ---- internal ----------------------------------------------------------------------------------------------------
 
     def _upload(self, array: FloatArray) -> Any:
         return self._kernel.upload(array, self.stream) if self._on_gpu else array
 
     def _draw_noise(self, rows: NDArray[np.int64]) -> FloatArray:
-        """Draw the sensor noise (R, n) of some rows; zeros where no sensor is noisy."""
+        """Sample the sensor noise (R, n) of some rows; zeros where no sensor is noisy."""
         shape = len(rows), self.law.arm.n
         is_noisy = np.isin(self._fault_codes[rows], [kind.code for kind in fault_kinds().values() if kind.draws_noise]).any()
         return self.np_random.standard_normal(shape) if is_noisy else np.zeros(shape)
@@ -188,21 +192,21 @@ class FaultVectorEnv(VectorEnv):  # type: ignore[misc]
         """Advance all rows by one call of the kernel."""
         device_noise = self._upload(noise) if noise.any() else self._no_noise
         inputs = self._state, self._is_over, self._episode_table, actions, device_noise, *self._setting
-        # On a GPU the end of what was given would wait for this step: it is kept until the next one.
+        # On a GPU, freeing the inputs would wait for this step, so they are kept until the next one.
         self._last_inputs = inputs
         outputs = self._kernel.exchange(*inputs, stream=self.stream) if self._on_gpu else self._kernel(*inputs)
         self._state, self._is_over, *self._results = outputs
         self._has_begun = False
 
     def _begin_episodes(self, rows: NDArray[np.int64]) -> None:
-        """Draw the next episodes of some rows."""
+        """Sample the next episodes of some rows."""
         arm, count = self.law.arm, len(rows)
         sampled_q = self._sample_configurations(self.np_random, count)
         q_start = sampled_q if self._start is None else np.broadcast_to(self._start, (count, arm.n))
         sample_goals = self._goals or (lambda *options: arm.forward_kinematics(self._sample_configurations(*options)))
         goals = np.asarray(sample_goals(self.np_random, count), dtype=np.float64)
         if goals.shape != (count, 4, 4) or not np.isfinite(goals).all():
-            raise InputError(f"goals gave an array of shape {goals.shape}; they must be finite tool poses ({count}, 4, 4), m")
+            raise InputError(f"goals returned an array of shape {goals.shape}; it must be finite tool poses ({count}, 4, 4), m")
         episodes = self._episode_numbers[rows] + self.num_envs
         events = [self.faults.draw(arm, episode=int(episode), horizon=self.horizon) for episode in episodes]
         faults = make_fault_rows(make_batch(arm.joint_names, events, seed=self.faults.seed, first=0))

@@ -1,4 +1,4 @@
-"""Faults in environments of Gymnasium that are simulated with MuJoCo."""
+"""Faults in Gymnasium environments that are simulated with MuJoCo."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from holdfast.response.faults.learning.recording import EpisodeRecorder
 
 try:
     from gymnasium import Wrapper
-except ImportError:  # said when one is made, so that the rest can be imported
+except ImportError:  # reported when a wrapper is created, so that the other names can be imported
     Wrapper = object
 
-_PROBE_STEP = 0.5  # rad or m: what moves by exactly so much is the joint's value, and no sine of it
+_PROBE_STEP = 0.5  # rad or m: an entry that changes by exactly this is the joint's value, and not its sine
 _MODEL_ATTRIBUTES = (("model", "data"), ("robot_env.model", "robot_env.data"), ("sim.model._model", "sim.data._data"))
 
 
 class FaultInfo(Mapping[str, Any]):
     """Content of ``info["fault"]``: ``id``, ``events``, ``active``, ``feasible``, and ``why``.
 
-    The last two are looked up when they are first asked for after a fault has begun, never inside a step.
+    The last two are computed when they are first read after a fault has begun, never inside a step.
     """
 
     def __init__(self, injector: FaultInjector, evaluate_feasibility: Callable[[], Feasibility]) -> None:
@@ -67,34 +67,34 @@ class FaultInfo(Mapping[str, Any]):
 
 
 class FaultWrapper(Wrapper):  # type: ignore[misc]
-    """Environment whose joints fail, by its own clock (needs ``holdfast-arms[learn]`` and ``holdfast-arms[physics]``).
+    """Environment whose joints fail at times of its own clock (needs ``holdfast-arms[learn]`` and ``holdfast-arms[physics]``).
 
-    ``reset`` gives the model every number back before the environment resets, then draws the next episode;
-    ``reset(options={"episode": 12})`` chooses one. What begins during a step takes effect with the next one; both times are
-    in ``info["fault"]``. Observations change only where a sensor fails, and only in the entries of that joint's value; a
-    controller inside the environment that reads MuJoCo's data keeps the truth.
+    ``reset`` restores every number of the model before the environment resets, then samples the next episode;
+    ``reset(options={"episode": 12})`` selects one. A fault that begins during a step takes effect with the next one; both times
+    are in ``info["fault"]``. Observations change only if a sensor fails, and only in the entries of that joint's value. A
+    controller inside the environment that reads MuJoCo's data sees the true values.
 
     Args:
-        env: An environment with a MuJoCo model: of Gymnasium, Gymnasium-Robotics or robosuite.
-        faults: A fault model, or the events of every episode.
-        joints: Names of joints in the model, or an arm; by default the joints of ``arm``, or else those that
-            :class:`FaultInjector` takes.
-        arm: The arm, and ``goal(env)``, where its tool should be, (3,) or (4, 4), m: to tell whether that is feasible.
-        goal: See ``arm``.
-        within: Angle in rad by which the tool's z axis may be off that of the goal, a pose; see :func:`holdfast.recover`.
+        env: Environment with a MuJoCo model, from Gymnasium, Gymnasium-Robotics or robosuite.
+        faults: Fault model, or the events of every episode.
+        joints: Names of joints in the model, or an arm. Default: the joints of ``arm``, or else those that
+            :class:`FaultInjector` selects.
+        arm: Arm of the environment; with ``goal`` it is used to decide if the goal is feasible.
+        goal: Function ``goal(env)`` that returns the target of the tool, (3,) or (4, 4), m.
+        within: Angle in rad by which the tool's z axis may deviate from that of the goal, a pose; see :func:`holdfast.recover`.
         tolerance: Largest distance from the goal that counts as success, m, and rad for a pose.
-        observes: Entries of the observation (a vector, or its part ``observation``) that hold a joint's value, by joint. If
-            not given they are found by moving each joint.
-        reveal: False: ``info`` says nothing, and only ``env.fault`` does, which no policy sees.
-        horizon: s, the end of an episode, see :meth:`holdfast.response.faults.FaultModel.draw`.
-        record: A folder for a record of each episode, see :func:`holdfast.response.faults.read_episodes`; more are added to it.
+        observes: Entries of the observation (a vector, or its part ``observation``) that contain a joint's value, by joint.
+            Default: they are found by moving each joint.
+        reveal: False: ``info`` contains no faults; they are only in ``env.fault``, which policies do not see.
+        horizon: End of an episode, s; see :meth:`holdfast.response.faults.FaultModel.draw`.
+        record: Folder to which each episode is added; see :func:`holdfast.response.faults.read_episodes`.
 
     Attributes:
-        fault: What ``info["fault"]`` tells.
+        fault: Content of ``info["fault"]``.
 
     Raises:
-        InputError: No MuJoCo model is found, or it cannot have the faults.
-        StoreError: The folder cannot be made.
+        InputError: The environment has no MuJoCo model, or the model cannot have the faults.
+        StoreError: The folder cannot be created.
         HoldfastError: Gymnasium or MuJoCo is not installed.
     """
 
@@ -129,7 +129,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._prepare_episode()
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Restore the model, reset the environment, and draw the faults of the next episode."""
+        """Restore the model, reset the environment with ``seed`` and ``options``, and sample the faults of the next episode."""
         self._finish_episode("left")
         self._seed = seed
         remaining_options = dict(options or {})
@@ -137,7 +137,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self.injector.restore()
         observation, info = self.env.reset(seed=seed, options=remaining_options or None)
         model, data = _find_model(self.env.unwrapped)
-        if model is not self.injector.model:  # some environments load theirs anew
+        if model is not self.injector.model:  # some environments reload their model
             old = self.injector
             self.injector = FaultInjector(model, data, old.joints, faults=old.faults, horizon=old.horizon)
             self._physics = PhysicsInterceptor(self.injector)
@@ -148,7 +148,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         return self._corrupt_observation(observation), {**info, "fault": self.fault} if self._reveal else info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        """Step the environment with the faults that have begun."""
+        """Step the environment by an ``action``, with the faults that have begun."""
         injector = self.injector
         injector.advance(injector.data.time)
         if self._has_dropouts:
@@ -158,8 +158,8 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             observation, reward, terminated, truncated, info = self.env.step(action)
         if self._physics.call_count == call_count and injector.data.time != time_before and injector.changes_model:
             raise InputError(
-                f"{type(self.env.unwrapped).__name__} moves its model by other means than mujoco.mj_step, so its faults do not "
-                "act; write the loop with holdfast.response.faults.FaultInjector"
+                f"{type(self.env.unwrapped).__name__} does not move its model with mujoco.mj_step, so its faults do not act; "
+                "write the loop with holdfast.response.faults.FaultInjector"
             )
         if self._has_sensor_faults:
             injector.time = injector.data.time
@@ -174,11 +174,11 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
-        """Write the record of the last episode, and close the environment."""
+        """Write the file of the last episode, and close the environment."""
         self._finish_episode("left")
         self.env.close()
 
-    # ---- inside ------------------------------------------------------------------------------------------------------
+    # ---- internal ----------------------------------------------------------------------------------------------------
 
     def _record_step(self, action: Any, reward: Any) -> None:
         """Record this step as the log of a robot would."""
@@ -188,7 +188,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         gains, stiffness = model.actuator_gainprm[:, 0], -model.actuator_biasprm[:, 1]
         for index, name in enumerate(injector.joints):
             for actuator in injector.actuators_of(name):
-                if stiffness[actuator] > 0 and model.actuator_gear[actuator, 0] == 1:  # a servo of position
+                if stiffness[actuator] > 0 and model.actuator_gear[actuator, 0] == 1:  # a position servo
                     reference[index] = data.ctrl[actuator] * gains[actuator] / stiffness[actuator]
         injector.time = data.time
         q, torque = injector.read_sensors(data.qpos[self._qpos_rows]), data.qfrc_actuator[injector.dofs]
@@ -217,7 +217,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         self._feasibility: Feasibility | None = None
         self.fault: FaultInfo = FaultInfo(self.injector, self._evaluate_feasibility)
         if self._has_dropouts and self.env.action_space.shape != (self.injector.model.nu,):
-            raise InputError("a dropout needs actions that are the actuators' controls; this environment has others")
+            raise InputError("a dropout needs actions that are the actuators' controls; this environment has other actions")
 
     def _evaluate_feasibility(self) -> Feasibility:
         if self._feasibility is not None:
@@ -234,7 +234,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
         return self._feasibility
 
     def _hold_dropped_commands(self, action: Any) -> Any:
-        """Return the action in which a joint without commands keeps its last one."""
+        """Return the action in which joints without commands keep their last one."""
         last_action = action if self._last_action is None else self._last_action
         held_action = np.array(action)
         for event in self.injector.active:
@@ -266,7 +266,9 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             return
         get_observation = getattr(self.env.unwrapped, "_get_obs", None)
         if get_observation is None:
-            raise InputError("the environment does not show where a joint's value is in its observation; give observes")
+            raise InputError(
+                "the environment has no _get_obs, so the entries of the joints' values cannot be found; give observes"
+            )
         model, data, state_kind = self.injector.model, self.injector.data, self._mujoco.mjtState.mjSTATE_INTEGRATION
         state = np.zeros(self._mujoco.mj_stateSize(model, state_kind))
         self._mujoco.mj_getState(model, data, state, state_kind)
@@ -301,4 +303,4 @@ def _find_model(env: Any) -> tuple[Any, Any]:
             objects.append(value)
         if isinstance(objects[0], mujoco.MjModel) and isinstance(objects[1], mujoco.MjData):
             return objects[0], objects[1]
-    raise InputError(f"{type(env).__name__} has no MuJoCo model that is found; faults are for environments with MuJoCo")
+    raise InputError(f"{type(env).__name__} has no MuJoCo model; faults are for environments with MuJoCo")

@@ -1,4 +1,4 @@
-"""Boxes of joints in which the arm certainly touches something, for a proof that a pose has no collision-free configuration."""
+"""Boxes of joints in which the arm certainly collides, for a proof that a pose has no collision-free configuration."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ if TYPE_CHECKING:
     from holdfast.model.collision.exact.narrow_phase import ArmBody
 
 
-_ROUNDING_SLACK_M = 1e-9  # m: rounding
-_CONTACT_TOLERANCE_M = 2e-6  # m: what the exact sign may not see of two links
-_MAX_HALF_WIDTH = 0.08  # rad and m: where half of the joints move more, hardly a link is deeper in anything than it moves
+_ROUNDING_SLACK_M = 1e-9  # rounding error of distances, m
+_CONTACT_TOLERANCE_M = 2e-6  # penetration of two links that the exact sign may miss, m
+_MAX_HALF_WIDTH = 0.08  # rad and m: if half of the joints move more, hardly any link is in contact over the whole box
 
 
 class BlockedBoxes:
     """Test whether boxes are blocked: at the middle, one body is deeper in another one than the joints can move it.
 
-    Objects: a ball within a link. From the link inwards: a point of it is no farther from axis k than the link's origin is, and
-    the ball about that holds the link, and what joints beyond k move it. Links among themselves: two capsules where these are
-    all that is known of them, else two balls within their bodies; and the most by which any joint changes their distance
-    (:func:`holdfast.model.collision.changes.pair_lipschitz_bounds`).
+    The test with objects uses a ball within a link. From the link inwards, a point of the link is no farther from axis k than
+    the link's origin plus the ball that encloses the link plus the motion by joints beyond k. The test of two links uses their
+    capsules if the collision model has only these, else balls within the two bodies, and the largest change of their distance
+    by each joint (:func:`holdfast.model.collision.changes.pair_lipschitz_bounds`).
 
     Args:
-        clearance: Of an arm, maybe in a cell.
-        margin: m, kept beyond what the cell keeps from its objects.
-        limits: (n,) and (n,), what all boxes lie within, rad and m; the arm's if not given.
+        clearance: Collision model of an arm, with or without a cell.
+        margin: Clearance in addition to the margins of the cell's objects, m.
+        limits: (n,) and (n,) limits that contain all boxes, rad and m. Default: the arm's limits.
     """
 
     def __init__(self, clearance: Clearance, margin: float, limits: tuple[FloatArray, FloatArray] | None = None) -> None:
@@ -50,7 +50,7 @@ class BlockedBoxes:
         self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
 
     def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
-        """Return (N,) True where every configuration within ``half`` (N, n) of q (N, n) is blocked."""
+        """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked."""
         is_blocked = np.zeros(len(q), dtype=bool)
         indices = np.flatnonzero(np.sort(half_widths, axis=1)[:, half_widths.shape[1] // 2] < _MAX_HALF_WIDTH)
         if self._self_pairs:
@@ -109,11 +109,11 @@ class _SelfCollisionPair:
     """Two links of the arm.
 
     Attributes:
-        name: Of their first pair.
-        columns: Their pairs of the clearance.
-        lipschitz_bounds: (K, n) most by which each of K distances changes per rad or m of each joint.
-        balls: Links, (K, 3) centres in their frames, and (K,) radii, both together, of balls within them; none if the distances
-            are those of the pairs.
+        name: Name of their first pair.
+        columns: Indices of their pairs in the collision model.
+        lipschitz_bounds: (K, n) largest change of each of K distances per rad or m of each joint.
+        balls: Indices of both links, and for both together (K, 3) centres in their frames and (K,) radii of balls within them;
+            None if the distances are those of the pairs.
     """
 
     name: str

@@ -1,12 +1,12 @@
-"""Proofs that no motion leads to the goal, by a flood over cells of all or some of the moving joints.
+"""Proofs that no motion leads to the goal, by a flood fill over cells of all or some of the moving joints.
 
-A cell is a box of joints. It is certainly blocked if a ball within a link, at its middle, is deeper in an object than it can
-move within the box, if the same is true of two links, or if a row kept is broken by more than it can change. What is left may
-be free. If those of it that are joined to the start, by a corner at least, hold no configuration of the goal, no motion leads
-to it; else they are halved.
+A cell is a box of joints. It is certainly blocked if a ball within a link, at the middle of the cell, is deeper in an object
+than it can move within the cell, if the same is true of two links, or if a constraint is violated by more than it can change.
+Other cells may be free. If those that are connected to the start, at least through a corner, contain no configuration of the
+goal, no motion leads to it. Otherwise the cells are bisected.
 
-Of many joints a few are enough where these alone decide what is blocked: an elbow that is caught between two objects, whatever
-the wrist does, or a gripper beside a forearm. The other joints are then anywhere within their limits.
+A few of many joints suffice where these alone decide which cells are blocked, for example an elbow that is caught between two
+objects for every angle of the wrist, or a gripper next to a forearm. The other joints may have any value within their limits.
 """
 
 from __future__ import annotations
@@ -36,26 +36,26 @@ if TYPE_CHECKING:
     from holdfast.model.collision.exact.narrow_phase import ArmBody
 
 CellTest = Callable[[FloatArray, FloatArray], BoolArray]
-"""Whether cells with these middles (N, n) and half widths (n,) may hold a configuration of the goal."""
+"""Test that returns True where cells with these middles (N, n) and half widths (n,) may contain a configuration of the goal."""
 
-_MAX_JOINTS = 3  # that move, at most
-_INITIAL_CELLS_PER_JOINT = 8  # cells of each joint, at first
-_MAX_CELLS = {1: 20_000, 2: 80_000, 3: 120_000}  # cells looked at, by the number of joints
-_ROUNDING_SLACK = 1e-9  # m and rad: rounding
-_SQUARE_ROOT_SLACK_M = 1e-7  # m: rounding of a square root where two squares cancel
-_BALLS_PER_BODY = 24  # along a body
+_MAX_JOINTS = 3  # largest number of moving joints
+_INITIAL_CELLS_PER_JOINT = 8  # cells of each joint at first
+_MAX_CELLS = {1: 20_000, 2: 80_000, 3: 120_000}  # evaluated cells, by the number of joints
+_ROUNDING_SLACK = 1e-9  # rounding error, m and rad
+_SQUARE_ROOT_SLACK_M = 1e-7  # rounding error of a square root where two squares cancel, m
+_BALLS_PER_BODY = 24  # balls along a body
 _CHUNK_ROWS = 4096
-_SAMPLED_CONFIGURATIONS = 64  # configurations
-_MAX_CONFINED_CELLS = 25_000  # the same of some of more joints
-_MAX_PENETRATION_M = 0.15  # m: deeper in an object hardly a ball is
-_MAX_CONFINED_JOINTS = 2  # joints of a flood that leaves other joints anywhere
+_SAMPLED_CONFIGURATIONS = 64  # random configurations
+_MAX_CONFINED_CELLS = 25_000  # evaluated cells over some of more than three joints
+_MAX_PENETRATION_M = 0.15  # hardly any ball is deeper in an object, m
+_MAX_CONFINED_JOINTS = 2  # joints of a flood in which the other joints may have any value
 _MAX_CONFINED_FLOODS = 2  # such floods over the same joints
 
 
 def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:
     """Prove that no motion leads from a start (n,) to the goal, and return the proof as a sentence; None if that fails.
 
-    Of at most three joints that move; of more see :func:`find_confined_regions`.
+    This works for up to three moving joints; for more see :func:`find_confined_regions`.
     """
     joints = np.flatnonzero(space.free)
     if len(joints) > _MAX_JOINTS or (space.manifold is None and space.clearance is None):
@@ -67,10 +67,10 @@ def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellT
 
 
 def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[ConnectedCells]:
-    """Yield floods over one or two of more than three moving joints that are confined, wherever the other joints are.
+    """Yield floods over one or two of more than three moving joints that are confined for any values of the other joints.
 
-    Those between two links that touch each other, and the first two, whose links touch objects. Only floods that hold none of
-    the configurations (K, n) that are known of the goal, at most two over the same joints.
+    They are over joints between two links that may touch each other, and over the first two, whose links touch objects. Only
+    floods that contain none of the known configurations (K, n) of the goal are yielded, at most two over the same joints.
     """
     if space.clearance is None or space.free.sum() <= _MAX_JOINTS:
         return
@@ -108,13 +108,13 @@ class ConnectedCells:
     """Cells of a flood that may be connected to the start.
 
     Attributes:
-        names: Of the joints of which they are cells.
-        joints, lower, cell_widths: (f,) which these are, where the first cell begins, and its width, rad and m.
-        is_unlimited: (f,) which of them turn round and round.
-        cells_per_joint: Of cells, each way.
-        cells: (N, f) numbers of those that are joined.
-        middle, half_widths: (N, n) and (n,), where they are, all joints.
-        checked_cells: How many cells were looked at so far.
+        names: Names of the f joints of the cells.
+        joints, lower, cell_widths: (f,) joint indices, lower end of the first cell, and cell width, rad and m.
+        is_unlimited: (f,) True for unlimited revolute joints.
+        cells_per_joint: Number of cells of each joint.
+        cells: (N, f) indices of the connected cells.
+        middle, half_widths: (N, n) and (n,) middles and half widths of the cells, for all joints.
+        checked_cells: Number of cells evaluated so far.
     """
 
     names: list[str]
@@ -132,8 +132,8 @@ class ConnectedCells:
     def proof_sentence(self) -> str:
         """Sentence that these cells hold no configuration of the goal."""
         return (
-            f"what {' and '.join(self.names)} can get to from the start holds no configuration of the goal, by a flood over "
-            f"{self.checked_cells:,} cells of joints, up to {self.cells_per_joint} of each, up to floating point"
+            f"the values of {' and '.join(self.names)} that are connected to the start contain no configuration of the goal, "
+            f"by a flood fill over {self.checked_cells:,} cells, up to {self.cells_per_joint} per joint, up to floating point"
         )
 
     @cached_property
@@ -151,7 +151,7 @@ class ConnectedCells:
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
         first_cells = np.floor((positions - widths - self.lower - _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
         last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64) + 1
-        # Past where a turn ends: anywhere.
+        # Beyond a full revolution, any value is possible.
         wraps_around = self.is_unlimited & ((first_cells < 0) | (last_cells > self.cells_per_joint))
         first_cells = np.clip(np.where(wraps_around, 0, first_cells), 0, self.cells_per_joint)
         last_cells = np.clip(np.where(wraps_around, self.cells_per_joint, last_cells), 0, self.cells_per_joint)
@@ -165,7 +165,7 @@ class ConnectedCells:
 def _generate_connected_regions(
     space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int | None = None
 ) -> Iterator[ConnectedCells]:
-    """Yield floods from a start (n,) with cells that are bisected repeatedly; the other joints are anywhere in their limits."""
+    """Yield floods from a start (n,) with repeatedly bisected cells; the other joints may have any value in their limits."""
     box = _bound_joints(space, joints)
     if box is None:
         return
@@ -191,7 +191,7 @@ def _generate_connected_regions(
         distances = np.where(is_unlimited, np.minimum(distances, 2 * np.pi - distances), distances)
         holds_start = (distances <= half_widths[joints] + _ROUNDING_SLACK).all(axis=1)
         if not holds_start.any():
-            return  # the start is clear, so this cannot be
+            return  # the start is collision-free, so this cannot be
         is_connected = _connect_cells(cells, holds_start, cells_per_joint, is_unlimited)
         cells, middle = cells[is_connected], middle[is_connected]
         yield ConnectedCells(
@@ -290,8 +290,8 @@ class _LinkPoints:
     """Points that move with the links of an arm.
 
     Attributes:
-        link: (P,) the joint that moves each, from 0.
-        local_positions: (P, 3) in its frame, m.
+        link: (P,) index of the joint that moves each point, from 0.
+        local_positions: (P, 3) positions in the frame of the joint, m.
     """
 
     link: IndexArray
@@ -310,7 +310,7 @@ class _LinkPoints:
     ) -> FloatArray:
         """Return (N, P) upper bounds of the motion of each point where joints move by up to ``half_widths`` (n,), m.
 
-        From the tool inwards: a point is no farther from axis k than it is now and what joints beyond k move it.
+        From the tool inwards, a point is no farther from axis k than its present distance plus its motion by joints beyond k.
         """
         positions = self.world_positions(frames) if positions is None else positions
         motion_bounds = np.zeros((len(frames), len(self.link)))
@@ -355,7 +355,7 @@ class _BlockedCells:
         self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
 
     def restrict_to_joints(self, joints: IndexArray) -> _BlockedCells:
-        """Return the same test without the balls that the other joints always move too far for a proof."""
+        """Return this test without the balls that the other joints always move too far for a proof."""
         space, half_widths = self._space, (self._space.high - self._space.low) / 2
         half_widths[joints] = 0.0
         frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))

@@ -31,7 +31,7 @@ from holdfast.response.recovery.task_rows import RowSolver
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
-_MAX_PROVED_POSES = 3  # poses of a path, of which no configuration was found, that are tried to be proved to have none
+_MAX_PROVED_POSES = 3  # poses of a path without a configuration for which a proof is tried
 
 
 def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, solver: RowSolver, space: FreeSpace) -> Recovery:
@@ -39,11 +39,11 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
     tolerance.
 
     Args:
-        recovery: The recovery, as far as it is known.
-        rest: What became of the path.
-        path: To be followed.
-        solver: Of the rows that count.
-        space: Where the arm may be.
+        recovery: Recovery so far.
+        rest: Result along the path.
+        path: Tool path.
+        solver: Solver of the rows that must be met.
+        space: Free space of the arm.
     """
     fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
     order = list(coarse_to_fine_indices(len(poses)))
@@ -97,10 +97,10 @@ def _prove_leg_impossible(
 ) -> str | None:
     """Prove that no continuous motion follows a straight leg of a tool path, and return the sentence; None if that fails.
 
-    Each leg gets half of the time that is left.
+    Each leg gets half of the remaining time.
     """
     limits = degraded.lo, degraded.hi
-    if not np.isfinite(limits).all():  # joints that turn round and round join what boxes do not
+    if not np.isfinite(limits).all():  # unlimited joints connect ends that the boxes separate
         return None
     is_straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
     for leg in np.flatnonzero(is_straight).tolist():
@@ -122,6 +122,7 @@ def _prove_leg_impossible(
             start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
             return (
                 f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
-                f"poses: {box_count:,} boxes of joints that may hold a configuration do not join its ends, up to floating point"
+                f"poses: {box_count:,} boxes of joints that may contain a configuration do not connect its ends, up to "
+                "floating point"
             )
     return None

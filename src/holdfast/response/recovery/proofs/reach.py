@@ -19,21 +19,21 @@ from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import RowSolver
 
-MAX_BOXES = 8_000_000  # about 3 s: a number and not a time, so that the same seed gives the same result
-_RELATIVE_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
+MAX_BOXES = 8_000_000  # about 3 s; a number and not a time, so that the same seed gives the same result
+_RELATIVE_SLACK = 1e-9  # of the arm's length: rounding error of the bounds
 Tolerance = tuple[float, float]
 ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
-EXACT_TOLERANCE: Tolerance = (1e-6, 1e-6)  # m and rad: what the search takes as met
+EXACT_TOLERANCE: Tolerance = (1e-6, 1e-6)  # errors that the search accepts, m and rad
 
 
 def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, pose: FloatArray) -> str | None:
-    """Prove that a pose (4, 4) is out of reach, if its position counts, and return the sentence; None if that fails.
+    """Prove that a pose (4, 4) is unreachable, if its position must be met, and return the sentence; None if that fails.
 
     Args:
-        solver: Of the rows that count, with the arm and the limits in force.
-        free: (n,) joints that move.
-        q_locked: (n,) where the others are.
-        pose: (4, 4) of the end effector, m.
+        solver: Solver of the rows that must be met, with the arm and the limits in force.
+        free: (n,) mask of the joints that move.
+        q_locked: (n,) configuration with the values of the other joints, rad and m.
+        pose: (4, 4) pose of the end effector, m.
     """
     rows, arm = solver.rows, solver.arm
     linear_rows = rows.matrix[np.abs(rows.matrix[:, 3:]).max(axis=1) == 0, :3]
@@ -74,7 +74,7 @@ def enumerate_collision_free(
 def proves_no_solution(degraded: Degraded, task: Task, pose: FloatArray, space: FreeSpace, tolerance: Tolerance) -> bool:
     """Return True if it is proved that no collision-free configuration meets a pose (4, 4) within a tolerance, m and rad.
 
-    In half of the time that is left.
+    The search uses half of the remaining time.
     """
     solutions = enumerate_configurations(degraded, task, pose, space.seconds_left / 2, make_blocked_boxes(space), tolerance)
     return solutions is not None and solutions.proved_empty
@@ -96,18 +96,18 @@ def enumerate_configurations(
 ) -> Configurations | None:
     """Enumerate the configurations of a pose (4, 4) within the limits in force; None if the list cannot be proved complete.
 
-    Those in which the arm certainly touches something are left out.
+    Configurations in which the arm certainly collides are excluded.
 
     Args:
-        degraded: What is in force, every lock with its value.
-        task: Whose rows count.
-        pose: (4, 4) of the end effector, m.
-        time_limit: At most.
-        is_blocked: Which boxes are; None without a cell.
-        tolerance: m and rad by which the pose may be missed.
+        degraded: Failed arm, with the value of every lock.
+        task: Task whose rows must be met.
+        pose: (4, 4) pose of the end effector, m.
+        time_limit: Time limit, s.
+        is_blocked: Test for blocked boxes. None: no test.
+        tolerance: Allowed errors of the pose, m and rad.
     """
     limits = degraded.lo, degraded.hi
-    # Or it turns once.
+    # One full revolution covers an unlimited joint.
     is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)
     if not is_enumerable.all() or not time_limit > 0:
         return None
@@ -131,18 +131,18 @@ def enumerate_configurations(
 def prove_no_configuration(
     solutions: Configurations | None, clearance: Clearance | None, blocker_names: str = ""
 ) -> str | None:
-    """Prove that no collision-free configuration exists, and return the sentence: there is none, or each touches something.
+    """Prove that no collision-free configuration exists, and return the sentence: there is none, or each collides.
 
     Args:
-        solutions: All there are.
-        clearance: By which they are judged.
-        blocker_names: Names of what blocked the boxes that were left out.
+        solutions: All configurations.
+        clearance: Collision model that decides.
+        blocker_names: Names of the bodies that blocked the excluded boxes.
     """
     if solutions is None or solutions.finding not in (SearchOutcome.NONE, SearchOutcome.ALL):
         return None
     if not len(solutions.q) and solutions.blocked:
         return (
-            f"every configuration within the limits that meets it touches something ({blocker_names}), by {solutions.boxes:,} "
+            f"every configuration within the limits that meets it collides ({blocker_names}), by {solutions.boxes:,} "
             "boxes of joints, up to floating point"
         )
     if not len(solutions.q):
@@ -150,34 +150,31 @@ def prove_no_configuration(
     if solutions.lower[-1] < solutions.upper[-1] and is_last_joint_idle(
         solutions.arm, BoundedTask.from_task(solutions.arm, solutions.task)
     ):
-        return None  # the last joint was looked at in one place, and its turn may clear what touches
+        return None  # the last joint was evaluated at one value, and its rotation may end the collision
     if clearance is None or not all(name_certain_contacts(clearance, solutions.q)):
         return None
-    return (
-        f"each of its {len(solutions.q)} configurations touches something, by {solutions.boxes:,} boxes of joints and "
-        f"exact geometry"
-    )
+    return f"each of its {len(solutions.q)} configurations collides, by {solutions.boxes:,} boxes of joints and exact geometry"
 
 
-# ---- bounds from geometry alone: where the end effector of a failed arm can never be ----------------------------------------
+# ---- bounds from geometry alone: positions that the end effector of a failed arm can never have -----------------------------
 
 
 def prove_by_reach_bound(
     arm: Arm, free: BoolArray, q_locked: FloatArray, pose: FloatArray, whole_pose: bool, planar: FloatArray | None
 ) -> str | None:
-    """Prove that a pose is out of reach with joints locked, and return the sentence; None if this bound cannot prove it.
+    """Prove that a pose is unreachable with joints locked, and return the sentence; None if this bound cannot prove it.
 
-    The failed arm is a chain of rigid parts between the axes that still move. The end effector is no farther from the first of
-    them than the sum of the parts' lengths, and no nearer than the longest less the others. Of a full pose also the origin of
-    the last axis is known, which leaves one part less and a sharper bound.
+    The failed arm is a chain of rigid parts between the axes that still move. The distance of the end effector from the first
+    axis is at most the sum of the parts' lengths, and at least the longest one minus the others. A full pose also determines
+    the origin of the last axis, which leaves one part less and a sharper bound.
 
     Args:
         arm: The arm.
-        free: (n,) joints that move.
-        q_locked: (n,) where the others are.
-        pose: (4, 4) of the end effector, m.
-        whole_pose: The orientation counts too.
-        planar: Normal (3,) of the plane in which the arm moves and the position counts, or None for the whole position.
+        free: (n,) mask of the joints that move.
+        q_locked: (n,) configuration with the values of the other joints, rad and m.
+        pose: (4, 4) pose of the end effector, m.
+        whole_pose: True if the orientation must be met too.
+        planar: Normal (3,) of the plane of a planar arm, in which the position must be met. None: the whole position.
     """
     moving = np.flatnonzero(free)
     if not moving.size:
@@ -224,7 +221,7 @@ def prove_by_reach_bound(
 
 
 def _bound_distance_from_joint(arm: Arm, k: int, offset: FloatArray, is_planar: bool) -> tuple[float, float]:
-    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,); planar: across it."""
+    """Return the least and greatest distance from the origin of joint k to a point at ``offset`` (3,), or from its axis."""
     joint = arm.joints[k]
     axial_component = float(joint.axis @ offset)
     axis_distance = float(np.linalg.norm(offset - axial_component * joint.axis))

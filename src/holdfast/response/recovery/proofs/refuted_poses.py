@@ -13,18 +13,18 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.arm.task import Task
 from holdfast.model.failure_modes import Degraded
 
-_MAX_JOINT_BISECTIONS = 20  # halvings of each joint: a single pose may be near to one that is reached
+_MAX_JOINT_BISECTIONS = 20  # bisections of each joint, because a single pose may be close to a reachable one
 
 
 def certify_unreachable_pose(degraded: Degraded, task: Task, pose: FloatArray, time_limit: float | None) -> Refutation:
     """Certify that no configuration within the remaining limits has a pose (4, 4); locked joints have equal limits.
 
     Raises:
-        InputError: Other rows than those of a named task, or nothing is proved of the arm alone.
+        InputError: The rows are not those of a named task, or nothing is proved about the arm alone.
     """
     arm = degraded.arm
     if task.name not in TASK_SIZES:
-        raise InputError(f"task '{task.name}' has rows of its own; certificates are about {', '.join(TASK_SIZES)}")
+        raise InputError(f"task '{task.name}' has custom rows; certificates are about {', '.join(TASK_SIZES)}")
     is_planar = task.name.startswith("planar")
     yaw = float(np.arctan2(pose[1, 0], pose[0, 0]))
     certificate = certify(
@@ -41,7 +41,7 @@ def certify_unreachable_pose(degraded: Degraded, task: Task, pose: FloatArray, t
         time_limit=time_limit,
     )
     if certificate.refuted:
-        raise InputError("there is no certificate: without the objects around it, and its own links, the arm reaches the pose")
+        raise InputError("there is no certificate: certificates ignore collisions, and without them the arm reaches the pose")
     if not certificate.ok:
-        raise InputError(f"there is no certificate: {certificate.describe()[1]} More time may do")
+        raise InputError(f"there is no certificate: {certificate.describe()[1]} More time may help")
     return certificate

@@ -29,13 +29,13 @@ def prove_goal_disconnected(
     """Prove that no motion leads to the goal; return the sentence and its validity within the tolerance, or None.
 
     Args:
-        recovery: The recovery, as far as it is known.
-        rows: That count.
-        space: Where the arm may be.
-        start: (n,) where it is.
-        known_goals: (K, n) configurations that were found and cannot be got to.
-        poses: (G, 4, 4) to any of which no motion leads.
-        q_goal: (n,) the configuration instead, if one is asked for.
+        recovery: Recovery so far.
+        rows: Rows that must be met.
+        space: Free space of the arm.
+        start: (n,) start configuration, rad and m.
+        known_goals: (K, n) configurations of the goal that were found and not reached.
+        poses: (G, 4, 4) poses of the goal.
+        q_goal: (n,) configuration that is the goal instead, if one is requested.
     """
     requested_tolerance = recovery.tolerance or EXACT_TOLERANCE
     proof = prove_disconnected(
@@ -55,7 +55,7 @@ def prove_goal_disconnected(
 def _is_goal_outside_region(
     flood: ConnectedCells, recovery: Recovery, pose: FloatArray, space: FreeSpace, tolerance: Tolerance
 ) -> bool:
-    """Return True if no collision-free configuration of a pose (4, 4) is proved to be in a flood, in half the time left."""
+    """Return True if it is proved that a flood contains no collision-free configuration of a pose (4, 4), in half the time."""
     blocked_boxes = make_blocked_boxes(space)
 
     def is_excluded(middle: FloatArray, half_widths: FloatArray) -> BoolArray:

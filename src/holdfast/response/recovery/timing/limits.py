@@ -1,4 +1,4 @@
-"""Acceleration limits, which arm descriptions do not contain and the user gives."""
+"""Acceleration limits, which arm descriptions do not contain and which the user gives."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ AccelerationsLike = ArrayLike | Mapping[str, float] | Mapping[int, float]
 
 
 def parse_acceleration_limits(arm: Arm, accelerations: AccelerationsLike, is_moving: BoolArray) -> FloatArray:
-    """Return the acceleration limits (n,) of the joints that move (n,), rad/s^2 and m/s^2; 0 of others.
+    """Return the acceleration limits (n,) of the joints that move (n,), rad/s^2 and m/s^2; 0 for the others.
 
     Raises:
-        InputError: No such joint, a joint that moves without a limit, a wrong shape, or a number that is not above 0.
+        InputError: A joint is unknown or moves without a limit, the shape is wrong, or a number is not above 0.
     """
     expected_text = f"one number, {arm.n} numbers, or {{joint: number}}, rad/s^2 and m/s^2"
     if isinstance(accelerations, Mapping):
@@ -34,7 +34,7 @@ def parse_acceleration_limits(arm: Arm, accelerations: AccelerationsLike, is_mov
             limits[arm.joint_index(joint)] = number
         missing = [arm.joint_names[joint_index] for joint_index in np.flatnonzero(np.isnan(limits) & is_moving)]
         if missing:
-            raise InputError(f"accelerations give no limit of '{missing[0]}'; give one of every joint that moves")
+            raise InputError(f"accelerations have no limit for '{missing[0]}'; give one for every joint that moves")
     else:
         values = require_real_numbers(accelerations, "accelerations", expected_text)
         if values.shape not in ((), (arm.n,)):

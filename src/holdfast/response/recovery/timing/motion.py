@@ -21,28 +21,28 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.timing.profile import compute_fastest_profile
 from holdfast.response.recovery.timing.rounding import CornerChords, find_corner_cuts, round_corners
 
-PATH_TOLERANCE = 5e-4, np.deg2rad(0.25)  # m and rad: what a rounded corner may take off a tool path
-_WAYPOINT_TOLERANCE = 1e-12  # rad and m: waypoints this near are one
-_MAX_ROWS = 1_000_000  # rows
-_MERGE_RATIO = 1.0  # of the shorter line beside two waypoints: those nearer to each other than that are tried as one
+PATH_TOLERANCE = 5e-4, np.deg2rad(0.25)  # largest deviation of a rounded corner from a tool path, m and rad
+_WAYPOINT_TOLERANCE = 1e-12  # rad and m: closer waypoints are merged
+_MAX_ROWS = 1_000_000  # rows of a timed motion
+_MERGE_RATIO = 1.0  # of the shorter neighbouring line: a merge is tried for waypoints that are closer than this
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TimedMotion:
-    """Motion within speeds and accelerations that begins and ends at standstill, at equal steps of time.
+    """Motion within speeds and accelerations from standstill to standstill, sampled with a constant period.
 
-    Between two rows the motion goes on smoothly: differences of the rows keep the limits as the motion does.
+    Between two rows the motion is smooth, and differences of the rows respect the limits.
 
     Attributes:
         arm: The arm.
-        time: (N,) s.
-        q, qd, qdd: (N, n) joints, their rates and accelerations; rad and m, s.
-        accelerations: (n,) the limits, rad/s^2 and m/s^2; 0 of locked joints.
-        duration: s, of the motion at its fastest; the rows take up to one step more.
-        without: s, at the speed limits alone, every corner taken at speed; None without speed limits.
-        stops: Waypoints on the way at which the arm stops: no rounding of their corner could be proved, or the tool path begins
-            or ends there.
-        place: (N,) on the tool path, 0 to 1; NaN where the motion is not along it.
+        time: (N,) times, s.
+        q, qd, qdd: (N, n) joint positions, rates and accelerations, rad and m, per s and s^2.
+        accelerations: (n,) limits, rad/s^2 and m/s^2; 0 for locked joints.
+        duration: Duration of the fastest motion, s; the rows take up to one period more.
+        without: Duration at the velocity limits alone, with every corner at full speed, s; None without velocity limits.
+        stops: Number of waypoints on the way at which the arm stops, because no rounding of the corner could be proved, or
+            because the tool path begins or ends there.
+        place: (N,) fraction of the tool path, 0 to 1; NaN where the motion is not along it.
     """
 
     arm: Arm
@@ -58,11 +58,11 @@ class TimedMotion:
 
     @property
     def period(self) -> float:
-        """Time between two rows, s; 0 if there is one."""
+        """Time between two rows, s; 0 if there is only one."""
         return float(self.time[-1]) / max(len(self.time) - 1, 1)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write a row for each instant: its time, and the joints, rates and accelerations with their units.
+        """Write joints, rates and accelerations with their units to the CSV file ``file``, and return its path.
 
         Raises:
             StoreError: The file cannot be written.
@@ -72,9 +72,9 @@ class TimedMotion:
 
     def describe(self) -> str:
         """Return the timing in one sentence."""
-        without = "" if self.without is None else f" ({self.without:.3g} s at the speed limits alone)"
+        without = "" if self.without is None else f" ({self.without:.3g} s at the velocity limits alone)"
         stops_text = f", with {format_count(self.stops, 'stop')} on the way" if self.stops else ""
-        return f"within the accelerations given it takes {self.duration:.3g} s{without}{stops_text}"
+        return f"within the acceleration limits it takes {self.duration:.3g} s{without}{stops_text}"
 
 
 def time_motion(
@@ -91,19 +91,19 @@ def time_motion(
 ) -> TimedMotion:
     """Return the fastest motion found through waypoints (K, n), straight in joint space except for their corners.
 
-    A corner is rounded by the largest parabola, of a few, that is proved to keep limits, rows and clearance; along a tool path
-    it stays near it too.
+    A corner is rounded by the largest of a few parabolas that is proved to respect limits, rows and clearance; along a tool
+    path it also stays near the path.
 
     Args:
-        space: Where the arm may be.
-        degraded: What speeds are in force.
+        space: Free space of the arm.
+        degraded: Failed arm with the speeds in force.
         q: (K, n) waypoints, rad and m.
         accelerations: (n,) limits, rad/s^2 and m/s^2.
-        period: s between rows.
-        without: s that the motion takes at the speed limits alone, if there are any.
-        stop_indices: At which waypoints it must stop.
-        path_samples: Places (S,) on the tool path, and which waypoints are there.
-        stop_at_corners: Round no corner: stop at every waypoint.
+        period: Time between rows, s.
+        without: Duration of the motion at the velocity limits alone, s, if there are any.
+        stop_indices: Indices of the waypoints at which it must stop.
+        path_samples: Fractions (S,) of the tool path, and the slice of the waypoints at these fractions.
+        stop_at_corners: True to stop at every waypoint and round no corner.
 
     Raises:
         InputError: There would be more than a million rows.
@@ -163,10 +163,10 @@ def _are_chords_valid(space: FreeSpace, on_path: BoolArray, chords: CornerChords
 def _merge_close_waypoints(
     space: FreeSpace, waypoints: FloatArray, is_fixed: BoolArray, must_stop: BoolArray, path_fractions: FloatArray
 ) -> tuple[FloatArray, BoolArray, FloatArray]:
-    """Replace two close waypoints that need not stay by one, as a short line leaves little to round.
+    """Merge two close waypoints that need not stay, because a short line leaves little room for rounding.
 
-    It is where the lines beside them come nearest to each other, drawn on, or in the middle of the two: if the new lines are
-    proved to be free.
+    The new waypoint is where the extended neighbouring lines are closest to each other, or in the middle of the two, if the new
+    lines are proved free.
     """
     index = 1
     while index < len(waypoints) - 2:
@@ -213,7 +213,7 @@ def _sample_profile(
             f"the motion takes {duration:.4g} s, more than {_MAX_ROWS:,} rows {period:g} s apart; give a longer period"
         )
     count = int(np.ceil(duration / period * (1 - 1e-12)))
-    time_scale = duration / (count * period)  # whole periods: it is slowed by less than one
+    time_scale = duration / (count * period)  # full periods: the motion is slowed by less than one
     columns, rates, joint_accelerations = profile.sample(pieces, np.append(np.arange(count) * period * time_scale, duration))
     columns[-1, :n], rates[-1] = waypoints[-1], 0.0
     return (
@@ -221,7 +221,7 @@ def _sample_profile(
         rates[:, :n] * time_scale + 0.0,
         joint_accelerations[:, :n] * time_scale**2 + 0.0,
         duration,
-    )  # + 0: no -0 in a file
+    )  # + 0 replaces -0, which would appear in a file
 
 
 def _is_tool_near(arm: Arm, q: FloatArray, other: FloatArray) -> BoolArray:

@@ -1,9 +1,10 @@
 """Time-optimal path parametrisation through pieces, within speeds and accelerations, on a grid.
 
-With ``x`` the square of the path's speed and ``u = x' / 2`` its acceleration, constant in each interval of the grid, the
-joints' accelerations ``q' u + q'' x`` are linear in s within an interval of a parabola: what holds at both ends holds between
-them. Backwards, the greatest ``x`` from which the rest can be done; forwards, as fast as that allows (Pham and Pham 2018,
-TOPP-RA, with both ends of every interval kept). A straight line is one interval: accelerate, cruise, decelerate, exactly.
+With ``x`` the square of the path speed and ``u = x' / 2`` its acceleration, constant in each interval of the grid, the joint
+accelerations ``q' u + q'' x`` are linear in s within an interval of a parabola, so that limits that hold at both ends hold in
+between. A backward pass computes the greatest ``x`` from which the rest can be completed, and a forward pass is as fast as that
+allows (Pham and Pham 2018, TOPP-RA, with limits at both ends of every interval). A straight line is one interval with exact
+acceleration, cruise, and deceleration.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ import numpy as np
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.response.recovery.timing.rounding import PathPieces
 
-_MAX_INTERVALS_PER_PARABOLA = 32  # intervals of each parabola
-_MIN_INTERVALS_PER_PARABOLA = 4  # intervals of each parabola
+_MAX_INTERVALS_PER_PARABOLA = 32  # largest number of intervals of a parabola
+_MIN_INTERVALS_PER_PARABOLA = 4  # smallest number of intervals of a parabola
 _MAX_PARABOLA_INTERVALS = 1600  # intervals of all parabolas
-_POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the polygon of what is allowed
+_POLYGON_TOLERANCE = 1e-12  # of a bound, for corners of the feasible polygon
 
 
 @dataclass(frozen=True)
@@ -26,10 +27,10 @@ class SpeedProfile:
     """Speed along a path: G intervals with constant acceleration.
 
     Attributes:
-        pieces: (G,) of the way.
-        offsets: (G,) where in that piece an interval begins.
-        speed, acceleration: (G,) of the way as it begins, and all through it.
-        time: (G + 1,) s, when they begin, and the end.
+        pieces: (G,) index of the path piece of each interval.
+        offsets: (G,) start of the interval within that piece.
+        speed, acceleration: (G,) path speed at the start of the interval, and acceleration in it.
+        time: (G + 1,) start times of the intervals, and the end, s.
     """
 
     pieces: IndexArray
@@ -186,7 +187,7 @@ def _split_trapezoid(
 
 def _maximize_squared_speed(constraint_rows: FloatArray, max_squared_speed: float, next_limit: float) -> float:
     """Maximize x up to ``max_squared_speed`` so that ``rows @ (x, y) <= 1``, with y from 0 to ``next_limit``."""
-    # In units of the bounds, so that one rounding fits all.
+    # In units of the bounds, so that one rounding tolerance fits all.
     units = np.array([max_squared_speed, next_limit if next_limit > 0 else 1.0])
     if not np.isfinite(max_squared_speed):
         units[0] = 1 / np.abs(constraint_rows[:, 0]).max()

@@ -9,8 +9,8 @@ import numpy as np
 
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-_MAX_BISECTIONS = 9  # times a corner is, until what is cut off it is allowed; then the way stops there
-_CHORDS_PER_PARABOLA = 12  # chords of a parabola that is looked at
+_MAX_BISECTIONS = 9  # bisections of a corner cut until it is allowed; after these the motion stops there
+_CHORDS_PER_PARABOLA = 12  # chords of a parabola that are checked
 
 
 @dataclass(frozen=True)
@@ -18,9 +18,9 @@ class PathPieces:
     """Path of P pieces, each ``start + slope s + bend s^2 / 2`` for s from 0 to its length.
 
     Attributes:
-        start, slope, bend: (P, c); what counts are the joints, other columns go along.
-        length: (P,) of the joints' motion, rad (1 m as 1 rad), between corners that are rounded.
-        stops: (P,) True where the way must stop as a piece begins.
+        start, slope, bend: (P, c) coefficients of the joints, and of further columns.
+        length: (P,) length of the joints' motion between rounded corners, rad (1 m as 1 rad).
+        stops: (P,) True where the motion must stop at the start of a piece.
     """
 
     start: FloatArray
@@ -41,10 +41,10 @@ class CornerChords:
     """Chords of the parabolas at corners, to be checked.
 
     Attributes:
-        corner: (E,) which corner.
-        first, last: (E, n) the ends of a chord, on the parabola.
-        deviations: (E, n) the most by which each joint is off the chord in between.
-        line_points: (E, n) the place between waypoints that ``last`` takes.
+        corner: (E,) index of the corner.
+        first, last: (E, n) ends of a chord, on the parabola.
+        deviations: (E, n) largest deviation of each joint from the chord.
+        line_points: (E, n) points on the original lines that ``last`` replaces.
     """
 
     corner: IndexArray
@@ -55,14 +55,14 @@ class CornerChords:
 
 
 def find_corner_cuts(q: FloatArray, must_meet: BoolArray, is_allowed: Callable[[CornerChords], BoolArray]) -> FloatArray:
-    """Return (K,) how far before and after each waypoint of q (K, n), all distinct, its corner may be cut off; 0: a stop there.
+    """Return (K,) how far before and after each waypoint of q (K, n), all distinct, its corner may be cut; 0: a stop there.
 
-    Half of the shorter line beside it, or a half, a quarter, ... of that.
+    The cut is half of the shorter neighbouring line, or a half, a quarter, ... of that.
 
     Args:
-        q: (K, n), rad and m.
-        must_meet: (K,) True for waypoints that must be met themselves.
-        is_allowed: (E,) which chords, and all between them and the parabola, may be on the way.
+        q: (K, n) waypoints, rad and m.
+        must_meet: (K,) True for waypoints that the motion must pass.
+        is_allowed: Function that returns (E,) True for chords that are valid together with their deviations.
     """
     lengths = np.linalg.norm(np.diff(q, axis=0), axis=1)
     cut_lengths = np.zeros(len(q))

@@ -15,18 +15,18 @@ constexpr double task[TASK_ROWS][6] = TASK_TEXT;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double at_once_after = CONST_AT_ONCE, named_after = CONST_NAMED; /* s after the alarm */
-constexpr long known_after = CONST_KNOWN; /* cycles after the alarm: its kind is decided */
-constexpr double final_after = CONST_FINAL; /* s after the alarm: a verdict may be revised before */
+constexpr long known_after = CONST_KNOWN; /* cycles after the alarm: the kind is decided */
+constexpr double final_after = CONST_FINAL; /* s after the alarm: before this, a verdict may be revised */
 constexpr double still = CONST_STILL, runs = CONST_RUNS, faster = CONST_FASTER; /* rad/s or m/s */
-constexpr double behind_bounds = CONST_BEHIND, far_bounds = CONST_FAR; /* of the tracking bound */
+constexpr double behind_bounds = CONST_BEHIND, far_bounds = CONST_FAR; /* of the tracking threshold */
 constexpr double slow_pace = CONST_SLOW, half_pace = CONST_HALF, ramp = CONST_RAMP; /* of the commanded speed; 1/s */
 constexpr double quiet_for = CONST_QUIET, settle = CONST_SETTLED; /* s */
-constexpr double spare = CONST_SPARE; /* a weak motor must carry gravity so many times */
+constexpr double spare = CONST_SPARE; /* times gravity that a weak motor must be able to carry */
 constexpr double slack = CONST_SLACK, near = CONST_NEAR; /* rad or m */
 constexpr int poses = CONST_SAMPLES;
 constexpr double poses_later = CONST_LATER; /* s */
-constexpr double leak = CONST_LEAK; /* 1/s: servos of rates do not hold a place, so the reference forgets */
-constexpr double off_period = 0.5; /* of a cycle: the monitor coasts */
+constexpr double leak = CONST_LEAK; /* 1/s: rate servos do not hold a position, so the reference forgets its start value */
+constexpr double off_period = 0.5; /* of a cycle: beyond this deviation of the period, the monitor skips the cycle */
 
 bool finite(double x) { return x - x == 0; }
 
@@ -85,14 +85,14 @@ Return TolerantController::on_activate() {
     twist_.fill(0);
     status_.place.fill(not_known);
     posed_ = seen_ = over_ = lost_ = false;
-    elapsed_ = 1 / rate; /* the first cycle is one */
+    elapsed_ = 1 / rate; /* the first cycle counts as one period */
     pace_ = place_ = error_ = 0;
     aim_ = usual_ = 1;
     alarm_ = quiet_ = settled_ = never;
     samples_ = 0;
     named_ = -1;
     active_ = true;
-    become(Mode::running, "no fault seen");
+    become(Mode::running, "no fault detected");
     return Return::ok;
 }
 
@@ -116,7 +116,7 @@ Return TolerantController::update_and_write_commands(double /*time*/, double per
     status_.time += passed;
     status_.watching = false;
     if (!read(q, effort)) {
-        /* Nobody knows where the arm is. When positions are back it goes on, from standstill. */
+        /* The configuration is unknown. When positions are back, the arm continues from standstill. */
         commanded_.fill(0);
         pace_ = 0;
         elapsed_ += passed;
@@ -130,7 +130,7 @@ Return TolerantController::update_and_write_commands(double /*time*/, double per
     const Joints told = q;
     for (int k = 0; k < joints; ++k)
         if (finite(status_.place[k])) q[k] = status_.place[k];
-    /* What was commanded held since the last cycle. */
+    /* The last command has been in force since the last cycle. */
     for (int k = 0; k < joints; ++k) {
         double &reference = status_.reference[k];
         reference = mask_[k] > 0 && !lost_ ? reference + passed * (commanded_[k] + leak * (q[k] - reference)) : q[k];
@@ -148,7 +148,7 @@ Return TolerantController::update_and_write_commands(double /*time*/, double per
     return Return::ok;
 }
 
-/* ---- what it sees -------------------------------------------------------------------------------------------------- */
+/* ---- monitoring ----------------------------------------------------------------------------------------------------- */
 
 void TolerantController::become(Mode mode, const char *why) {
     if (status_.mode == mode && status_.why == why) return;
@@ -188,13 +188,13 @@ void TolerantController::watch(const Joints &q, const Joints &effort, double per
     if (options_.reacts) hear(q, verdict);
 }
 
-/* ---- what it does about it ----------------------------------------------------------------------------------------- */
+/* ---- response ------------------------------------------------------------------------------------------------------- */
 
 void TolerantController::hear(const Joints &q, const NAME_monitor_verdict &verdict) {
     const double time = status_.time;
     if (time > quiet_) {
         go_on();
-        become(status_.joint < 0 ? Mode::running : Mode::degraded, "what pushed the arm is gone");
+        become(status_.joint < 0 ? Mode::running : Mode::degraded, "the external force is gone");
         return;
     }
     if (!verdict.alarm) return;
@@ -203,10 +203,10 @@ void TolerantController::hear(const Joints &q, const NAME_monitor_verdict &verdi
         if (verdict.kind == GUARD_MONITOR_CONTACT) {
             if (quiet_ == never) {
                 quiet_ = time + quiet_for;
-                slow(slow_pace, "something pushes the arm, and no joint is to blame");
+                slow(slow_pace, "an external force acts on the arm, and no joint is faulty");
             }
         } else if (time > alarm_ + named_after) {
-            stop("a joint failed, and it is not known which");
+            stop("a joint failed, and it is not known which one");
         }
         return;
     }
@@ -218,26 +218,26 @@ void TolerantController::hear(const Joints &q, const NAME_monitor_verdict &verdi
         if (named_ == i) {
             if (time > alarm_ + final_after) go_on();
         } else if (verdict.loss >= 0 && (1 - verdict.loss) * largest_effort[i] < spare * std::fabs(monitor_.gravity[i])) {
-            leave_out(i, "what its motor still gives does not carry the arm");
+            leave_out(i, "the remaining motor torque of a joint does not carry the arm");
         } else {
             named_ = i;
-            slow(std::min(usual_, half_pace), "a joint moves against more than it should");
+            slow(std::min(usual_, half_pace), "a joint has a partial torque loss or more friction");
         }
         break;
     case GUARD_MONITOR_LOCKED:
         leave_out(i, "a joint is locked");
         break;
     case GUARD_MONITOR_SENSOR:
-        leave_out(i, "the sensor of a joint is wrong, or its clutch slips");
+        leave_out(i, "the sensor of a joint is faulty, or its clutch slips");
         break;
     case GUARD_MONITOR_LIMP:
     case GUARD_MONITOR_STANDSTILL:
-        if (options_.brakes) leave_out(i, "a joint swings free, or is locked");
-        else stop("a joint may swing free, and nothing brakes it");
+        if (options_.brakes) leave_out(i, "a joint is free-swinging or locked");
+        else stop("a joint may be free-swinging, and there is no brake");
         break;
     default:
         if (monitor_.count >= known_after && !options_.brakes)
-            stop("a joint has a fault of an unknown kind, and nothing brakes it");
+            stop("a joint has a fault of an unknown kind, and there is no brake");
         else if (monitor_.count >= known_after && monitor_.torques)
             leave_out(i, "a joint has a fault of an unknown kind");
         else if (time >= alarm_ + at_once_after) at_once(i, q);
@@ -251,7 +251,7 @@ void TolerantController::at_once(int i, const Joints &q) {
     else if (options_.brakes && y > runs_off && std::fabs(v - commanded_[i]) > faster && std::fabs(v) > runs)
         leave_out(i, "a joint runs away");
     else if (aim_ > slow_pace)
-        slow(slow_pace, "a joint failed; how is not known yet");
+        slow(slow_pace, "a joint failed, and the kind of fault is not known yet");
 }
 
 void TolerantController::slow(double pace, const char *why) {
@@ -273,7 +273,7 @@ void TolerantController::leave_out(int i, const char *why) {
     aim_ = usual_;
     samples_ = 0;
     place_ = error_ = 0;
-    /* It waits until the tool's pose has told where that joint is. */
+    /* Wait until the tool poses determine the position of that joint. */
     settled_ = status_.time + settle + (seen_ ? poses / 100.0 : 0);
     become(Mode::degraded, why);
 }
@@ -283,14 +283,14 @@ bool TolerantController::waits() const {
     return settled_ != never && status_.time <= settled_ + later;
 }
 
-/* Watch on: without the joint that was named, and at the pace that what has failed leaves. */
+/* Continue monitoring without the isolated joint, at the pace that the failures allow. */
 void TolerantController::go_on() {
     if (named_ < 0) NAME_monitor_rearm(&monitor_);
     else {
         NAME_monitor_leave_out(&monitor_, named_);
         if (mask_[named_] > 0) usual_ = std::min(usual_, half_pace);
     }
-    elapsed_ = std::min(elapsed_, 1 / rate); /* nothing was skipped: it begins anew */
+    elapsed_ = std::min(elapsed_, 1 / rate); /* the monitor restarts, so no cycle was skipped */
     aim_ = usual_;
     alarm_ = quiet_ = never;
     named_ = -1;
@@ -300,12 +300,12 @@ void TolerantController::measure(const Joints &q, const Joints &told) {
     if (samples_ == poses || status_.time <= settled_ - poses / 100.0) return;
     const int i = status_.joint;
     const double place = NAME_monitor_joint_by_tool(q.data(), pose_.data(), i);
-    place_ += place / poses; /* it stands, whatever its sensor does */
+    place_ += place / poses; /* the joint is at rest, independently of its sensor */
     error_ += (place - told[i]) / poses;
     samples_ += 1;
     if (samples_ == poses && std::fabs(error_) > slack) {
         status_.place[i] = place_;
-        become(Mode::degraded, "a joint is not where its sensor says, by the tool's pose");
+        become(Mode::degraded, "the tool pose contradicts the sensor of a joint");
     }
 }
 
@@ -317,7 +317,7 @@ void TolerantController::command(const Joints &q, double period) {
     else pace_ += std::min(std::max(aim_ - pace_, -ramp * dt), ramp * dt);
     for (int r = 0; r < TASK_ROWS; ++r)
         for (int c = 0; c < 6; ++c) v[r] += task[r][c] * (finite(twist_[c]) ? twist_[c] : 0);
-    /* A joint at its limit is not told to pass it: the others take over. */
+    /* A joint at its limit is not commanded beyond it; the other joints take over. */
     for (int tries = 0, again = 1; again && tries <= joints; ++tries) {
         again = 0;
         if (NAME_law(q.data(), v.data(), follow.data(), wanted.data())) break;
@@ -329,7 +329,7 @@ void TolerantController::command(const Joints &q, double period) {
     }
     double over = 1;
     for (int k = 0; k < joints; ++k) {
-        const double most = status_.joint < 0 ? largest_rate[k] : calibrated_rate[k]; /* faster, it alarms for no reason */
+        const double most = status_.joint < 0 ? largest_rate[k] : calibrated_rate[k]; /* faster motion would raise false alarms */
         over = std::max(over, std::fabs(pace_ * wanted[k]) / most);
     }
     for (int k = 0; k < joints; ++k) {

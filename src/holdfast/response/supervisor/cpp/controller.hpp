@@ -11,7 +11,7 @@
 namespace NAME {
 
 constexpr int joints = COUNT;
-constexpr double rate = GUARD_MONITOR_RATE; /* cycles per second that the monitor was calibrated for */
+constexpr double rate = GUARD_MONITOR_RATE; /* cycles per second for which the monitor is calibrated */
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
@@ -19,73 +19,74 @@ using Joints = std::array<double, joints>;
 
 enum class Return { ok, error };
 
-/* stopped: all rates are 0, or on their way there. degraded: joints are left out of the law, also while what is left is slowed. */
+/* stopped: all rates are 0 or decreasing to 0. degraded: joints are excluded from the law, also while the arm is slowed. */
 enum class Mode { inactive, running, slowed, degraded, stopped };
 
 const char *name_of(Mode mode);
 
 struct Options {
-    /* Whether it acts on what the monitor says; else it only tells, as while you record a healthy arm. */
+    /* True to respond to the monitor; false to report only, for example while you record a healthy arm. */
     bool reacts = true;
-    /* Whether something stops a joint whose motor gives no torque (Status::brake asks for it). Without brakes the arm stops for
-       every fault but one of a joint that is locked for sure, or of its sensor. */
+    /* True if brakes can stop a joint without motor torque (Status::brake requests it). Without brakes the arm stops for every
+       fault except a certainly locked joint or a faulty sensor. */
     bool brakes = true;
-    /* A joint's torque that says something (Options of a robot whose drives hide it: false). */
+    /* False for a robot whose drives do not report joint torques. */
     bool efforts = true;
-    /* Largest change of a commanded rate, rad/s^2 and m/s^2; bounds hold for the motion that they were calibrated with. */
+    /* Acceleration limit, rad/s^2 and m/s^2; the thresholds are valid for the calibrated kind of motion. */
     double acceleration = 10.0;
 };
 
-/* What is known now. Read it after update_and_write_commands, and hand it on when `changes` has grown. */
+/* Present status. Read it after update_and_write_commands, and publish it when `changes` has increased. */
 struct Status {
     Mode mode = Mode::inactive;
     const char *why = "not active";
     long changes = 0;
     NAME_monitor_verdict verdict{}; /* of the last alarm; joint from 0, -1: none */
-    int joint = -1;                 /* left out of the law last, from 0 */
-    std::array<bool, joints> brake{}; /* all that are left out of the law */
-    Joints place{};                 /* where these are by the tool's pose, rad or m, where a sensor is not believed; else not_known */
-    bool watching = false;          /* the monitor saw this cycle */
-    long cycles = 0, coasted = 0;   /* since it was activated; cycles that the monitor did not see, for its time was off */
-    double time = 0;                /* s, since it was activated */
-    Joints reference{};             /* where the joints should be: record it, with the measured values, to calibrate */
+    int joint = -1;                 /* joint that was excluded last, from 0 */
+    std::array<bool, joints> brake{}; /* all joints that are excluded from the law */
+    Joints place{};                 /* their positions by the tool pose, rad or m, if a sensor is not trusted; else not_known */
+    bool watching = false;          /* true if the monitor processed this cycle */
+    long cycles = 0, coasted = 0;   /* cycles since activation, and those that the monitor skipped because of their period */
+    double time = 0;                /* time since activation, s */
+    Joints reference{};             /* references of the joints; record them with the measured positions to calibrate */
 };
 
 /*
- * Moves the tool as it is told, watches the arm for joint faults, and goes on with the joints that are left, which it watches on.
+ * Moves the tool by a commanded twist, monitors the arm for joint faults, and continues with the remaining joints, which it
+ * keeps monitoring.
  *
- * Its life is that of a chainable controller of ROS 2, and it needs nothing of ROS: configure, lend it the interfaces, activate,
- * and call update_and_write_commands in every cycle, after the twist was written to references(). That call allocates nothing,
- * takes no lock, throws nothing, and returns ok also when a joint fails: an error would make a manager deactivate it, and the arm
- * would freeze. What is wrong is in status().
+ * Its life cycle is that of a chainable controller of ROS 2, but it does not need ROS: configure, assign the interfaces,
+ * activate, and call update_and_write_commands in every cycle, after the twist was written to references(). That call
+ * allocates no memory, takes no lock, and throws nothing. It returns ok even if a joint fails, because after an error a
+ * manager would deactivate the controller, and the arm would freeze. status() describes the fault.
  */
 class TolerantController {
 public:
     explicit TolerantController(const Options &options = {});
 
-    /* Names as the manager of ROS 2 wants them, in the order in which assign takes them. */
+    /* Names in the format of the ROS 2 controller manager, in the order of assign. */
     std::vector<std::string> command_interface_configuration() const;   /* JOINT/velocity */
     std::vector<std::string> state_interface_configuration() const;     /* JOINT/position, then JOINT/effort if they are used */
     std::vector<std::string> reference_interface_configuration() const; /* twist/linear.x ... twist/angular.z */
 
-    /* error: an option that is no number above 0. */
+    /* error: an option is not a number above 0. */
     Return on_configure();
 
-    /* Where states are read and commands are written, rad, m, N m, N, rad/s, m/s; effort is null without torques. */
+    /* Set the addresses of states and commands, rad, m, N m, N, rad/s, m/s; effort is null without torques. */
     void assign(const std::array<const double *, joints> &position, const std::array<const double *, joints> *effort,
                 const std::array<double *, joints> &velocity);
 
-    /* Forgets all faults. error: not configured, nothing assigned, or a position that is not a number. */
+    /* Clears all faults. error: not configured, nothing assigned, or a position is not a number. */
     Return on_activate();
 
     /* Commands zero rates. */
     Return on_deactivate();
 
-    /* The twist that is wanted, m/s and rad/s, linear before angular, frame: TASK_FRAME; what is not a number counts as 0. */
+    /* Commanded twist, m/s and rad/s, linear before angular, frame: TASK_FRAME; a component that is not a number counts as 0. */
     std::array<double, 6> &references() { return twist_; }
 
-    /* The tool's measured pose, (4, 4) row by row, taken now: for the next cycle alone. Without poses a joint whose sensor is wrong
-       cannot be told from one that is locked. */
+    /* Set the measured tool pose of the present time, (4, 4) by rows, for the next cycle only. Without poses, a faulty joint
+       sensor cannot be distinguished from a locked joint. */
     void see(const double pose[16]);
 
     /* time and period: s. */
@@ -104,7 +105,7 @@ private:
     void leave_out(int joint, const char *why);
     void go_on();
     void measure(const Joints &q, const Joints &told);
-    bool waits() const; /* until the tool's pose has told where the joint is that was left out */
+    bool waits() const; /* true until the tool poses determine the position of the excluded joint */
     void command(const Joints &q, double period);
     void write(const Joints &rates);
 

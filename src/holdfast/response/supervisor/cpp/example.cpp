@@ -1,8 +1,8 @@
 /*
- * A loop around NAME::TolerantController, at its own rate by the clock of this machine: an arm whose joints follow their rates
- * with a lag of 16 ms and whose sensors have noise, and from 0.5 s on not joint LOCK (from 1; 0: none).
+ * A real-time loop of NAME::TolerantController with a kinematic arm: the joints follow their rates with a lag of 16 ms, the
+ * sensors have noise, and joint LOCK (from 1; 0: none) stops after 0.5 s.
  * cc -std=c99 -c NAME_law.c NAME_monitor.c && c++ -std=c++17 NAME_example.cpp NAME.cpp NAME_law.o NAME_monitor.o -o NAME_example
- * ./NAME_example LOCK [SECONDS [RECORD.csv]]     the record is for 'holdfast calibrate' and 'holdfast diagnose'
+ * ./NAME_example LOCK [SECONDS [RECORD.csv]]     the CSV file is a log for 'holdfast calibrate' and 'holdfast diagnose'
  */
 #include "NAME.hpp"
 
@@ -25,8 +25,8 @@ int main(int count, char **words) {
     std::array<double *, NAME::joints> velocity{};
     for (int k = 0; k < NAME::joints; ++k) position[k] = &told[k], velocity[k] = &command[k];
     NAME::Options options;
-    options.efforts = false; /* this arm has none */
-    options.reacts = record == nullptr; /* what is recorded to calibrate must not be changed by old bounds */
+    options.efforts = false; /* this arm has no torques */
+    options.reacts = record == nullptr; /* old thresholds must not influence a log for calibration */
     NAME::TolerantController controller(options);
     if (controller.on_configure() != NAME::Return::ok) return 2;
     controller.assign(position, nullptr, velocity);
@@ -65,8 +65,8 @@ int main(int count, char **words) {
     }
     if (record) std::fclose(record);
     const NAME::Status &status = controller.status();
-    if (!status.verdict.alarm) std::puts("no fault seen, which does not prove that there is none");
-    else std::puts(status.joint < 0 ? "an alarm, and no joint was left out" : NAME_monitor_joints[status.joint]);
+    if (!status.verdict.alarm) std::puts("no fault detected, which does not prove that there is none");
+    else std::puts(status.joint < 0 ? "an alarm, and no joint was excluded" : NAME_monitor_joints[status.joint]);
     std::printf("%ld cycles, %ld of them off in time\n", status.cycles, status.coasted);
     return status.verdict.alarm ? 3 : 0;
 }
