@@ -51,7 +51,7 @@ class Program:
 
     @classmethod
     def from_facts(cls, facts: list[Any], build: Callable[[], Program]) -> Program:
-        """Return a program with known ``facts`` (:meth:`facts`); ``build`` makes the whole program when its operations are needed."""
+        """Return a program with known ``facts`` (:meth:`facts`); ``build`` makes the rest when it is needed."""
         program = cls.__new__(cls)
         program.name, shapes_in, shapes_out, program.size, program.digest = facts
         program.input_shapes, program.output_shapes = [tuple(x) for x in shapes_in], [tuple(y) for y in shapes_out]
