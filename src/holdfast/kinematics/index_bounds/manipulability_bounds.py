@@ -168,7 +168,7 @@ def upper_bound(*, n: int, m: int, k: int = 1) -> UpperBound:
         raise InputError(f"k is {k}; at least one joint must fail")
     if k > n - m:
         raise InputError(
-            f"after {k} failures the task has {n - k} joints for {count_rows(m)}: the upper bound is 0; give k of at most {n - m}"
+            f"after {k} failures the task has {n - k} joints for {count_rows(m)}: the bound is 0; give k of at most {n - m}"
         )
     bound: ProvedBound = best_proved_bound(int(n), int(m), int(k))
     return UpperBound(n=int(n), m=int(m), k=int(k), bound=bound.value, bound_by=bound.by)
