@@ -109,7 +109,7 @@ REFUSED = [
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 0}}", "timing: duration is 0 s; it must be above 0"),
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{}}", "timing.duration: it is missing; it must be given"),
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: true}}", "timing.duration: True is wrong; it must be a number"),
-    (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 1, accelerate: 0.9}}", "they are shares of the time"),
+    (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 1, accelerate: 0.9}}", "they are fractions of time"),
 ]
 
 
