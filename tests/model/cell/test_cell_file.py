@@ -187,7 +187,7 @@ def test_damaged_meshes(tmp_path):
 
 def test_surfaces_without_an_inside():
     shape = ring()
-    with pytest.raises(hf.InputError, match=r"not closed, so it has no inside; close it, or say solid: hull"):
+    with pytest.raises(hf.InputError, match=r"not closed, so it has no inside; close it, or use solid: hull"):
         Mesh("jig", (shape.vertices, shape.faces[1:]))
     assert Mesh("jig", (shape.vertices, shape.faces[1:]), solid="hull").surface.is_closed
     broken = shape.vertices.copy()

@@ -227,8 +227,9 @@ class Distribution:
     def cdf(self, h: ArrayLike, reachable_only: bool = False) -> FloatArray:
         """Return ``F(h)``, the fraction of samples with a value below ``h``, an array of any shape; F(0) = 0.
 
-        With ``reachable_only``, poses without a configuration do not count. Source: Abdi et al. 2012, section IV; strict ``<``,
-        so that the probability of at least 0 is 1.
+        With ``reachable_only``, poses without a configuration do not count.
+
+        Source: Abdi et al. 2012, section IV; strict ``<``, so that the probability of at least 0 is 1.
         """
         h_ = np.asarray(h, dtype=np.float64)
         return np.asarray(self._weight_below(h_, reachable_only) / self._total_size(reachable_only))
@@ -328,7 +329,9 @@ class Distribution:
         """Return edges (bins + 1,) and probability density (bins,) of the finite values at reached poses; ``bins`` is their
         number.
 
-        The density integrates to the fraction of these values. Source: Abdi et al. 2012, section IV: counts / (N width).
+        The density integrates to the fraction of these values.
+
+        Source: Abdi et al. 2012, section IV: counts / (N width).
         """
         size = self._total_size(True)
         low, high = self.lowest, self.highest

@@ -5,15 +5,16 @@ exact, and b bounds the terms of second and higher order over the box. It is the
 of their values at c, row by row, plus a bound of the third derivatives.
 
 - ``rho_k``, a bound of the distance of the tool from axis k in the box, computed from the tool inwards, because only joints
-beyond k change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. For a prismatic joint it is 1, its column's norm.
-- position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, and each further joint adds one product with its axis. So
-  no derivative of order j with l outermost exceeds rho_l, and with ``A_l = sum_{k<=l} h_k`` their contribution is
-  ``sum_l rho_l (A_l^j - A_{l-1}^j) / j!``; prismatic joints count only as the outermost, once.
+  beyond k change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. For a prismatic joint it is 1, its column's
+  norm.
+- position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, and each further joint adds one product with its axis. So no
+  derivative of order j with l outermost exceeds rho_l, and with ``A_l = sum_{k<=l} h_k`` their contribution is ``sum_l rho_l
+  (A_l^j - A_{l-1}^j) / j!``; prismatic joints count only as the outermost, once.
 - orientation: with the tool's axes ``a_i`` and the target axes ``d_i`` the rows are ``1/2 sum d_i x a_i``, or for the tool's z
-axis alone its products with the target x and y axes. Both are linear in the axes and each derivative is at most 1 in any
-direction, so terms of order j are at most ``S^j / j!`` with S the sum of the half widths of revolute joints. The second are
-``1/2 (D A' z_k) x z_l - (z_k . z_l) e`` with the axes as columns of A and D. The rows also vanish at half a turn, which no box
-with ``S`` below the angle error can contain: such boxes are empty.
+  axis alone its products with the target x and y axes. Both are linear in the axes and each derivative is at most 1 in any
+  direction, so terms of order j are at most ``S^j / j!`` with S the sum of the half widths of revolute joints. The second are
+  ``1/2 (D A' z_k) x z_l - (z_k . z_l) e`` with the axes as columns of A and D. The rows also vanish at half a turn, which no
+  box with ``S`` below the angle error can contain: such boxes are empty.
 
 A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i``. Two directions are tried:
 the error's own, and ``v = (J h^2 J' + b^2)^-1 e(c)``, in which the error is largest relative to the extent of the box.

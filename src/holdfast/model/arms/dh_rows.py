@@ -44,12 +44,12 @@ def dh_table(arm: Arm) -> DHTable:
     If the geometry leaves a choice:
 
     - The first frame is the arm's base if the first axis is its z; else it is at the first joint, and ``base`` contains the
-    rest.
+      rest.
     - Between skew or intersecting axes x lies along the common normal. It has the sign of the x axis of the joint's own frame
-    if that is along the normal, so that an arm made by :meth:`holdfast.Arm.from_dh` returns its own rows; else the sign that
-    makes a positive; and for intersecting axes the sign that makes theta at most a quarter turn.
+      if that is along the normal, so that an arm made by :meth:`holdfast.Arm.from_dh` returns its own rows; else the sign that
+      makes a positive; and for intersecting axes the sign that makes theta at most a quarter turn.
     - Between parallel axes the normal passes through the next joint's origin. For coincident axes x is that of the joint's own
-    frame, or else the previous x.
+      frame, or else the previous x.
     - A prismatic joint has a direction and no position, so its axis passes through its origin.
     - The last frame is that of the arm's own last row, or the last joint's own frame; ``tool`` contains the rest.
 
