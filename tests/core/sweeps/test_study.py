@@ -313,7 +313,7 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
     make(tmp_path / "s")
     for some, seed, words in (
         (cells(3), 1, "cell 'c2' is not in it"),
-        (cells(1), 1, "cell 'c1' is not asked for"),
+        (cells(1), 1, "cell 'c1' is not requested"),
         (cells(rows=24), 1, "has rows 23, asked for is 24"),
         (cells(), 2, "its seed is 1, asked for is 2"),
         ([SweepCell("c0", Toy(), {"scale": 9}, rows=23, chunk=5), cells()[1]], 1, "cell 'c0' has other settings"),
