@@ -161,11 +161,9 @@ class Kernel:
         return results[0] if len(results) == 1 else tuple(results)
 
     def rows(self, *inputs: ArrayLike, first: int | None = None) -> FloatArray:
-        """Evaluate ``inputs`` as a call does and return (N, n_out): all outputs of a row one after the other, matrices row by
-        row.
+        """Evaluate ``inputs`` as a call does; return (N, n_out), all outputs of a row in order, matrices row by row.
 
-        ``first`` limits the results to the first numbers of a row, (N, first), because small programs spend half the time on
-        writing.
+        ``first`` limits the results to (N, first), because small programs spend half the time on writing them.
         """
         return self._evaluate(*self._check_inputs(inputs), first)[0]
 

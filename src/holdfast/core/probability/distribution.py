@@ -235,8 +235,7 @@ class Distribution:
         return np.asarray(self._weight_below(h_, reachable_only) / self._total_size(reachable_only))
 
     def probability(self, at_least: float | None = None, at_most: float | None = None, reachable_only: bool = False) -> float:
-        """Return the fraction of samples with a value ``at_least`` or ``at_most`` a threshold: the paper's global index ``1 -
-        F(h)``.
+        """Return the fraction of values ``at_least`` or ``at_most`` a threshold, the paper's global index ``1 - F(h)``.
 
         Thresholds have the unit of the index. With ``reachable_only``, poses without a configuration do not count.
 
@@ -326,8 +325,7 @@ class Distribution:
         return np.where(beyond, np.inf, found)
 
     def density(self, bins: int = 40) -> tuple[FloatArray, FloatArray]:
-        """Return edges (bins + 1,) and probability density (bins,) of the finite values at reached poses; ``bins`` is their
-        number.
+        """Return edges (bins + 1,) and density (bins,) of the finite values at reached poses, in ``bins`` equal bins.
 
         The density integrates to the fraction of these values.
 

@@ -28,11 +28,9 @@ class Interval:
 
     @classmethod
     def from_counts(cls, hits: float, size: float, confidence: float = 0.95) -> Interval:
-        """Return the fraction ``hits`` / ``size`` of independent cases with its Clopper-Pearson interval at the level
-        ``confidence``.
+        """Return the fraction ``hits`` / ``size`` of independent cases with its interval at the level ``confidence``.
 
-        Weighted cases need not be whole numbers. For whole cases the coverage is at least ``confidence``, for any true
-        fraction.
+        Weighted cases need not be whole numbers. For whole cases the coverage is at least ``confidence`` for any fraction.
 
         Source: Clopper and Pearson 1934.
         """
@@ -89,8 +87,7 @@ class Difference:
 
     @classmethod
     def of_pairs(cls, first: NDArray[np.bool_], second: NDArray[np.bool_], confidence: float = 0.95) -> Difference:
-        """Return the difference of two fractions: second minus first, ``first`` and ``second`` (N,) booleans of the same N >= 1
-        cases.
+        """Return the fraction of ``second`` minus that of ``first``, both (N,) booleans for the same N >= 1 cases.
 
         Only cases that differ are informative. The interval at the level ``confidence`` contains 0 unless the test rejects 0.
         Its coverage has no proof: of 700 random cases for each of N = 5 to 30 (measured) nearly all cover 0.95 or more, and the
@@ -119,8 +116,7 @@ class Difference:
 
     @classmethod
     def of_fractions(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
-        """Return the mean of independent ``differences`` (N,), one or more, between -1 and 1, with an interval that always
-        covers.
+        """Return the mean of independent ``differences`` (N,), N >= 1, from -1 to 1, with an interval that always covers.
 
         As ``Interval.of_fractions``, at the level ``confidence``. The p value is one over the capital of a gambler who bets
         against no difference, so the value 1 is common.
@@ -133,8 +129,7 @@ class Difference:
 
     @classmethod
     def of_means(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
-        """Return the mean of ``differences`` (N,), two or more, with Student's t interval at the level ``confidence`` and t
-        test.
+        """Return the mean of ``differences`` (N,), N >= 2, with Student's t interval at the level ``confidence`` and t test.
 
         Use it for unbounded quantities, such as errors in m. The coverage is as stated for normal differences and for many of
         them. For few skewed differences it may be far lower (:doc:`/evidence/intervals`); no method without bounds can do

@@ -72,8 +72,7 @@ class Store:
             chunk: Number of rows in a chunk.
 
         Raises:
-            StoreError: The folder is not writable, not a results folder, or belongs to another plan; the message states the
-                difference.
+            StoreError: The folder is not writable, no results folder, or of another plan; the message states the difference.
         """
         folder = Path(path)
         plan = json.loads(json.dumps(plan))

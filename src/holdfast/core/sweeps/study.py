@@ -286,8 +286,7 @@ class Study(Result):
             cells: Cells with which the study was created.
             runner: Threads or cluster that computes the chunks.
             progress: Called after every chunk with the chunks done, the total, and the remaining seconds.
-            stop: Called now and then; once it returns True, chunks in progress are finished and committed, and no new one is
-                begun.
+            stop: Called now and then; once it returns True, chunks in progress are committed, and no new one is begun.
             part: ``(1, 3)`` computes only the first of three parts, for machines without a common folder; see
                 :func:`holdfast.core.sweeps.merge_studies`.
 

@@ -144,7 +144,7 @@ class WeightedSum(Objective):
     """Weighted sum of objectives, such as those of English & Maciejewski 1998, section VII, and Abdi et al. 2012.
 
     All summands must have the same better direction: a susceptibility (smaller is better) in a sum with an index (larger is
-        better) needs a weight of the opposite sign. The better direction of the sum is that of its first summand.
+    better) needs a weight of the opposite sign. The better direction of the sum is that of its first summand.
 
     Args:
         terms: Weights, not 0, and objectives of one arm.

@@ -8,8 +8,8 @@ of their values at c, row by row, plus a bound of the third derivatives.
   beyond k change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. For a prismatic joint it is 1, its column's
   norm.
 - position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, and each further joint adds one product with its axis. So no
-  derivative of order j with l outermost exceeds rho_l, and with ``A_l = sum_{k<=l} h_k`` their contribution is ``sum_l rho_l
-  (A_l^j - A_{l-1}^j) / j!``; prismatic joints count only as the outermost, once.
+  derivative of order j with l outermost exceeds rho_l, and with ``A_l = sum_{k<=l} h_k`` their contribution is
+  ``sum_l rho_l (A_l^j - A_{l-1}^j) / j!``; prismatic joints count only as the outermost, once.
 - orientation: with the tool's axes ``a_i`` and the target axes ``d_i`` the rows are ``1/2 sum d_i x a_i``, or for the tool's z
   axis alone its products with the target x and y axes. Both are linear in the axes and each derivative is at most 1 in any
   direction, so terms of order j are at most ``S^j / j!`` with S the sum of the half widths of revolute joints. The second are
@@ -105,9 +105,9 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     """Build the kernel of an arm and a task's components, for a pose or, if ``is_along_leg``, for a straight leg of a path.
 
     Inputs: centre (n,) and half widths (n,), rad and m; target position (3,) and orientation (3, 3); allowed error of each row
-        (m,). Outputs: ``margin``, above 0 for an empty box; centre (n,) and half widths (n,) of the contracted box; ``inside``,
-        below 0 if it lies strictly inside in the joints that move; its fraction of the volume; the joint to bisect; the vector
-        from the old to the new centre (n,); the rows' error at the centre (m,).
+    (m,). Outputs: ``margin``, above 0 for an empty box; centre (n,) and half widths (n,) of the contracted box; ``inside``,
+    below 0 if it lies strictly inside in the joints that move; its fraction of the volume; the joint to bisect; the vector from
+    the old to the new centre (n,); the rows' error at the centre (m,).
 
     Along a leg the vector (3,), m, of the leg is one more input, and the position on it, 0 to 1, is one more joint: the last of
     the n joints.

@@ -180,7 +180,7 @@ class Resolution(Steppable):
         """Return rates (n,) for the task, with or without the desired self-motion; joints at their bounds are held there.
 
         Further results: the fraction of the self-motion that the cap allows, the fraction that the bounds allow, and the
-            damping.
+        damping.
         """
         n = self.arm.n
         fixed_rates, free = ca.SX(n, 1), ca.SX.ones(n, 1)

@@ -40,8 +40,7 @@ class Timing(Protocol):
 @check_constructor
 @dataclass(frozen=True)
 class Trapezoid:
-    """Motion from rest to rest: the speed rises linearly, is constant, and falls linearly, by default for 20, 60, and 20 % of
-    time.
+    """Motion from rest to rest: the speed rises linearly, is constant, and falls linearly, by default for 20, 60, and 20 %.
 
     Attributes:
         duration: Duration, s, above 0.

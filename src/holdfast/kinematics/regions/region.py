@@ -125,9 +125,8 @@ class Region(Presentable):
             name: Name for reports.
             weight: Weight of a pose, 0 or more; only ratios matter. Either a function of samples (N, 6), x, y, z, then the
                 angles about z, y, and x (yaw, pitch, roll) in m and rad, that returns (N,); a results folder cannot store it.
-                Or points by
-                coordinate, which it can store: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond
-                them; several coordinates are multiplied.
+                Or points by coordinate, which it can store: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and
+                constant beyond them; several coordinates are multiplied.
             order: Convention of roll, pitch, yaw: ``urdf``, or ``abdi`` for ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of
                 Abdi et al. 2012, which swaps the names of the first and the last angle.
 

@@ -176,8 +176,8 @@ class InverseKinematics:
     """Compiled solver of one arm and task.
 
     One step is damped least squares without the joints that press against a limit: ``dq = A J' (J A J' + lambda I)^-1 e`` with
-        ``lambda = 1e-3 |e|^2 + 1e-12``, and the new q is clipped to the limits. Its lengths, and those of every ``tolerance``,
-        are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`scale_tolerance`.
+    ``lambda = 1e-3 |e|^2 + 1e-12``, and the new q is clipped to the limits. Its lengths, and those of every ``tolerance``, are
+    in units of :attr:`holdfast.Arm.length_unit`; see :meth:`scale_tolerance`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
@@ -326,7 +326,7 @@ class InverseKinematics:
         start.
 
         Start k of row i is one of a pool of random configurations and depends only on i and k: not on the remaining rows, on
-            the number of parallel starts, or on the number of rows.
+        the number of parallel starts, or on the number of rows.
         """
         count, n = len(parameters), self.arm.n
         pool_size = 1 << max(12, (restarts - 1).bit_length())

@@ -23,8 +23,7 @@ _TOOL_Z_AXIS = (0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ToolConstraint:
-    """Components of the end effector's pose that are fixed at every instant; made by :func:`upright`, :func:`rail`,
-    :func:`plane`.
+    """Fixed components of the end effector's pose along a motion; made by :func:`upright`, :func:`rail`, :func:`plane`.
 
     Attributes:
         name: ``upright``, ``rail`` or ``plane``.

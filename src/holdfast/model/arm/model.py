@@ -160,8 +160,7 @@ class Arm(Presentable, ArmData):
         :attr:`fingerprint`. A table has its own frames between the joints.
 
         Args:
-            file: Path of the file, replaced in one step. :meth:`from_urdf` reads URDF, :func:`holdfast.model.arms.resolve`
-                both.
+            file: Path of the file, replaced in one step. :func:`holdfast.model.arms.resolve` reads both formats.
 
         Returns:
             Path of the file.

@@ -103,7 +103,7 @@ def _origin_element(pose: FloatArray) -> str:
     rotation = pose[:3, :3]
     cosine_of_pitch = float(np.hypot(rotation[0, 0], rotation[1, 0]))
     pitch = np.arctan2(-rotation[2, 0], cosine_of_pitch)
-    # At 90 degrees only one of the two other angles counts.
+    # At a pitch of +-90 degrees only one of the two other angles counts.
     is_regular = cosine_of_pitch > 1e-9
     roll = np.arctan2(rotation[2, 1], rotation[2, 2]) if is_regular else 0.0
     yaw = np.arctan2(rotation[1, 0], rotation[0, 0]) if is_regular else np.arctan2(-rotation[0, 1], rotation[1, 1])

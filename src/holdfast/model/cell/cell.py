@@ -102,8 +102,7 @@ class Cell:
     @classmethod
     @check_arguments
     def load(cls, path: str | Path) -> Cell:
-        """Return the cell in the file ``path``: YAML (:mod:`holdfast.model.cell.cell_file`), or URDF or MJCF, as its content
-        shows.
+        """Return the cell in the file ``path``: YAML (:mod:`holdfast.model.cell.cell_file`), URDF or MJCF, by its content.
 
         For a URDF or MJCF file with several ends use :meth:`from_urdf` or :meth:`from_mjcf`, which take the end of the arm.
 
@@ -161,8 +160,7 @@ class Cell:
     def from_mjcf(
         cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
     ) -> Cell:
-        """Return the objects around an arm in an MJCF file: colliding geoms of the world and of bodies that do not move with
-        the arm.
+        """Return the objects around an arm in an MJCF file: colliding geoms of bodies that do not move with the arm.
 
         The bodies from ``base`` to the first joint that moves belong to the arm, except the world. A mesh becomes its convex
         hull, as in MuJoCo. Objects that touch the base may touch it, because neither moves. Needs ``holdfast-arms[physics]``.

@@ -1,7 +1,7 @@
 """Interpolate a field and its gradient with two kernels that are compiled once for all fields, whose tables are inputs.
 
 A point is looked up in two tables, the grid and the table for points outside: one kernel computes the indices, the other the
-    value.
+value.
 """
 
 from __future__ import annotations

@@ -68,8 +68,7 @@ class PrimitiveSolid(Solid):
         raise NotImplementedError
 
     def numbers(self, extra: float = 0.0) -> FloatArray:
-        """Return the inputs (18,) of the compiled bound: rotation (9) and translation (3) into its frame, sizes, rounding,
-        flags.
+        """Return the inputs (18,) of the compiled bound: rotation (9) and translation (3), half sizes, rounding, flags.
 
         Args:
             extra: Length added to the rounding, m, which reduces the distance.

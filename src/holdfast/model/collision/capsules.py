@@ -134,8 +134,7 @@ class Capsules:
     @classmethod
     @check_arguments
     def along_links(cls, arm: Arm, radius: float | None = None) -> Capsules:
-        """Make one capsule along each link: from the frame that moves with its joint to that of the next joint, or to the tool
-        point.
+        """Make one capsule along each link: from the frame that moves with its joint to the next joint, or to the tool point.
 
         The capsule of the base extends from its own frame to the first joint. A link of length 0 lies within the round end of
         its neighbour and has no capsule; on a prismatic joint, which moves it away from there, it has a sphere. The rod of a

@@ -43,14 +43,14 @@ class Clearance:
     """Smallest distance, m, between the capsules of an arm and the objects of its cell; below 0 in a collision.
 
     A negative distance between two capsules is minus the penetration depth: the distance between the axes minus the two radii.
-        The distance from an object of the cell is a lower bound, computed from the spheres that cover the capsules of a link.
+    The distance from an object of the cell is a lower bound, computed from the spheres that cover the capsules of a link.
 
     Some pairs of capsules are not checked: those of one link, of adjacent links, of links under ``ignore`` (held objects are
-        checked against all links except the last), and pairs that touch by construction, which overlap in at least 95 % of 512
-        configurations within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m if there is
-        no limit). Such pairs have only short links between them, for example the two sides of an elbow, so their overlap has no
-        meaning. The default collision matrix of the MoveIt Setup Assistant has the same criterion (Coleman et al. 2014, J.
-        Software Eng. Robotics 5(1)).
+    checked against all links except the last), and pairs that touch by construction, which overlap in at least 95 % of 512
+    configurations within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m if there is no
+    limit). Such pairs have only short links between them, for example the two sides of an elbow, so their overlap has no
+    meaning. The default collision matrix of the MoveIt Setup Assistant has the same criterion (Coleman et al. 2014, J. Software
+    Eng. Robotics 5(1)).
 
     Args:
         arm: Arm model.
@@ -346,8 +346,7 @@ class Clearance:
         return self.exactness.library_description
 
     def closest_pair(self, q: ArrayLike) -> IndexArray:
-        """Return the position in ``pair_names`` of the pair with the smallest margin, (N,) or a scalar, at ``q`` (N, n) or
-        (n,).
+        """Return the position in ``pair_names`` of the smallest margin, (N,) or a scalar, at ``q`` (N, n) or (n,).
 
         Of several pairs it is the first. It is -1 where q is not finite and if there is no pair to check.
         """

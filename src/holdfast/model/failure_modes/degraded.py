@@ -241,8 +241,7 @@ def _check_speed_fraction(arm: Arm, name: str, given: Any) -> float:
 
 
 def degraded_at(arm: Arm, locked: Locked, at: FloatArray) -> Degraded | None:
-    """Return the failures of ``arm`` with joints ``locked`` at given values or those in ``at`` (n,); None if nothing has
-    failed.
+    """Return the failures of ``arm`` with joints ``locked`` at given values or those in ``at`` (n,); None if there are none.
 
     Raises:
         InputError: As for :func:`read_locks`; a :class:`Degraded` of another arm.
@@ -257,8 +256,7 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
     """Return the ``locked`` joints of ``arm`` by index in the given order, with values in rad or m, or None (present value).
 
     Raises:
-        InputError: There is no such joint, one is given twice, a value is not finite, or a :class:`Degraded` has ranges or
-            speeds.
+        InputError: There is no such joint, one is given twice, a value is not finite, or ``locked`` has ranges or speeds.
     """
     if isinstance(locked, Degraded):
         others = [f"a range of '{name}'" for name in locked.ranges] + [f"a speed of '{name}'" for name in locked.speeds]

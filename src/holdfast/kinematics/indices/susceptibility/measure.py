@@ -216,8 +216,7 @@ class Susceptibility(Labelled, Objective):
         return replace(super().row_function(), kernels=(self._values_kernel, self._gradient_kernel))
 
     def jacobian(self, q: ArrayLike) -> FloatArray:
-        """Return the derivatives of the measures at ``q`` (N, n) or (n,): ``out[..., i, j] = d f_i / d q_j``, (..., n, n); eq.
-        (4).
+        """Return ``out[..., i, j] = d f_i / d q_j``, (..., n, n), at ``q`` (N, n) or (n,), rad and m; eq. (4).
 
         The row of a degenerate joint is 0.
         """

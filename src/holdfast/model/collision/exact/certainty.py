@@ -1,7 +1,7 @@
 """Certain contacts, and the parts of the shape that prevent certainty.
 
 A contact is certain if it is between bodies that lie within the arm: meshes and primitives that were read, and capsules that
-    were given as its shape. Capsules that cover a shape, or whose radius is assumed, may overlap although the arm does not.
+were given as its shape. Capsules that cover a shape, or whose radius is assumed, may overlap although the arm does not.
 """
 
 from __future__ import annotations
