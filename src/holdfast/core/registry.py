@@ -32,7 +32,7 @@ class Parameter:
     Attributes:
         unit: Unit of the value; ``1`` if it has none.
         help: Short noun phrase.
-        low, high: Open lower and upper bound of the value; None: no bound.
+        low, high: Open lower and upper bound of the value, in its unit; None: no bound.
         example: A value, or the name of a function of the constructor's module that makes one for ``(arm, task)``.
         name, kind, default: Set from the signature, never by the caller; ``...`` means that there is no default.
     """

@@ -105,7 +105,7 @@ class Loop:
         Args:
             state: (N, s) initial states.
             parameters: (N, p) all parameters of a row one after the other, matrices row by row.
-            tolerance: Largest residual of a finished row.
+            tolerance: Largest residual of a finished row, in the unit of the residual.
             most_steps: Maximum number of steps of a row.
             report: Called with the number of rows that newly reached the tolerance, from any thread.
         """

@@ -34,7 +34,7 @@ class Distribution:
         unreached: Number of poses without a configuration.
         singular: Number of singular configurations (they count with the value of the convention).
         infinite: Number of infinite values.
-        total: Sum of the finite values times their weights.
+        total: Sum of the finite values times their weights, in the unit of the index.
         lowest, highest: Smallest and largest finite value with a weight above 0.
         weights: (N,) weights of ``values``, or None for equal weights. In bins, ``counts`` are sums of weights.
     """

@@ -73,10 +73,10 @@ class Difference:
     """Mean difference between two methods on the same cases, with its confidence interval.
 
     Attributes:
-        value: Mean of the second method minus mean of the first.
-        low, high: Limits of the interval.
+        value: Mean of the second method minus mean of the first, in the unit of the cases.
+        low, high: Limits of the interval, in the same unit.
         confidence: Confidence level of the interval, 0 to 1.
-        p_value: Two-sided p value of the hypothesis of no difference.
+        p_value: Two-sided p value, 0 to 1, of the hypothesis of no difference.
     """
 
     value: float

@@ -38,7 +38,7 @@ class ChunkResult:
     Attributes:
         task: The task.
         columns: Values by column, or None if the job raised an error.
-        seconds: Processor time of the thread that computed it.
+        seconds: Processor time of the thread that computed it, s.
         made: Versions and processor that computed the values.
         problem: Error of the job, or None.
     """

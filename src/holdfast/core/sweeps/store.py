@@ -296,7 +296,7 @@ class Store:
         return damaged
 
     def verify(self, progress: Callable[[int, int, float | None], None] | None = None) -> list[DamagedChunk]:
-        """Compare the checksums of all committed chunks; damaged ones become missing. ``progress``: (read, total, None).
+        """Compare all checksums and mark damaged chunks as missing; ``progress`` is called with (chunks read, total, None).
 
         Raises:
             StoreError: Another program is working in the folder, it is not writable, or it belongs to a study.

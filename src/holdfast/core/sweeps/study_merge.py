@@ -55,7 +55,7 @@ def merge_studies(path: str | Path, folders: Sequence[str | Path], progress: Pro
     Args:
         path: Folder to merge into; it is created if it does not exist.
         folders: Folders to copy from.
-        progress: Called after every chunk with the chunks done and the total.
+        progress: Called after every chunk with the chunks done, the total, and None.
 
     Raises:
         StoreError: A folder belongs to another study, a chunk is damaged, or another program is working in a folder.

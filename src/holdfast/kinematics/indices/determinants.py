@@ -49,7 +49,8 @@ class RelativeManipulability(Index):
 
     The bound is the least proved one (:mod:`holdfast.kinematics.index_bounds`). For one failure at a time some Jacobian of any
     size attains it. For several failures ``best_known`` is attained by some Jacobian, and ``is_attained`` is true if it equals
-    the bound. The arguments ``arm``, ``task``, ``failures`` and ``length`` are those of :class:`Index`.
+    the bound. The arguments ``arm``, ``task``, ``failures`` and ``length``, m, are those of
+    :class:`Index`.
 
     Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma.
     """
@@ -247,7 +248,7 @@ class RelativeManipulability(Index):
         return value[0] if single else value
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
-        """Return value, worst failure and status at ``q``, as :meth:`Index.worst_case`, from a kernel that finds the worst."""
+        """Return value, worst failure and status at ``q`` (N, n) or (n,), as :meth:`Index.worst_case` does, from one kernel."""
         rows, single = self._read_configurations(q)
         outputs, marked = self._worst_failure_kernel.marked_rows(rows)
         value, status = np.ascontiguousarray(outputs[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)

@@ -110,7 +110,7 @@ class CustomIndex(FormulaIndex):
         name: Name for people and files.
         unit: Unit of the value.
         better: ``"larger"`` or ``"smaller"``, the better direction.
-        bound: Best possible value, if known.
+        bound: Best possible value in the unit of the index, if known.
 
     Raises:
         TaskError: The formula raises an error, or does not return one scalar.

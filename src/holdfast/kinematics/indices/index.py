@@ -56,7 +56,7 @@ class WorstCase:
     """Worst failure at N configurations, or at one: a part of :class:`IndexEvaluation`.
 
     Attributes:
-        value, worst, status: See :class:`IndexEvaluation`.
+        value, worst, status: (N,) each, as in :class:`IndexEvaluation`.
     """
 
     value: FloatArray

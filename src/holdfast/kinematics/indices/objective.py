@@ -147,7 +147,7 @@ class WeightedSum(Objective):
     better) needs a weight of the opposite sign. The better direction of the sum is that of its first summand.
 
     Args:
-        terms: Weights, not 0, and objectives of one arm.
+        terms: Pairs of a weight, a number that is not 0, and an objective, all of one arm.
         name: Name for people; default: composed of the summands.
 
     Attributes:

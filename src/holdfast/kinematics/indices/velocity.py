@@ -33,7 +33,7 @@ class DirectionalVelocity(FormulaIndex):
     Args:
         arm: Arm model.
         direction: (3,) vector in the axes of the task's frame, of any length.
-        task, failures, length: As for :class:`Index`.
+        task, failures, length: Task, failure sets, and characteristic length, m, as for :class:`Index`.
 
     Raises:
         InputError: The direction does not consist of three finite numbers, or is 0.

@@ -37,7 +37,7 @@ class GradientProjection(Resolution):
         task: Task, as for :class:`Resolution`.
         rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
         period: Control period, s, as for :class:`Resolution`.
-        damping: Damping, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Liegeois 1977; English and Maciejewski 1998, section II.
     """
@@ -79,7 +79,7 @@ class ExtendedJacobian(Resolution):
         task: Task, as for :class:`Resolution`.
         rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
         period: Control period, s, as for :class:`Resolution`.
-        damping: Damping, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Baillieul 1985; English and Maciejewski 1998, sections II and VI-B.
     """
@@ -123,7 +123,7 @@ class AugmentedJacobian(Resolution):
         task: Task, as for :class:`Resolution`.
         rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
         period: Control period, s, as for :class:`Resolution`.
-        damping: Damping, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Egeland 1987; Sciavicco and Siciliano 1988; English and Maciejewski 1998, section II.
     """

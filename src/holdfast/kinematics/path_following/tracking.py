@@ -80,13 +80,13 @@ def follow(
         gain: Gain of the law; for gradient projection rad/s per unit of the objective and rad, otherwise 1/s. Default: chosen
             from the curvature of the objective on the path so that the self-motion settles within about 0.05 % of the duration.
             It then hardly lags, and its rates show what staying at the best requires.
-        wanted: Value that the augmented Jacobian keeps. Default: the value at the start.
+        wanted: Value that the augmented Jacobian keeps, in the unit of the objective. Default: the value at the start.
         rate_cap: Largest norm of the joint rates, rad/s; it slows the self-motion only. Default: the rate that
             20,000 steps of 0.02 rad resolve.
         task: Rows of the poses to keep. Default: the objective's task, or ``position`` for a path of positions, or ``pose``.
         samples: Number of samples, evenly spaced in time.
         limits: Keep the joints within their position and velocity limits.
-        damping: Damping near singularities; see :class:`holdfast.kinematics.path_following.Resolution`.
+        damping: Damping factor near singularities; see :class:`holdfast.kinematics.path_following.Resolution`.
         seed: Seed of the search for a start and of the manifolds.
         best: Also find the best value of each pose over its whole self-motion manifold, and the best continuous motion through
             these manifolds, by dynamic programming; for one or two degrees of redundancy. The velocity limits of the joints, if

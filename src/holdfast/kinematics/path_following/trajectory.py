@@ -50,7 +50,7 @@ class Trajectory(Result):
     Attributes:
         arm, task, objective: Arm model, prescribed rows of the end effector, and objective of the self-motion.
         method: Name of the law, for people.
-        gain: Gain of the law; see :func:`holdfast.follow`.
+        gain: Gain of the law, with the unit that :func:`holdfast.follow` states.
         seed: Seed of the search for a start.
         rate_cap: Requested largest norm of the joint rates, rad/s, or None.
         time: (T,) time, s.

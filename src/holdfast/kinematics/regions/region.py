@@ -360,7 +360,7 @@ class Region(Presentable):
             seed: Seed of the run.
             sampling: ``random`` or ``sobol``.
             count: Total number of samples.
-            out: Contiguous array for the samples of a box; None: a new array.
+            out: Contiguous array (N, 6) or (N, n) for the samples of a box; None: a new array.
         """
         if self.listed is not None and count == len(self.listed):
             return np.arange(start, stop, dtype=np.float64)[:, None]

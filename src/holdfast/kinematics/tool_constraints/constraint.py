@@ -131,7 +131,7 @@ def upright(
             ``within``.
         axis: (3,) vector in the tool's frame; default: its z axis.
         direction: (3,) vector in the world; default: straight down.
-        within: Allowed error between two waypoints, m and rad; only used with an angle of 0.
+        within: (2,) allowed error between two waypoints, m and rad; only used with an angle of 0.
 
     Returns:
         Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.
@@ -159,7 +159,7 @@ def rail(
         direction: (3,) direction of the line.
         frame: Frame of the direction: ``base``, or ``tool`` at the start.
         pose: (4, 4) pose on the line, with the orientation to keep, m, world; default: the tool's pose at the start.
-        within: Allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
+        within: (2,) allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
 
     Returns:
         Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.
@@ -199,7 +199,7 @@ def plane(
         axis: (3,) vector in the tool's frame; default: its z axis.
         frame: Frame of the normal: ``base``, or ``tool`` at the start.
         pose: (4, 4) pose or (3,) point in the plane, m, world; default: the tool's pose at the start.
-        within: Allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
+        within: (2,) allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
 
     Returns:
         Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.

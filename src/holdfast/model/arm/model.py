@@ -330,7 +330,7 @@ class Arm(Presentable, ArmData):
         return inertial + viscous + gravity
 
     def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return ``M qdd + C qd``, ``B qd``, and ``g`` of :meth:`inverse_dynamics` for its ``q``, ``qd``, ``qdd``."""
+        """Return ``M qdd + C qd``, ``B qd``, and ``g`` of :meth:`inverse_dynamics` at ``q``, ``qd``, ``qdd`` (..., n)."""
         from holdfast.model.arm.dynamics import check_states
 
         states, single = check_states(self, q, qd, qdd)
