@@ -67,7 +67,7 @@ def verify_studies(folders: Sequence[str | Path], progress: Progress | None = No
 
     Args:
         folders: Folders of studies, or results folders such as those of :func:`holdfast.assess`.
-        progress: Called after every chunk with the chunks read and the total.
+        progress: Called after every chunk with the chunks read, the total, and None.
 
     Raises:
         StoreError: A folder is neither, another program is working in it, or it is not writable.

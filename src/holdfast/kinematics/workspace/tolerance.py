@@ -47,8 +47,8 @@ class TolerantWorkspace(Result):
         task: Task that is met at each point.
         limits: (n, 2) artificial limits that apply until a joint locks, rad and m.
         size: Area (m^2) or volume (m^3) of the region.
-        size_interval: Lower and upper limit of the size, in its unit: the confidence interval of the sample, or, for an exact region, the
-            error of the integral.
+        size_interval: Lower and upper limit of the size, in its unit: the confidence interval of the sample, or, for an
+            exact region, the error of the integral.
         healthy_size: Area (m^2) or volume (m^3) of all points that the healthy arm reaches within its own limits.
         points: (N, 3) points, m, world: the sample, or the points of a map of the exact region.
         healthy: (N,) True for points that the healthy arm reaches within its own limits.

@@ -30,8 +30,8 @@ class Contact:
         link: Joint that moves the link, with the number of the capsule if two links meet and one has several.
         object: Name of the object of the cell, or of the other link.
         depth: Largest amount by which the bound is below 0 on the motion, m, to half a millimetre; the arm is no deeper.
-        exact_time: Time, in the same unit, at which the bodies themselves first touch, by an exact library: infinite if they do not touch on the
-            motion; None without a library.
+        exact_time: Time, in the same unit, at which the bodies themselves first touch, by an exact library: infinite if they
+            do not touch on the motion; None without a library.
     """
 
     run: int = 0
