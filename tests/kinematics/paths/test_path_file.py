@@ -28,7 +28,7 @@ def test_the_example_of_the_documentation(write):
     np.testing.assert_allclose(timed.path.pose([0, 1])[:, :3, 3], [[0.4, -0.3, 0.5], [0.4, 0.3, 0.5]])
     np.testing.assert_allclose(timed.path.pose([0, 1])[:, :3, :3], [np.diag([1, -1, -1])] * 2, atol=1e-15)
     write("x,y,z\n0,0,1\n1,0,1\n", "poses.csv")
-    for text in rest.split("Where no pose")[0].strip().splitlines():
+    for text in rest.split("If no pose")[0].strip().splitlines():
         path = Path.load(write(text.strip()))
         assert not path.oriented
         assert path.name == "along"

@@ -36,7 +36,7 @@ class FormulaIndex(Index):
 
     @abstractmethod
     def formula(self, j: SX) -> SX:
-        """Return the scalar value of a reduced task Jacobian ``j`` (m, n - |S|), linear rows divided by the length."""
+        """Return the scalar value of a reduced task Jacobian ``j``, ``(m, n - |S|)``, linear rows divided by the length."""
 
     def _evaluate_formula(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
         """Compute the formula for the joints that still work, which are the columns of the Jacobian."""

@@ -509,7 +509,7 @@ def _cached_solver(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal
 
 
 def solver(arm: Arm, task: Task) -> InverseKinematics:
-    """Return the :class:`InverseKinematics` of the model ``arm`` and the ``task``, compiled once."""
+    """Return the inverse kinematics of the model ``arm`` and the ``task``, compiled once."""
     return _cached_solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 

@@ -88,7 +88,7 @@ class Task(Presentable):
         return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
 
     def jacobian(self, arm: ArmData, q: SX) -> SX:
-        """Return the task Jacobian (m, n) of ``arm`` for symbols ``q`` (n,), linear rows divided by :attr:`length`."""
+        """Return the task Jacobian (m, n) of ``arm`` for symbols ``q`` (n,), linear rows divided by ``length``."""
         full_jacobian = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.world_jacobian(arm, q)
         return self.select(full_jacobian)
 
