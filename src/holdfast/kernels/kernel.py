@@ -77,7 +77,7 @@ class Kernel:
         inputs: CasADi ``SX`` symbols.
         outputs: CasADi ``SX`` expressions of the symbols.
         backend: ``"llvm"`` (machine code, SIMD, threads), ``"casadi"`` (virtual machine), ``"cuda"`` (the first NVIDIA GPU) or
-            ``"cuda:1"`` (the second). Default: that of ``default_backend()``, or ``"casadi"`` for operations that ``"llvm"`` lacks.
+            ``"cuda:1"`` (the second). Default: ``default_backend()``, or ``"casadi"`` for operations that ``"llvm"`` lacks.
 
     Attributes:
         lanes: Number of rows that are computed at once.
