@@ -75,7 +75,7 @@ class SpectralIndex(Index):
     r"""Index of the singular values :math:`{}^S\sigma_1 \ge \dots \ge {}^S\sigma_m` of the reduced Jacobian.
 
     Linear rows are divided by the characteristic length of the task, on which all these indices depend. ``formula`` is one of
-    the names below; ``arm``, ``task``, ``failures`` and ``length`` are the arguments of :class:`Index`.
+    the names below; ``arm``, ``task``, ``failures`` and ``length``, m, are the arguments of :class:`Index`.
 
     Source: Abdi, Maciejewski, Nahavandi 2012, eq. (7) to (10).
     """
