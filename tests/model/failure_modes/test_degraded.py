@@ -93,7 +93,7 @@ def test_what_only_counts_locks_refuses_ranges_and_speeds_in_a_sentence(three):
     elsewhere = Degraded(arm, locked={"joint2": 0.5})
     with pytest.raises(InputError, match="a joint locks where it is"):
         calls(three)["simulate"](elsewhere)
-    with pytest.raises(InputError, match="belongs to 'planar-3r', not to 'panda'"):
+    with pytest.raises(InputError, match="belong to 'planar-3r', not to 'panda'"):
         hf.recover(hf.arms.load("panda"), bad, np.zeros(7))
 
 
