@@ -180,7 +180,7 @@ def test_what_has_no_label_says_so():
     for own in (CustomIndex, OwnIndex):
         made = own(ca.sumsqr, PANDA, TASK, name="manipulability")
         assert not INDEX_REGISTRY.is_storable(made)
-        with pytest.raises(InputError, match="of your own making, which a file cannot hold; keep the script"):
+        with pytest.raises(InputError, match="is user-defined, so a file cannot store it; keep the script"):
             INDEX_REGISTRY.label(made)
 
 

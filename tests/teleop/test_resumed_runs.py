@@ -108,8 +108,8 @@ def test_the_creation_of_an_experiment_is_resumed(protocol, complete, tmp_path, 
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"seed": 5}, "its seed is 4, asked for is 5; give another folder"),
-        ({"operators": 6}, "its number of operators is 5, asked for is 6"),
+        ({"seed": 5}, "its seed is 4, but 5 was requested; give another folder"),
+        ({"operators": 6}, "its number of operators is 5, but 6 was requested"),
         ({"operators": [Person()] * 5}, "another simulated experiment: its"),
         ({"rate": 7.0}, "its protocol is"),
     ],

@@ -1,4 +1,4 @@
-"""Packages that import what they offer when it is first asked for, so that a program waits only for what it uses."""
+"""Packages that import a name only when it is first used, so that a program waits only for the names that it uses."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _OFFERED_NAME = re.compile(r"^from ([\w.]+) import (?:\*|(?:\(\s*)?(\w+) as \2\b
 def offer(package: str) -> None:
     """Let a package offer its modules and the names that its stub ``__init__.pyi`` re-exports.
 
-    The stub, a line ``from MODULE import NAME as NAME`` for each, or ``from PACKAGE import *`` for all that another package
-    offers, is the only list of what a package offers: type checkers and editors read it too. No module has the name of
-    something that its package offers, because Python would put the module in its place (``make house`` counts them).
+    The stub is the only list of these names, and type checkers and editors read it too. It contains a line ``from MODULE import
+    NAME as NAME`` for each name, or ``from PACKAGE import *`` for all names of another package. No module has the name of an
+    object that its package offers, because Python would put the module in its place (``make house`` counts such cases).
 
     Args:
-        package: Its ``__name__``.
+        package: ``__name__`` of the package.
     """
     module = sys.modules[package]
     homes = read_offered_names(package)

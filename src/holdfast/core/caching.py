@@ -11,9 +11,9 @@ else:
     from typing import Any
 
     class cached_property:
-        """Without the lock of Python 3.11, which a child process inherits locked and waits for.
+        """Property without the lock of Python 3.11, because a child process inherits a held lock and waits for it forever.
 
-        Threads that ask at once may compute it more than once; all of them get what was there first.
+        Threads that read the property at once may compute it more than once; all of them get the value that was stored first.
         """
 
         def __init__(self, compute: Callable[[Any], Any]) -> None:
@@ -30,7 +30,7 @@ else:
             return instance.__dict__.setdefault(self._name, self._compute(instance))
 
     def _given(self: Any) -> dict[str, Any]:
-        """What a copy or another process gets: all but what was computed, among it kernels, which stay where they are."""
+        """Return the state for a copy or another process: all attributes except computed ones, such as kernels."""
         made = type(self)
         return {name: x for name, x in self.__dict__.items() if not isinstance(getattr(made, name, None), cached_property)}
 

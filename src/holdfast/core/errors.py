@@ -1,19 +1,19 @@
 """Exceptions of holdfast.
 
-Every message is one sentence that names the thing, says what was wrong and what would be right.
+Every message is one sentence that names the thing, the value that was found, and what would be right.
 The command line prints it and exits with code 2.
 """
 
 from __future__ import annotations
 
-_MAX_MESSAGE_LETTERS = 1000  # letters
+_MAX_MESSAGE_LETTERS = 1000  # characters
 
 
 class HoldfastError(Exception):
-    """Base class: catch this to catch every error that holdfast raises on purpose."""
+    """Base class of the errors that holdfast raises on purpose; catch it to catch all of them."""
 
     def __str__(self) -> str:
-        text = super().__str__()  # which may quote what stands in a file: of any length, with signs that steer a terminal
+        text = super().__str__()  # may quote a file: any length, with characters that control a terminal
         if not text.isprintable():
             text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
         return (
@@ -24,10 +24,10 @@ class HoldfastError(Exception):
 
 
 class ArmError(HoldfastError, ValueError):
-    """An arm description (URDF, DH table, Python) that cannot be used.
+    """An arm description (URDF, DH table, Python) that cannot be used; ``words`` are the message.
 
     Attributes:
-        tip: A link that the arm may be meant to end at, where the file leaves that open; else None.
+        tip: Name of a link that may be the intended end of the arm if the file leaves this open; else None.
     """
 
     def __init__(self, *words: object, tip: str | None = None) -> None:

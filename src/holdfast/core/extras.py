@@ -14,10 +14,10 @@ def import_extra(module: str, extra: str, title: str | None = None) -> Any:
     Args:
         module: Name of the package.
         extra: Extra of holdfast that installs the package.
-        title: Name of the package in the error message; the name of the module if not given.
+        title: Name of the package in the error message; default: the name of the module.
 
     Raises:
-        HoldfastError: The package is not installed; the message has the line that installs it.
+        HoldfastError: The package is not installed; the message contains the command that installs it.
     """
     try:
         return import_module(module)

@@ -1,4 +1,4 @@
-"""Format numbers and words for the console and for pages."""
+"""Format numbers and words for the console and for HTML reports."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ import numpy as np
 _ROUNDED_TO_ZERO = 1e-9
 _ROUNDED_TO_ZERO_IN_TABLES = 1e-12
 _SPACE_BEFORE_UNIT = re.compile(r" (?=(?:%|°|(?:N m|[kcmµ]?m|m?s|min|h|rad|deg|k?N|k?g|k?Hz|W|J|[kMG]?B|px)(?![\w-])))")
-_NUMBER_ENDS = frozenset("0123456789∞–")  # what a number ends with
-_NEGATIVE_EXPONENT = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines behind a hyphen
+_NUMBER_ENDS = frozenset("0123456789∞–")  # characters that end a number
+_NEGATIVE_EXPONENT = re.compile(r"(?<![\w.])(\d[\d.]*e)-(?=\d)")  # a browser breaks lines after a hyphen
 _HTML_PIECE = re.compile(r"(<code\b.*?</code>|<pre\b.*?</pre>|<[^>]*>)", re.DOTALL)
 
 
@@ -27,11 +27,11 @@ class Probability(Protocol):
 
     @property
     def low(self) -> float:
-        """Lower end."""
+        """Lower limit."""
 
     @property
     def high(self) -> float:
-        """Upper end."""
+        """Upper limit."""
 
     @property
     def confidence(self) -> float:
@@ -44,7 +44,7 @@ def capitalise_first(text: str) -> str:
 
 
 def format_seconds(time: float) -> str:
-    """Return an instant in seconds: four digits, and never less than tenths of a second."""
+    """Return a time in seconds with four digits, and never with less precision than tenths of a second."""
     return f"{time:.4g} s" if abs(time) < 1000 else f"{time:.1f} s"
 
 
@@ -53,8 +53,8 @@ def format_number(x: float | np.floating[Any], digits: int | None = None) -> str
 
     Args:
         x: The number.
-        digits: Significant digits, for tables and the console; without them about three digits with a typographic minus sign,
-            for sentences of pages.
+        digits: Significant digits, for tables and the console. Default: about three digits with a typographic minus sign, for
+            sentences of HTML reports.
     """
     x = float(x)
     if digits is not None:
@@ -82,7 +82,7 @@ def format_decimals(x: float, digits: int) -> str:
 
 
 def format_as_given(x: float) -> str:
-    """Format a number with the digits that it was given with."""
+    """Format a number with at most six significant digits, as users enter numbers."""
     return f"{x:.6g}".replace("-", "−")
 
 
@@ -104,12 +104,12 @@ def format_interval(p: Probability) -> str:
 
 
 def format_half_width(half: float) -> str:
-    """Write half the width of a band as ``±0.031``, with at least two digits that are not 0."""
+    """Format half the width of a band as ``±0.031``, with at least two nonzero digits."""
     return f"±{half:.{int(np.clip(math.ceil(1 - math.log10(max(half, 1e-9))), 3, 9))}f}"
 
 
 def format_share(count: int, total: int) -> str:
-    """Format a count with its fraction of the whole and the 95 % Clopper-Pearson interval of that fraction."""
+    """Format a count with its fraction of the total and the 95 % Clopper-Pearson interval of that fraction."""
     if not total:
         return f"{count:,}"
     from holdfast.core.probability.intervals import Interval
@@ -131,14 +131,14 @@ def format_count(count: int, noun: str) -> str:
 
 
 def insert_nonbreaking_spaces(text: str, html: bool = False) -> str:
-    """Return the text with no-break spaces between numbers and units, so that a page breaks no line there.
+    """Return the text with no-break spaces between numbers and units, so that no line breaks between them.
 
     Args:
-        text: For people.
-        html: It is HTML; what is in tags, or to be copied, stays as it is.
+        text: Text for people.
+        html: The text is HTML; tags and text that is meant to be copied stay unchanged.
     """
     if html:
-        pieces = _HTML_PIECE.split(text)  # each second one is to stay
+        pieces = _HTML_PIECE.split(text)  # each second piece stays unchanged
         return "".join(part if k % 2 else insert_nonbreaking_spaces(part) for k, part in enumerate(pieces))
     joined = _SPACE_BEFORE_UNIT.sub(lambda space: "\u00a0" if text[max(space.start() - 1, 0)] in _NUMBER_ENDS else " ", text)
     return _NEGATIVE_EXPONENT.sub(r"\1−", joined.replace("\u00a0N m", "\u00a0N\u00a0m"))
@@ -166,12 +166,12 @@ def list_alternatives(words: list[str]) -> str:
 
 
 def list_names(names: Sequence[str], max_names: int = 60) -> str:
-    """Return quoted names for a sentence, ``max_names`` of them."""
+    """Return at most ``max_names`` quoted names for a sentence."""
     more = f" and {len(names) - max_names} more" if len(names) > max_names else ""
     return ", ".join(f"'{x}'" for x in names[:max_names]) + more
 
 
 def suggest_name(name: str, known: Collection[str]) -> str:
-    """Return ``did you mean ...?`` for a sentence, or nothing where no known name is close."""
+    """Return ``did you mean ...?`` for a sentence, or an empty text if no known name is similar."""
     close = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
     return f"did you mean '{close[0]}'? " if close else ""

@@ -1,7 +1,8 @@
-"""Parse and write labels, the one-word form of an object with settings on the command line and in files.
+"""Parse and write labels, the one-word form of an object with settings for the command line and files.
 
 ``name``, ``name:value`` or ``name:key=value,key=value``, where a value is a number, a word or a list of numbers:
-``pseudoinverse``, ``damped:0.1``, ``directional-velocity:0,0,1``, ``torque:effort``. A value holds no ``+``, which adds labels.
+``pseudoinverse``, ``damped:0.1``, ``directional-velocity:0,0,1``, ``torque:effort``. No value contains ``+``, which adds
+labels.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 
-# The tasks that have a name, with their number of rows; see :class:`holdfast.Task`.
+# The named tasks with their number of rows; see :class:`holdfast.Task`.
 TASK_SIZES = {"pose": 6, "pointing": 5, "position": 3, "planar": 2, "planar-pose": 3}
 TASK_ROW_NAMES = ("vx", "vy", "vz", "wx", "wy", "wz")
-FAILURE_SET_SIZES = {"single": 1, "pairs": 2}  # what has a name among failures, and how many joints fail together
+FAILURE_SET_SIZES = {"single": 1, "pairs": 2}  # named failure sets, and the number of joints that fail together
 FAILURES_HELP = f"{', '.join(FAILURE_SET_SIZES)}, a number of joints, or sets such as 'joint2; joint1+joint4'"
 
 _SETTING_NAME = re.compile(r"[A-Za-z_][\w.-]*")
@@ -36,7 +37,7 @@ def is_number(text: str) -> bool:
 
 
 def is_count(text: str) -> bool:
-    """Return whether a text is a whole number of 0 or more, in decimal digits, that a computer can count to."""
+    """Return whether a text is a decimal whole number of 0 or more that is small enough to count to."""
     return text.isdecimal() and len(text) <= 18
 
 
@@ -44,11 +45,11 @@ def parse_quantities(name: str, text: str) -> list[float]:
     """Read comma-separated numbers with units in rad and m, such as ``2mm,1deg`` or ``0.002,0.0175``.
 
     Args:
-        name: What they are, for people.
-        text: The numbers, each with ``deg``, ``rad``, ``mm``, ``m`` or nothing behind it.
+        name: Name of the quantity in messages.
+        text: The numbers, each followed by ``deg``, ``rad``, ``mm``, ``m`` or no unit.
 
     Raises:
-        InputError: One is no number.
+        InputError: An entry is not a number.
     """
     values = []
     for part in text.split(","):
@@ -61,12 +62,12 @@ def parse_quantities(name: str, text: str) -> list[float]:
 
 
 def split_label(label: str) -> tuple[str, str | None, dict[str, str]]:
-    """Split a label into its name, the value without a key (if there is one), and the values by key, as text.
+    """Split a label into its name, the value without a key (or None), and the values by key, as text.
 
-    A hyphen in a key is an underscore.
+    Hyphens in a key become underscores.
 
     Raises:
-        InputError: A value with a ``+``, a value without a key among those with one, or a key given twice.
+        InputError: A value contains ``+``, a value without a key is among values with keys, or a key is given twice.
     """
     name, has_colon, settings_text = (part.strip() for part in label.partition(":"))
     if "+" in settings_text:
@@ -97,10 +98,10 @@ def parse_value(text: str) -> float | tuple[float, ...] | str:
 
 
 def write_value(value: Any) -> str:
-    """Return the text that :func:`parse_value` reads as this value, with all its digits.
+    """Return the text that :func:`parse_value` reads as this value, with all digits.
 
     Raises:
-        InputError: It has none: a matrix, an infinite number, a function, a text that would be read as something else.
+        InputError: No such text exists: a matrix, an infinite number, a function, or a text that would be read differently.
     """
     if isinstance(value, str):
         if _SETTING_NAME.fullmatch(value) and not is_number(value):
@@ -121,11 +122,11 @@ def write_label(name: str, settings: Mapping[str, Any]) -> str:
     """Write the label of an object: the name alone, with one value, or with several values by key.
 
     Args:
-        name: Of the thing.
-        settings: Its values in the order of the constructor; None stands for the usual one and is left out.
+        name: Name of the object.
+        settings: Values in the order of the constructor; None means the default, which is left out.
 
     Raises:
-        InputError: A value that has no text; see :func:`write_value`.
+        InputError: A value has no text; see :func:`write_value`.
     """
     texts = {key: write_value(value) for key, value in settings.items() if value is not None}
     if not texts:

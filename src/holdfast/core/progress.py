@@ -1,6 +1,6 @@
 """Report the progress of long work: its name, how much is done, and how much time remains.
 
-They go to stderr; in a notebook to a line below the cell, which changes in place.
+Messages go to stderr. In a notebook they go to a line below the cell, which changes in place.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from holdfast.core.typing import P, T
 Progress = Callable[[int, int], None]
 
 LONG_WORK_S = 1.0  # s
-# REPEAT_FACTOR and MAX_SILENCE_S: next word after as many times as long, but not later than so many s
+# REPEAT_FACTOR and MAX_SILENCE_S: the next message comes after this multiple of the elapsed time, or after this many s
 REPEAT_FACTOR = 4.0
 MAX_SILENCE_S = 60.0
-MIN_COUNTED_PARTS = 10  # once such a part of a whole is done, the time left follows from it: threads hand over whole blocks
-RESUMED_WITHIN_S = 0.1  # s: what is done by then was done before
+MIN_COUNTED_PARTS = 10  # fewer finished parts give no remaining time, because threads finish whole blocks
+RESUMED_WITHIN_S = 0.1  # s: work done by then was done in an earlier run
 _clock = time.monotonic
 _lock = threading.Lock()
 
 
 @contextmanager
 def long_task(task_name: str, seconds: float) -> Iterator[None]:
-    """Print what is being done, and for how long, if it is expected to take more than a second."""
+    """Print the name and the expected duration of a task that is expected to take more than a second."""
     notebook_bar = _make_notebook_bar() if seconds > LONG_WORK_S else None
     if notebook_bar is not None:
         notebook_bar.show(f"{task_name}, about {_format_time(seconds)}")
@@ -47,17 +47,17 @@ def long_task(task_name: str, seconds: float) -> Iterator[None]:
 
 @contextmanager
 def report_work(task_name: str, progress: Progress | None = None) -> Iterator[Progress]:
-    """Print what is being done once it has taken a second, and the remaining time as soon as it is known.
+    """Print the name of a task once it has taken a second, and the remaining time as soon as it is known.
 
-    Work within other work is named only beside the outer one, with how far it has come. What is not done in the main thread is
-    for others to tell of.
+    A task within another task is named only after the outer task, with its progress. Outside the main thread nothing is
+    printed, because the caller reports the progress.
 
     Args:
-        task_name: For example "comparing control laws".
-        progress: Is told in place of stderr.
+        task_name: Name, for example "comparing control laws".
+        progress: Function that receives the progress instead of stderr.
 
     Yields:
-        To be told (done, in all).
+        Function to call with the parts done and the total number of parts.
     """
     global _outer
     if threading.current_thread() is not threading.main_thread():
@@ -86,7 +86,7 @@ def report_work(task_name: str, progress: Progress | None = None) -> Iterator[Pr
 
 
 def reports_progress(task_name: str, passes_progress: bool = True) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Wrap a function with :func:`report_work`, which reports through its argument ``progress`` where it has one."""
+    """Wrap a function with :func:`report_work`, which reports through its argument ``progress`` if it has one."""
 
     def decorate(function: Callable[P, T]) -> Callable[P, T]:
         names = list(inspect.signature(function).parameters)
@@ -98,7 +98,7 @@ def reports_progress(task_name: str, passes_progress: bool = True) -> Callable[[
             if position is None:
                 with report_work(task_name):
                     return function(*args, **kwargs)
-            # Looked up by place: binding the arguments to the signature would take longer than all the rest.
+            # Found by position, because binding the arguments to the signature would take longer than all the rest.
             by_place = len(args) > position
             progress: Any = args[position] if by_place else kwargs.get("progress")
             with report_work(task_name, progress) as advance:
@@ -114,13 +114,14 @@ def reports_progress(task_name: str, passes_progress: bool = True) -> Callable[[
 class ProgressCount:
     """Context manager that counts finished parts of a longer task and returns the function that adds to the count.
 
-    Opened in the main thread, it may be told from any; elsewhere it tells nobody. It is for blocks, not for rows.
+    If it is opened in the main thread, any thread may add to the count; opened elsewhere, it reports nothing. Count blocks, not
+    rows.
 
     Args:
-        of: For example "starts".
-        total: So many; 0 if nobody knows, and then ``of`` is one: "start".
-        most: Or fewer.
-        whole: This is all that the work consists of, and each takes about as long: the time left follows from it.
+        of: Plural noun of the parts, for example "starts".
+        total: Number of parts; 0 if it is unknown, and then ``of`` is singular: "start".
+        most: The number of parts is an upper limit.
+        whole: The parts are the whole work and take about equally long, so that the remaining time follows from the count.
     """
 
     def __init__(self, of: str, total: int, most: bool = False, whole: bool = False) -> None:
@@ -168,7 +169,7 @@ def track(unit_name: str, items: Collection[T], most: bool = False, whole: bool 
 
 
 def count_finished_part(unit_name: str) -> None:
-    """Count one more finished part of an unknown number, for example a "figure"."""
+    """Count one more finished part if the total is unknown, for example a "figure"."""
     if _outer is not None and threading.current_thread() is threading.main_thread():
         if unit_name not in _outer.others:
             _outer.others[unit_name] = ProgressCount(unit_name, 0).__enter__()
@@ -181,19 +182,19 @@ def print_warning(text: str) -> None:
 
 
 class _RunningWork:
-    """Work under way in the main thread."""
+    """Current task of the main thread."""
 
     def __init__(self, what: str) -> None:
         self.what, self.begun, self.next = what, _clock(), LONG_WORK_S
-        self.names = [what]  # of work within work
-        self.counts: list[ProgressCount] = []  # from the outermost
-        self.others: dict[str, Callable[[int], None]] = {}  # of what has no total
-        self.first = self.begun, 0.0  # when, and how much was done
+        self.names = [what]  # of nested tasks
+        self.counts: list[ProgressCount] = []  # outermost first
+        self.others: dict[str, Callable[[int], None]] = {}  # of parts whose total is unknown
+        self.first = self.begun, 0.0  # start time, and the fraction done by then
         self.share = 0.0
         self.left: float | None = None
-        self.silent = False  # somebody else tells of it
+        self.silent = False  # the caller reports the progress
         self.bar = _make_notebook_bar()
-        self.shown = 0.0  # when the bar was told
+        self.shown = 0.0  # time of the last update of the bar
 
     def advance(self, done: int, total: int, left: float | None = None) -> None:
         """Record how much is done and, if the caller knows it better, the remaining seconds."""
@@ -206,7 +207,7 @@ class _RunningWork:
         if not self.share:
             if now - self.begun < RESUMED_WITHIN_S:
                 self.first = now, fraction_done
-            elif self.next > LONG_WORK_S:  # it was named without a time
+            elif self.next > LONG_WORK_S:  # the name was printed without a remaining time
                 self.next = 0.0
         self.share, self.left = fraction_done, left
 
@@ -221,12 +222,12 @@ class _RunningWork:
             self._print_progress(passed)
 
     def finish(self, outcome: str) -> None:
-        """Finish the work; a notebook keeps the time that it took."""
+        """Finish the work; in a notebook the line then shows the time taken."""
         if self.bar is not None and self.shown:
             self.bar.show(f"{self.what}: {outcome}{_format_time(_clock() - self.begun)}", last=True)
 
     def _show_in_notebook(self, bar: _NotebookBar, elapsed_seconds: float) -> None:
-        """In a notebook, where nothing piles up."""
+        """Update the line in a notebook, where messages replace each other."""
         if elapsed_seconds < self.shown + RESUMED_WITHIN_S:
             return
         self.shown = elapsed_seconds
@@ -237,7 +238,7 @@ class _RunningWork:
             bar.show(self.what if count is None else count.describe_progress(self.what))
 
     def _print_progress(self, elapsed_seconds: float) -> None:
-        """Print the progress on stderr, ever more rarely."""
+        """Print the progress on stderr at increasing intervals."""
         named = self.next > LONG_WORK_S
         self.next = min(REPEAT_FACTOR * max(elapsed_seconds, LONG_WORK_S), elapsed_seconds + MAX_SILENCE_S)
         remaining, count = self._remaining_seconds(), next((c for c in tuple(self.counts) if c.done), None)
@@ -261,7 +262,7 @@ class _NotebookBar:
     """Progress line in plain HTML below a notebook cell; any thread may update it.
 
     Args:
-        publish: The kernel's, which displays in the cell that runs.
+        publish: ``publish`` function of the kernel, which displays in the running cell.
     """
 
     def __init__(self, publish: Any) -> None:
@@ -269,12 +270,12 @@ class _NotebookBar:
         self._lock, self._said, self._ended = threading.Lock(), "", False
 
     def show(self, text: str, fraction_done: float | None = None, last: bool = False) -> None:
-        """Replace the text of the line, with a progress bar if the fraction that is done is known.
+        """Replace the text of the line, with a progress bar if the finished fraction is known.
 
         Args:
-            text: For people.
-            fraction_done: 0 to 1.
-            last: Nothing more is said after this, whoever tries.
+            text: Text for people.
+            fraction_done: Finished fraction, 0 to 1.
+            last: The line does not change after this call.
         """
         bar = (
             ""
@@ -295,7 +296,7 @@ _watcher = threading.Thread()
 
 
 def _start_watcher() -> None:
-    """Start a thread that prints progress while the main thread works and ends soon after the work."""
+    """Start a thread that prints progress while the main thread works and that ends soon after the work."""
     global _watcher
     if not _watcher.is_alive():
         _watcher = threading.Thread(target=_watch_work, name="holdfast-notice", daemon=True)
@@ -317,7 +318,7 @@ def ignore_count(count: int) -> None:
 
 
 def ignore_progress(done: int, total: int, left: float | None = None) -> None:
-    """Ignore progress that an outer task already reports."""
+    """Ignore progress, because an outer task already reports it."""
 
 
 def _format_time(seconds: float) -> str:

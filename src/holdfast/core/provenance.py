@@ -8,7 +8,7 @@ from holdfast import __version__
 
 
 def versions(*names: str) -> dict[str, str]:
-    """Return the versions of the installed ones of these packages; that of ``holdfast`` is its own, whatever installed it."""
+    """Return the versions of those of the named packages that are installed; ``holdfast`` reports its own version."""
     found = {}
     for name in names:
         try:

@@ -1,7 +1,7 @@
-"""Registries of the indices, control laws, and susceptibilities that have a name, with their parameters.
+"""Registries of the named indices, control laws, and susceptibilities, with their parameters.
 
-Registered is what the stub of a package exports and :func:`constructor` marks; nothing else lists it. An entry is read from
-the text of its constructor, so that help, menus and error messages can be written without importing what computes.
+An entry is a function that the stub of a package exports and that :func:`constructor` marks; there is no other list. Entries
+are read from the source text, so that help, menus and error messages need not import the code that computes.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ class Parameter:
     """Parameter of a constructor besides arm and task, as ``Annotated[float, Parameter("m/s", "largest joint rate", low=0)]``.
 
     Attributes:
-        unit: Of its numbers; ``1`` if they have none.
-        help: One phrase.
-        low, high: Its numbers lie between these, neither included; None: no bound.
+        unit: Unit of the value; ``1`` if it has none.
+        help: Short noun phrase.
+        low, high: Open lower and upper bound of the value, in its unit; None: no bound.
         example: A value, or the name of a function of the constructor's module that makes one for ``(arm, task)``.
-        name, kind, default: As the signature has them; ``...`` where there is no default. Not to be given.
+        name, kind, default: Set from the signature, never by the caller; ``...`` means that there is no default.
     """
 
     unit: str
@@ -47,17 +47,17 @@ class Parameter:
     default: Any = ...
 
     def describe(self) -> str:
-        """The phrase with its unit, bounds and default."""
+        """Return the help phrase with unit, bounds and default."""
         bounds = [f"{word} {x:g}" for word, x in (("above", self.low), ("below", self.high)) if x is not None]
         default = "" if self.default in (..., None) else f"default {self.default}"
         unit = "" if self.unit == "1" else self.unit
         return ", ".join(filter(None, [self.help, unit, " and ".join(bounds), default]))
 
     def read_value(self, text: str, what: str) -> Any:
-        """Read the value of the parameter from a label.
+        """Read the value of the parameter from ``text`` in a label.
 
         Raises:
-            InputError: It is not of the parameter's kind; ``what`` is what the error calls it.
+            InputError: The text is not a value of the parameter's kind; ``what`` is the name of the label in the message.
         """
         value = labels.parse_value(text)
         if self.kind in ("float", "int"):
@@ -75,15 +75,15 @@ class Parameter:
 def constructor(
     *, formula: str = "", needs: tuple[str, ...] = (), properties: tuple[str, ...] = ()
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Mark the public way to make an index, a law or a susceptibility; arguments of another kind are refused.
+    """Mark the public constructor of an index, a law or a susceptibility, and check the kinds of its arguments.
 
-    Its first argument is the arm, its name with hyphens is the one in labels, and the first line of its docstring is the help.
-    Arguments annotated with a :class:`Parameter` are its settings.
+    Its first argument is the arm. Its name with hyphens is the name in labels, the first line of its docstring is the help, and
+    its arguments annotated with a :class:`Parameter` are the settings.
 
     Args:
         formula: The equation as HTML, for reports and documentation.
-        needs: What an arm must have: ``"inertia"``, ``"redundancy"``.
-        properties: What tests may rely on: ``"Abdi 2012"``, ``"base-free"`` (the base joint does not matter).
+        needs: Properties that an arm must have: ``"inertia"``, ``"redundancy"``.
+        properties: Properties that tests may rely on: ``"Abdi 2012"``, ``"base-free"`` (the base joint does not matter).
     """
     return check_arguments
 
@@ -94,10 +94,10 @@ class RegistryEntry:
 
     Attributes:
         kind: ``"index"``, ``"control law"`` or ``"susceptibility"``.
-        name: In labels.
-        module, function: Where its constructor is.
+        name: Name in labels.
+        module, function: Module and name of the constructor.
         help: One sentence.
-        parameters: Besides arm, task and what all of the kind take.
+        parameters: Parameters except arm, task and those that all entries of the kind take.
         formula, needs, properties: See :func:`constructor`.
     """
 
@@ -113,20 +113,20 @@ class RegistryEntry:
 
     @property
     def make(self) -> Callable[..., Any]:
-        """The constructor."""
+        """Constructor of the entry."""
         constructor_function: Callable[..., Any] = getattr(import_module(self.module), self.function)
         return constructor_function
 
     @property
     def usage(self) -> str:
-        """Its label with the names of its parameters, those that may be left out in brackets: ``damped:DAMPING``."""
+        """Label with the names of the parameters, optional ones in brackets: ``damped:DAMPING``."""
         names = [p.name.replace("_", "-") for p in self.parameters]
         text = ",".join(f"{name}={name.upper()}" if len(names) > 1 else name.upper() for name in names)
         needed = any(p.default is ... for p in self.parameters)
         return self.name + (f":{text}" if needed else f"[:{text}]" if names else "")
 
     def example(self, arm: Any, task: Any = "pose") -> dict[str, Any]:
-        """Values of the parameters that fit an arm and a task, for menus, templates and tests."""
+        """Return values of the parameters that fit the model ``arm`` and the ``task``, for menus, templates and tests."""
         values = {}
         for p in self.parameters:
             made = getattr(import_module(self.module), p.example, p.example) if isinstance(p.example, str) else p.example
@@ -134,7 +134,10 @@ class RegistryEntry:
         return values
 
     def read_settings(self, value: str | None, by_key: Mapping[str, str], what: str) -> dict[str, Any]:
-        """Read the settings of a label as values by the names of the constructor."""
+        """Return the settings of a label by the parameter names of the constructor.
+
+        ``value`` is the text without a key, ``by_key`` the texts by key, and ``what`` the name of the label in messages.
+        """
         if value is not None:
             if not self.parameters:
                 raise InputError(f"{what}: {self.kind} '{self.name}' takes no setting; write {self.name} alone")
@@ -151,17 +154,17 @@ class Labelled:
 
     @property
     def slug(self) -> str:
-        """The name on the command line and in files."""
+        """Name on the command line and in files."""
         raise NotImplementedError
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Arguments of the constructor besides arm and task, by name; None for a default."""
+        """Arguments of the constructor except arm and task, by name; None for a default."""
         return {}
 
     @property
     def label(self) -> str:
-        """The name with the settings, as the command line takes it; the name alone where they cannot be written."""
+        """Name with the settings, as the command line takes it; only the name if the settings cannot be written."""
         try:
             return labels.write_label(self.slug, self.settings)
         except InputError:
@@ -172,10 +175,10 @@ class Registry(Mapping[str, RegistryEntry]):
     """All entries of one kind.
 
     Args:
-        kind: What one is called.
-        package: Where it is exported, below ``holdfast``.
-        error: Raised for a name that is not known.
-        own: Module and function that make one from ``module:function``, if the kind has such.
+        kind: Name of one entry in messages, such as ``"index"``.
+        package: Package below ``holdfast`` that exports the entries.
+        error: Type of the error for an unknown name.
+        own: Module and function that make an object from ``module:function``, if users can supply one.
     """
 
     def __init__(self, kind: str, package: str, error: type[HoldfastError], own: tuple[str, str] | None = None) -> None:
@@ -201,22 +204,22 @@ class Registry(Mapping[str, RegistryEntry]):
         """Return the entry of a user's own function, written as ``module:function``; None for any other label."""
         if not self._own or label.partition(":")[0] in self or not _MODULE_FUNCTION.fullmatch(label):
             return None
-        return RegistryEntry(self.kind, label, self._own[0], self._own[1], "A function of one's own.", ())
+        return RegistryEntry(self.kind, label, self._own[0], self._own[1], "A user-defined function.", ())
 
     def covers(self, label: str) -> bool:
-        """Return whether a label names an entry, or a function of a file as ``module:function``."""
+        """Return whether ``label`` names an entry, or a function in a file as ``module:function``."""
         return label.partition(":")[0] in self or self._entry_of_function(label) is not None
 
     def read_label(self, label: str, option: str = "") -> tuple[RegistryEntry, dict[str, Any]]:
         """Return the entry that a label names and the settings of the label.
 
         Args:
-            label: See :mod:`holdfast.core.labels`.
-            option: What an error calls it.
+            label: Text in the format of :mod:`holdfast.core.labels`.
+            option: Name of the command-line option in messages.
 
         Raises:
-            HoldfastError: The name is not known; the message has the nearest, and all.
-            InputError: A setting that it does not have, or of another kind.
+            HoldfastError: The name is not known; the message contains the nearest name and all names.
+            InputError: The entry does not have a given setting, or the value is of another kind.
         """
         own = self._entry_of_function(label)
         if own is not None:
@@ -233,12 +236,12 @@ class Registry(Mapping[str, RegistryEntry]):
 
         Args:
             label: Name and settings.
-            arm: The arm.
-            option: What an error calls the label.
-            options: What the constructor takes besides; a setting may be here in place of the label.
+            arm: Arm model.
+            option: Name of the command-line option in messages.
+            options: Further arguments of the constructor; a setting may be given here instead of in the label.
 
         Raises:
-            HoldfastError: As :meth:`read_label`, an option that it does not have, or a setting that is missing.
+            HoldfastError: As :meth:`read_label`; an unknown option; a missing setting.
         """
         entry, settings = self.read_label(label, option)
         known = list(inspect.signature(entry.make).parameters)[1:]
@@ -255,7 +258,7 @@ class Registry(Mapping[str, RegistryEntry]):
         return entry.make(arm, **arguments)
 
     def is_storable(self, thing: Labelled) -> bool:
-        """Return whether the label of an object reproduces the object."""
+        """Return whether the label of the object ``thing`` reproduces the object."""
         try:
             self.label(thing)
         except InputError:
@@ -263,19 +266,19 @@ class Registry(Mapping[str, RegistryEntry]):
         return True
 
     def label(self, thing: Labelled) -> str:
-        """Return the label that reproduces an object, for files.
+        """Return the label that reproduces the object ``thing``, for files.
 
         Raises:
-            InputError: There is none: it is of a class of one's own, or has a setting that no label can hold.
+            InputError: No label does, because the class is user-defined or a label cannot contain a setting.
         """
         entry = self[thing.slug] if thing.slug in self else self._entry_of_function(thing.slug)
         made = None if entry is None else get_type_hints(entry.make).get("return")
         if type(thing) is not made:
-            raise InputError(f"{thing!r} is of your own making, which a file cannot hold; keep the script")
+            raise InputError(f"{thing!r} is user-defined, so a file cannot store it; keep the script")
         return labels.write_label(thing.slug, thing.settings)
 
     def labels(self, arm: Any, task: Any = "pose") -> list[str]:
-        """A label of every entry for an arm and a task, with settings only where it cannot do without."""
+        """Return one label per entry for the model ``arm`` and the ``task``, with settings only if they are required."""
         texts = []
         for name, entry in self.items():
             needed = {p.name for p in entry.parameters if p.default is ...}
@@ -285,13 +288,13 @@ class Registry(Mapping[str, RegistryEntry]):
 
     @property
     def usage(self) -> str:
-        """All names, with their settings and what these are, for help."""
+        """All names with their settings and descriptions, for help."""
         texts = [(e.usage, "; ".join(p.describe() for p in e.parameters)) for e in self.values()]
         return "; ".join(usage + (f" ({about})" if about else "") for usage, about in texts)
 
 
 def read_exports(package: str) -> dict[str, set[str]]:
-    """Return the names that the stub of a package below ``holdfast`` exports, by the modules that define them."""
+    """Return the names that the stub of ``package`` (a name below ``holdfast``) exports, by the modules that define them."""
     exports: dict[str, set[str]] = {}
     for node in ast.parse(_read_source(f"{package.replace('.', '/')}/__init__.pyi")).body:
         if isinstance(node, ast.ImportFrom) and node.module:
@@ -300,7 +303,7 @@ def read_exports(package: str) -> dict[str, set[str]]:
 
 
 def unknown_name_message(kind: str, name: str, *known: Iterable[str]) -> str:
-    """Return the error message for an unknown name, with the nearest name and all known names."""
+    """Return the error message for an unknown ``name`` of a ``kind``, with the nearest of the ``known`` names and all names."""
     import difflib
 
     names = [x for several in known for x in several]

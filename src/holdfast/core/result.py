@@ -1,5 +1,6 @@
-"""Base classes of results and of objects that notebooks show; the code that draws and writes them is found by name in a higher
-layer.
+"""Base classes of results and of objects that notebooks show.
+
+The code that draws and writes them is in a higher layer and is found by name.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ if TYPE_CHECKING:
 
 
 class Presentable:
-    """Base of objects that a notebook shows as more than a name; without fields, so that any dataclass can derive from it.
+    """Base of objects that a notebook shows with more than their name; it has no fields, so any dataclass can derive from it.
 
-    What presents a class is named in :mod:`holdfast.interface.presentation`.
+    :mod:`holdfast.interface.presentation` names the module that presents each class.
     """
 
     __slots__ = ()
@@ -25,31 +26,31 @@ class Presentable:
         return view
 
     def _present(self, function: str, *arguments: Any, **options: Any) -> Any:
-        """Call a function of the modules that present this class, which are imported only now."""
+        """Call a function of the modules that present this class, importing them only now."""
         from holdfast.interface.presentation import call_presenter
 
         return call_presenter(self, function, *arguments, **options)
 
 
 class Result(Presentable):
-    """Base of what an analysis returns.
+    """Base class of the results of analyses.
 
-    A class repeats a method only to give its options a type (``*args`` is there so that it may).
+    A class repeats a method only to give types to its options (``*args`` makes this possible).
     """
 
     __slots__ = ()
 
     def report(self, path: str | Path, *args: Any, **options: Any) -> Path:
-        """Write one HTML file that needs nothing else.
+        """Write one self-contained HTML file.
 
         Raises:
-            StoreError: It cannot be written; what was there is as it was.
+            StoreError: The file cannot be written; an existing file is unchanged.
         """
         written: Path = self._present("write", Path(path), *args, **options)
         return written
 
     def save(self, folder: str | Path, *args: Any, **options: Any) -> list[Path]:
-        """Write the report, the figures and the tables into a folder, made where need be.
+        """Write the report, the figures and the tables into a folder, which is created if it does not exist.
 
         Raises:
             StoreError: The folder or a file cannot be written.
@@ -58,28 +59,28 @@ class Result(Presentable):
         return files
 
     def figures(self, *args: Any, **options: Any) -> dict[str, Figure]:
-        """Its figures by name."""
+        """Return the figures by name."""
         figures: dict[str, Figure] = self._present("figures", *args, **options)
         return figures
 
     def plot(self, name: str = "", **options: Any) -> Figure:
-        """One of its figures, which a notebook shows where a cell ends with it.
+        """Return one figure; a notebook shows it if the cell ends with this call.
 
         Args:
-            name: Which of :meth:`figures`; the main one if not given.
-            options: What :meth:`figures` takes.
+            name: Name of one of :meth:`figures`; default: the main figure.
+            options: Options of :meth:`figures`.
 
         Returns:
-            A matplotlib figure of its own; pyplot does not know of it. ``figure.savefig("file.png")`` writes it.
+            A matplotlib figure that pyplot does not manage. ``figure.savefig("file.png")`` writes it.
 
         Raises:
-            InputError: It has no figure of that name, or none; the message says what to ask instead.
+            InputError: There is no figure, or none of this name; the message states the alternatives.
         """
         figure: Figure = self._present("plot", name, **options)
         return figure
 
     def to_dict(self, *args: Any, **options: Any) -> dict[str, Any]:
-        """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
+        """Return the numbers of the result by name, as ``--json`` prints them, in JSON types; infinity and NaN become None."""
         data: dict[str, Any] = self._present("as_json", *args, **options)
         return data
 
@@ -98,5 +99,5 @@ class Result(Presentable):
         printer.text("\n".join(self._present("sentences")))
 
     def require_ok(self) -> Self:
-        """Return the result itself, or raise the class's own error if it holds no answer."""
+        """Return the result itself, or raise the error of the class if the result contains no answer."""
         return self

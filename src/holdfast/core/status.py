@@ -1,7 +1,7 @@
-"""The status of one row of a batch, the same for the whole library.
+"""Status of one row of a batch, used by the whole library.
 
-A batch cannot raise for row 17, so solvers and indices return one byte per row; ``require_ok`` of a result
-turns the first bad row into an error at the edge.
+A batch cannot raise an error for one row, so solvers and indices return one byte per row. ``require_ok`` of a result turns the
+first failed row into an error.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class SentenceEnum(IntEnum):
 
 
 class Status(SentenceEnum):
-    """Status of one row, or of one joint of it; ``Status(code).sentence`` says what to try. Stored: the numbers stay."""
+    """Status of one row, or of one joint of it; ``Status(code).sentence`` gives advice. Files store the numbers."""
 
     OK = 0, "solved"
     NOT_FOUND = (
@@ -49,7 +49,7 @@ class Status(SentenceEnum):
         "the formula gives no number at this configuration, which is finite: look at where it divides by zero or takes a root "
         "or logarithm",
     )
-    SLOWED = 7, "the joints' limits let only a part of the commanded velocity pass: command less, or move off the limits"
+    SLOWED = 7, "the joint limits allow only a part of the commanded velocity: command less, or move away from the limits"
     DEGENERATE = (
         8,
         "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not swing, so the angle "

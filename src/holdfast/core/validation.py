@@ -22,19 +22,19 @@ from holdfast.core.typing import FloatArray, P, T
 
 _FROM_IMPORT = re.compile(r"^ *from ([\w.]+) import (?:\(([^)]*)\)|(.+))$", re.MULTILINE)
 _SOURCE_FOLDER = Path(__file__).parents[2]
-LARGEST_EXACT_INTEGER = 2**53  # whole numbers up to here are numbers of 8 bytes as well
+LARGEST_EXACT_INTEGER = 2**53  # whole numbers up to this one are exact in double precision
 
 
 def require_real_numbers(value: Any, label: str, wanted: str = "numbers in an array") -> FloatArray:
     """Return an array of real numbers as float64, or raise :class:`holdfast.InputError`.
 
     Args:
-        value: From a caller.
-        label: What an error calls it.
-        wanted: What it must be, for the error.
+        value: Argument of a caller.
+        label: Name of the argument in the error message.
+        wanted: Description of a valid value, for the error message.
 
     Raises:
-        InputError: Text, objects, rows of different lengths, or complex numbers, whose imaginary part would be lost.
+        InputError: The value is text, objects, rows of different lengths, or complex numbers.
     """
     if isinstance(value, np.ndarray) and value.dtype == np.float64:
         return value
@@ -70,7 +70,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     @functools.wraps(function)
     def call_checked(*args: P.args, **kwargs: P.kwargs) -> T:
         names, kinds_by_name = read_signature()
-        # By position and by name: binding the arguments to the signature would take longer than all the rest.
+        # By position and by name, because binding the arguments to the signature would take longer than everything else.
         for name, value in (*zip(names, args, strict=False), *kwargs.items()):
             kinds = kinds_by_name.get(name)
             if kinds and not _is_of_kinds(value, kinds):
@@ -179,7 +179,7 @@ def _describe_kinds(kinds: tuple[_Kind, ...]) -> str:
 
 
 def _class_kind(name: str, load: Callable[[], Any]) -> _Kind:
-    """Return the kind of the instances of the class that a function returns; there are none where it returns None."""
+    """Return the kind of instances of the class that ``load`` returns; no value is of this kind if it returns None."""
 
     def accepts(value: Any) -> bool:
         loaded = load()
@@ -219,7 +219,7 @@ def _parse_annotation(annotation: str) -> ast.expr:
 
 
 def _kinds_of_node(node: ast.expr, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
-    """Return the kinds that a part of an annotation stands for.
+    """Return the kinds that a part of an annotation means.
 
     Args:
         node: The part.
@@ -249,7 +249,7 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
         return _kinds_of_node(parts[0], scope)
     if outer == "Literal":
         choices = [ast.unparse(each) for each in parts]
-        has_words = any(each.startswith("'") for each in choices)  # another word is the function's to refuse
+        has_words = any(each.startswith("'") for each in choices)  # the function itself rejects other words
         return (_Kind(f"one of {', '.join(choices)}", lambda x: repr(x) in choices or (has_words and isinstance(x, str))),)
     kind = _STANDARD_KINDS[outer]
     if outer not in ("Mapping", "Sequence", "Iterable", "tuple"):
@@ -258,7 +258,7 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
     items = inner[-1] if outer == "Mapping" else inner[0]
 
     if any(each.description.startswith(("a sequence", "a mapping")) for each in items):
-        return (kind,)  # items that may be containers are the function's to read
+        return (kind,)  # the function itself reads items that may be containers
 
     def accepts(value: Any) -> bool:
         if not kind.accepts(value):
@@ -273,7 +273,7 @@ def _kinds_with_parts(outer: str, parts: list[ast.expr], scope: Mapping[str, Any
 
 
 def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
-    """Return the kinds that a name of a module stands for: a standard kind, a class, or an alias of other kinds."""
+    """Return the kinds that a name of a module means: a standard kind, a class, or an alias of other kinds."""
     value = scope.get(name, getattr(builtins, name, None))
     if isinstance(value, type) and value.__module__.partition(".")[0] == "holdfast":
         return (_class_kind(name, lambda: value),)
@@ -291,22 +291,22 @@ def _kinds_of_name(name: str, scope: Mapping[str, Any]) -> tuple[_Kind, ...]:
 
 @functools.cache
 def _own_kinds(module: str, name: str) -> tuple[_Kind, ...]:
-    """Return the kinds that a class or an alias of this package stands for, from the text of the module that defines it."""
+    """Return the kinds that a class or an alias of this package means, from the text of the module that defines it."""
     for line in _read_text(module).splitlines():
         if line.startswith((f"class {name}(", f"class {name}:")):
-            # Of a class whose module is not imported there are no instances.
+            # A class whose module is not imported has no instances.
             return (_class_kind(name, lambda: getattr(sys.modules.get(module), name, None)),)
         if line.lstrip().startswith((f"{name} = ", f"{name}: TypeAlias = ")):
             scope = vars(sys.modules[module]) if module in sys.modules else {"__name__": module}
             kinds = _kinds_of_node(_parse_annotation(line.partition(" = ")[2]), scope)
-            mapping = _STANDARD_KINDS["Mapping"]  # the values of such mappings are the function's to read
+            mapping = _STANDARD_KINDS["Mapping"]  # the function itself reads the values of such mappings
             return tuple(mapping if each.description.startswith(mapping.description) else each for each in kinds)
     raise LookupError(f"{name} is not found in {module}")
 
 
 @functools.cache
 def _read_imports(module: str) -> dict[str, tuple[str, str]]:
-    """Return what a module of this package imports, also for type checkers alone: local name to module and name there."""
+    """Return the imports of a module of this package, also those for type checkers: local name to module and original name."""
     imports: dict[str, tuple[str, str]] = {}
     for home, in_brackets, on_line in _FROM_IMPORT.findall(_read_text(module).partition("\n\n\n")[0]):
         if on_line == "*":
@@ -319,13 +319,13 @@ def _read_imports(module: str) -> dict[str, tuple[str, str]]:
 
 @functools.cache
 def _read_text(module: str) -> str:
-    """Return the text of a module of this package; of a package, that of its stub, which lists all that it offers."""
+    """Return the text of a module of this package; for a package, the text of its stub, which lists all offered names."""
     path = f"{_SOURCE_FOLDER}/{module.replace('.', '/')}"
     file = Path(f"{path}.py")
     return (file if file.is_file() else Path(path, "__init__.pyi")).read_text(encoding="utf-8")
 
 
-# ---- sentences ---------------------------------------------------------------------------------------------------
+# ---- messages ---------------------------------------------------------------------------------------------------
 
 
 def _describe_value(value: Any) -> str:

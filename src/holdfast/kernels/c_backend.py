@@ -1,6 +1,6 @@
-"""Translate a program to C99 for a robot's own controller.
+"""Translate a program to C99 for the controller of a robot.
 
-Variables are used again once their value is not needed: without optimisation a compiler gives each a place on the stack.
+A variable is reused once its value is no longer needed, because an unoptimised compiler gives each variable its own stack slot.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _C_FORMS = {
     ca.OP_LT: "{0} < {1}",
     ca.OP_LE: "{0} <= {1}",
     ca.OP_EQ: "{0} == {1}",
-    # As compiled code has them: a comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
+    # As in compiled code, a comparison with NaN is false, also "not equal", and a condition that is NaN counts as true.
     ca.OP_NE: "({0} < {1}) | ({0} > {1})",
     ca.OP_NOT: "!{0}",
     ca.OP_AND: "({0} != 0) & ({1} != 0)",
@@ -54,17 +54,17 @@ _VARIABLE_PATTERN = re.compile(r"[cv]\d+")
 def write_c_function(program: Program, name: str, inputs: Mapping[str, int], outputs: Mapping[str, int]) -> str:
     """Write a program in C99: ``static void NAME(const double *input, ..., double *output, ...)``, needing ``math.h``.
 
-    The operations are those of a :class:`holdfast.kernels.Kernel`, bit for bit but for functions of ``math.h`` where a
+    The operations are those of a :class:`holdfast.kernels.Kernel`, bit for bit except for functions of ``math.h``, if the
     compiler neither contracts nor reorders them. Inputs must be finite.
 
     Args:
         program: The computation.
-        name: Of the function.
-        inputs: Names of its arrays and their sizes, which hold the inputs of the program in order.
-        outputs: Likewise of its outputs.
+        name: Name of the C function.
+        inputs: Names and sizes of its input arrays, which hold the inputs of the program in order.
+        outputs: Names and sizes of its output arrays.
 
     Raises:
-        KernelError: An operation that has no row in the table; the message names it.
+        KernelError: The program has an operation without a C form; the message names it.
     """
     graph = ValueGraph(program, "C", _C_FORMS.keys(), guarded=False)
     lines, doubles, conditions = _write_statements(graph, _element_names(inputs), _element_names(outputs))
@@ -79,7 +79,7 @@ def _element_names(arrays: Mapping[str, int]) -> list[str]:
 
 
 def _write_statements(graph: ValueGraph, inputs: list[str], outputs: list[str]) -> tuple[list[str], list[str], list[str]]:
-    """Return lines of C, and the variables that they use: of numbers and of conditions."""
+    """Return lines of C, and the names of their variables for numbers and for conditions."""
     nodes = graph.nodes
     last_use = {a: k for k in graph.needed for a in nodes[k].args}
     last_use |= {nodes[k].args[0]: len(nodes) for k in graph.needed if nodes[k].op == OP_OUTPUT}
@@ -96,7 +96,7 @@ def _write_statements(graph: ValueGraph, inputs: list[str], outputs: list[str]) 
             result_lines.append(f"    {outputs[int(node.value)]} = {names[node.args[0]]};\n")
             continue
         text = _C_FORMS[node.op].format(*(names[a] for a in node.args))
-        for a in set(node.args):  # a variable whose value nothing after this line needs may be used again
+        for a in set(node.args):  # a variable whose value no later line needs may be reused
             if last_use[a] == k and _VARIABLE_PATTERN.fullmatch(names[a]):
                 heappush(free[names[a][0] == "c"], int(names[a][1:]))
         kind = node.op in _CONDITION_OPERATIONS

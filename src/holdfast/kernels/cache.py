@@ -1,9 +1,9 @@
-"""Cache object code on disk, so that the second start of a program need not compile again.
+"""Cache object code on disk, so that a second start of a program need not compile it again.
 
-A file is: a line that names the format, the SHA-256 of everything that follows, and the object code. Its name is the key: the
-program, the level, the processor, the text of the translation. The folder belongs to the user alone: a folder or file that
-somebody else owns or may write is not read, nor is anything but a regular file. Above 1 GiB what was not used for
-longest goes. ``HOLDFAST_CACHE`` names another folder, or switches the cache off when it is ``off``.
+A file contains a line that names the format, the SHA-256 of the rest, and the object code. Its name is the key: a digest of the
+program, the optimisation level, the processor, and the source of the translation. The folder is private: a folder or file that
+another user owns or may write is not read, and only regular files are read. Above 1 GiB the least recently used files are
+deleted. ``HOLDFAST_CACHE`` names another folder, or switches the cache off if it is ``off``.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _FILE_HEADER = b"holdfast kernel 1\n"
 # _MAX_FILE_BYTES and _MAX_FOLDER_BYTES: bytes
 _MAX_FILE_BYTES = 1 << 28
 _MAX_FOLDER_BYTES = 1 << 30
-_written: dict[Path, int] = {}  # bytes that this process added to each folder since it last looked at all of it
+_written: dict[Path, int] = {}  # bytes that this process added to each folder since the last scan of the folder
 
 
 def cache_folder() -> Path | None:
-    """Return the cache folder, created private to the user, or None if the cache is off or others may write the folder."""
+    """Return the cache folder, created private to the user, or None if the cache is off or other users may write the folder."""
     setting = os.environ.get("HOLDFAST_CACHE")
     if setting == "off":
         return None
@@ -35,26 +35,26 @@ def cache_folder() -> Path | None:
         path = base / "kernels"
         path.mkdir(parents=True, exist_ok=True, mode=0o700)
         return path if _is_private(path.stat()) else None
-    except (OSError, RuntimeError):  # no home at all
+    except (OSError, RuntimeError):  # no home folder
         return None
 
 
 def _is_private(file_status: os.stat_result) -> bool:
-    """Return True if nobody else may write the file."""
+    """Return whether only the user may write the file."""
     return not hasattr(os, "getuid") or (file_status.st_uid == os.getuid() and not file_status.st_mode & 0o022)
 
 
 @lru_cache(maxsize=1)
 def _machine_digest() -> str:
     processor = machine_code.detect_processor()
-    # A kernel made by other code is another kernel.
+    # Kernels of another version of this code must not be found.
     sources = [file for folder in ("llvm", "gpu") for file in sorted(Path(__file__).with_name(folder).glob("*.py"))]
     code = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()
     return "|".join([code, machine_code.llvm_version(), processor.cpu, processor.features, repr(processor.machine)])
 
 
 def cache_key(digest: str, *parts: object) -> str:
-    """Return the file name of a program's code, or of anything else that depends on the machine and the translation."""
+    """Return the file name for a program's code, or for other data that depend on the machine and the translation."""
     return hashlib.sha256("|".join([digest, *map(str, parts), _machine_digest()]).encode()).hexdigest()
 
 
@@ -64,7 +64,7 @@ def load_entry(name: str) -> bytes | None:
     if path is None:
         return None
     try:
-        # A pipe would wait forever; a link may lead anywhere.
+        # Opening a pipe would wait forever, and a link may lead anywhere.
         handle = os.open(path / name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0))
     except OSError:
         return None
@@ -88,7 +88,7 @@ def load_entry(name: str) -> bytes | None:
 
 
 def store_entry(name: str, body: bytes) -> None:
-    """Write an entry completely or not at all; a full disk or a read-only home only makes the next start slower."""
+    """Write an entry completely or not at all; if the disk is full or read-only, only the next start takes longer."""
     path = cache_folder()
     if path is None:
         return
@@ -100,7 +100,7 @@ def store_entry(name: str, body: bytes) -> None:
             Path(temporary).replace(path / name)
         except OSError:
             Path(temporary).unlink()
-        # To look at thousands of files takes longer than to write one.
+        # A scan of thousands of files takes longer than writing one.
         _written[path] = _written.get(path, _MAX_FOLDER_BYTES) + len(body)
         if _written[path] > _MAX_FOLDER_BYTES >> 5:
             _written[path] = 0
@@ -108,7 +108,7 @@ def store_entry(name: str, body: bytes) -> None:
 
 
 def _delete_oldest_entries(path: Path) -> None:
-    """Remove the entries that were not used for longest until the folder is small enough."""
+    """Delete the least recently used entries until the folder is small enough."""
     with os.scandir(path) as entries:
         files = [(entry.stat(follow_symlinks=False), entry.path) for entry in entries]
     size = sum(status.st_size for status, _ in files)

@@ -1,4 +1,4 @@
-"""Evaluate a program by the CasADi virtual machine, which is slower, runs everywhere, and is the oracle of the tests."""
+"""Evaluate a program by the CasADi virtual machine, which is slower, runs everywhere, and is the reference of the tests."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Machine code of a program: code that compiles quickly first, better code once enough rows repay it.
+"""Machine code of a program: first code that compiles quickly, then faster code once enough rows make it worthwhile.
 
-Both give the same bits, so that nobody needs to know which of them computed a row.
+Both compute the same bits, so a result does not depend on which of them computed a row.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
 
-MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
-MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
-MAX_WAITED_OPERATIONS = 40_000  # operations: nobody waits for level 1 of more
+MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in about 15 ms, hardly longer than level 0
+MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; larger programs do not fit
+MAX_WAITED_OPERATIONS = 40_000  # operations up to which a caller waits for level 1
 MAX_COMPILED_OPERATIONS = (
-    100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
+    100_000  # operations: larger programs take minutes on level 1 (measured: 6 s of 74,000, not done after 250 s of 582,000)
 )
-# Rows after which level 1 is compiled. It repays that after 1,200,000 to 5,000,000 (measured: steps of an ascent, of a closed
-# loop, of a control cycle); well below, a long batch takes little longer than if it had been compiled beforehand, and a short
-# one wastes nothing. Of short programs it repays later (1,700 operations: after 7,000,000; 900: after 10,000,000), if ever.
+# Rows after which level 1 is compiled. Its compilation pays after 1,200,000 to 5,000,000 rows (measured: steps of an ascent, of
+# a closed loop, of a control cycle). With this lower limit a long batch takes little longer than with code compiled in advance,
+# and a short one wastes nothing. Short programs need more (1,700 operations: 7,000,000 rows; 900: 10,000,000) if it ever pays.
 REPAYING_WORK = 750_000
 SHORT_PROGRAM_OPERATIONS = 2000
 REPAYING_WORK_OF_SHORT = 5_000_000
@@ -43,7 +43,7 @@ _coming: ContextVar[int] = ContextVar("coming", default=0)
 
 @contextlib.contextmanager
 def expect_row_count(rows: int) -> Iterator[None]:
-    """Context in which new kernels of this thread expect this many rows; where better code repays, it is compiled at once."""
+    """Context in which new kernels of this thread expect this number of rows; if level 1 pays, it is compiled at once."""
     before = _coming.set(rows)
     try:
         yield
@@ -55,11 +55,11 @@ class CompiledProgram:
     """Program as a compiled function over columns.
 
     Args:
-        program: What to compute.
+        program: Program to compile.
 
     Attributes:
-        level: Of the code in use.
-        lanes: Widths of columns are multiples of this.
+        level: Optimisation level of the code in use.
+        lanes: Column widths are multiples of this number.
     """
 
     def __init__(self, program: Program) -> None:
@@ -76,21 +76,21 @@ class CompiledProgram:
         self._code = stored_code or self._load_code(0) or self._compile_code(0)
 
     def bind_arrays(self, inputs: FloatArray, outputs: FloatArray, used_width: int | None = None) -> Callable[[], None]:
-        """Return the function that evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the
+        """Return a function that evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``, both contiguous, W a multiple of
         lanes.
 
         Args:
-            inputs: Read at each call.
-            outputs: Overwritten.
-            used_width: A multiple of the lanes: only so many of the columns, the first ones.
+            inputs: Array that each call reads.
+            outputs: Array that each call overwrites.
+            used_width: Number of leading columns to evaluate, a multiple of the lanes; default: all.
         """
         width = inputs.shape[1] if used_width is None else used_width
-        # Made once: a step of few rows takes less than ctypes takes to convert four numbers.
+        # Made once, because ctypes takes longer to convert four numbers than a step of few rows takes.
         addresses = c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data)
         arguments: tuple[Any, ...] = (*addresses, c_int64(inputs.shape[1]), c_int64(width))
 
         def evaluate_bound(arrays: tuple[FloatArray, FloatArray] = (inputs, outputs)) -> None:
-            code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
+            code = self._code  # may be replaced meanwhile, and lives as long as it is referenced
             code.call(*arguments)
             if not self.level:
                 self._count_evaluated_rows(width)
@@ -99,7 +99,7 @@ class CompiledProgram:
 
     @cached_property
     def single_row_code(self) -> machine_code.MachineCode:
-        """Code for a single row, for control loops, with the same bits."""
+        """Code for a single row, for control loops; it computes the same bits."""
         level = int(self._program.size <= MAX_WAITED_OPERATIONS)
         return self._load_code(level, 1) or self._compile_code(level, 1)
 
@@ -108,9 +108,9 @@ class CompiledProgram:
     def _count_evaluated_rows(self, rows: int) -> None:
         self._rows += rows
         if self._is_compilation_worthwhile(self._rows):
-            self._rows = -(1 << 62)  # asked once
+            self._rows = -(1 << 62)  # so that the compilation is requested only once
             if in_pool() and _busy.acquire(blocking=False):
-                # Every processor is busy: beside one thread more, the others would only be longer on level 0.
+                # While every processor is busy, a compiling thread would only delay the others, which run on level 0.
                 try:
                     self._replace_by_optimized_code()
                 finally:
@@ -152,8 +152,8 @@ class CompiledProgram:
 
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
 _worker: threading.Thread | None = None
-_busy = threading.RLock()  # held while code improves, in a fork, and from the end of the program on, when it may still fork
-_fork = contextlib.ExitStack()  # what the fork under way holds of LLVM
+_busy = threading.RLock()  # held during compilation, during a fork, and from the end of the program, when it may still fork
+_fork = contextlib.ExitStack()  # locks of LLVM that the current fork holds
 
 
 def _submit_job(task: Callable[[], None]) -> None:
@@ -170,13 +170,13 @@ def _run_jobs() -> None:
         with _busy:
             try:
                 task()
-            except Exception:  # said as threads say it; the next job is done, and who waits for all of them is told
+            except Exception:  # reported as threads report errors; then the next job runs, and waiting callers return
                 args = (*sys.exc_info(), threading.current_thread())
                 threading.excepthook(threading.ExceptHookArgs(args))
 
 
 def wait_for_compiler() -> None:
-    """Wait until nothing is being compiled in the background, for measurements."""
+    """Wait until no program is being compiled in the background, for measurements."""
     done = threading.Event()
     if _worker is not None and _worker.is_alive():
         _jobs.put(done.set)
@@ -184,9 +184,9 @@ def wait_for_compiler() -> None:
 
 
 def _lock_compiler_before_fork() -> None:
-    """Wait before a fork, because CasADi and LLVM have locks that a child process cannot open.
+    """Wait before a fork, because a child process cannot release the locks of CasADi and LLVM.
 
-    In this order: a job that runs needs LLVM to end.
+    The order matters, because a running job needs LLVM until it ends.
     """
     _busy.acquire()
     _fork.enter_context(machine_code.llvm_lock())
@@ -198,7 +198,7 @@ def _unlock_compiler_after_fork() -> None:
 
 
 def _after_fork_in_child() -> None:
-    """Reset the compiler in a child process, which has no compiler thread; waiting programs stay at level 0."""
+    """Reset the compiler in a child process, which has no compiler thread; waiting programs stay on level 0."""
     global _worker, _jobs, _busy
     _fork.close()
     _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.RLock()

@@ -1,4 +1,4 @@
-"""Single control step, as fast as Python can call it."""
+"""Single control step with minimal overhead in Python."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from holdfast.kernels.kernel import Kernel
 
 
 class ControlStep:
-    """Control step ``(q, velocity) -> rates`` with its own buffer, not for several threads at once.
+    """Control step ``(q, velocity) -> rates`` of a ``kernel`` for ``n`` joints, with its own buffer; not for several threads.
 
-    Nothing is checked. The bits are those of the law's batch.
+    Arguments are not checked. The results have the same bits as those of the control law for batches.
     """
 
     def __init__(self, kernel: Kernel, n: int) -> None:
         single = kernel.single_row()
         self._run, self._in, self._n = single.run, single.inputs, n
         self._out = np.full(kernel.program.n_out, np.nan)
-        # Memory views are filled in half the time that NumPy's slices take.
+        # Filling memory views takes half the time of NumPy's slices.
         self._q: Any = self._in.data[:n]
         self._velocity: Any = self._in.data[n:]
 
     def __call__(self, q: FloatArray, velocity: FloatArray) -> FloatArray:
-        """Rates (n,) of a configuration (n,) and a velocity of the end effector."""
+        """Return joint rates (n,), rad/s or m/s, for joint values ``q`` (n,), rad or m, and a task ``velocity`` (m,)."""
         try:
             self._q[:] = q
             self._velocity[:] = velocity
@@ -39,33 +39,33 @@ class ControlStep:
 
     @property
     def extra_outputs(self) -> FloatArray:
-        """Further outputs of the kernel in the last call: of a resolution the fractions and the damping."""
+        """Further outputs of the kernel in the last call, for example the fractions and the damping of a resolution."""
         return self._out[self._n :]
 
 
 class Steppable(ABC):
-    """Base of objects with a control step, once it is prepared."""
+    """Base class of objects with a control step, which must be prepared."""
 
     @abstractmethod
     def _step_kernel(self) -> tuple[Kernel, int]:
-        """Return the kernel of a step, joint rates first, and the number of joints."""
+        """Return the kernel of a step, whose first outputs are the joint rates, and the number of joints."""
 
     @cached_property
     def _prepared_step(self) -> ControlStep:
         return ControlStep(*self._step_kernel())
 
     def prepare(self) -> ControlStep:
-        """Compile :attr:`step`, which takes up to a few seconds at first use and milliseconds later; returns it.
+        """Compile and return :attr:`step`, which takes up to a few seconds at first use and milliseconds later.
 
-        A loop that controls a robot calls this before it begins.
+        Call this method before a loop that controls a robot begins.
         """
         return self._prepared_step
 
     @property
     def step(self) -> ControlStep:
-        """``step(q, velocity) -> rates`` for one configuration: for a control loop, without any checks.
+        """Function ``step(q, velocity) -> rates`` for one configuration, for control loops, without any checks.
 
-        It never compiles; what else was computed is in ``step.others``.
+        It never compiles. Further outputs of the kernel are in ``step.extra_outputs``.
 
         Raises:
             KernelError: :meth:`prepare` was not called.

@@ -18,16 +18,16 @@ from holdfast.kernels.program import Program
 
 K = TypeVar("K", Kernel, Loop)
 
-_making: dict[str, threading.RLock] = {}  # by recipe: what a build needs in turn is of another recipe
+_making: dict[str, threading.RLock] = {}  # by recipe, because a build may need other kernels, which have other recipes
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_making.clear)  # a child process has none of the threads that hold them
+    os.register_at_fork(after_in_child=_making.clear)  # the threads that hold the locks do not exist in a child process
 
 
 def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
-    """Wrap a function or method that builds a kernel or a loop, so that it is called only where its result is not cached.
+    """Wrap ``build``, a function or method that returns a kernel or a loop, so that it runs only if its result is not cached.
 
-    What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
-    (``holdfast.kernels.input_digest``), and outside of holdfast, whose sources count, it is called as ever.
+    The result may depend only on the arguments and the sources of holdfast. The cache is not used if an argument has no digest
+    (``holdfast.kernels.input_digest``), or if the function is not part of holdfast.
     """
 
     @wraps(build)
@@ -36,7 +36,7 @@ def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
         if recipe is None:
             return build(*args, **kwargs)
         entry = cache.cache_key(recipe, "facts")
-        with _making.setdefault(recipe, threading.RLock()):  # threads that need it at once: one builds, the others find it
+        with _making.setdefault(recipe, threading.RLock()):  # of several threads one builds, and the others load
             facts = cache.load_entry(entry)
             if facts is None:
                 kernel = build(*args, **kwargs)
@@ -49,9 +49,7 @@ def cached_kernel(build: Callable[P, K]) -> Callable[P, K]:
 
 
 def cached_json(build: Callable[P, T]) -> Callable[P, T]:
-    """Wrap a function that returns JSON data (a text, a number, or a dictionary of texts), cached as by
-    :func:`cached_kernel`.
-    """
+    """Wrap ``build``, which returns JSON data (text, number, or dictionary of texts), as :func:`cached_kernel` does."""
 
     @wraps(build)
     def build_or_load(*args: P.args, **kwargs: P.kwargs) -> T:

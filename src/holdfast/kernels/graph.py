@@ -1,4 +1,4 @@
-"""Program as a graph of values, each computed once, from which text in another language is printed."""
+"""Program as a graph of values, each computed once, from which text in another language is written."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import casadi as ca
 from holdfast.core.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
 
-# OP_SELECT, OP_INPUT, OP_CONST and OP_OUTPUT: beside the operations of CasADi
+# OP_SELECT, OP_INPUT, OP_CONST and OP_OUTPUT: in addition to the operations of CasADi
 OP_SELECT = -4
 OP_INPUT = -3
 OP_CONST = -2
@@ -30,17 +30,17 @@ class ValueGraph:
     """Values of a program, each computed once, in a valid order.
 
     Args:
-        program: The computation.
-        language: That it is printed in.
-        operations: What that has.
-        guarded: Whether NaN or infinity in any input makes every output NaN, as a kernel does.
+        program: Program.
+        language: Name of the target language.
+        operations: Operations of the target language.
+        guarded: If True, NaN or infinity in any input makes every output NaN, as in a kernel.
 
     Attributes:
         nodes: Values, each after its arguments.
-        needed: Numbers of those that an output needs, in order.
+        needed: Numbers of the values that an output needs, in order.
 
     Raises:
-        KernelError: An operation that the language does not have; the message names it.
+        KernelError: The language does not have an operation of the program; the message names it.
     """
 
     def __init__(self, program: Program, language: str, operations: Collection[int], *, guarded: bool) -> None:
@@ -48,7 +48,7 @@ class ValueGraph:
         self._known: dict[GraphNode, int] = {}
         work: dict[int, int] = {}
         inputs = [self._add_node(GraphNode(OP_INPUT, value=i)) for i in range(program.n_in)]
-        if guarded:  # it must reach every output, also where the expression ignores that input
+        if guarded:  # the guard must reach every output, even if its expression ignores that input
             total = inputs[0]
             for term in inputs[1:]:
                 total = self._add_node(GraphNode(ca.OP_ADD, (total, term)))
@@ -93,7 +93,7 @@ class ValueGraph:
         return self._known[node]
 
     def _merge_choice(self, x: int, y: int) -> GraphNode | None:
-        """CasADi writes ``c ? a : b`` as ``(c ? a : 0) + (!c ? b : 0)``; one choice instead of four operations."""
+        """Merge to one choice CasADi's form of ``c ? a : b``, which is ``(c ? a : 0) + (!c ? b : 0)`` with four operations."""
         first, second = self.nodes[x], self.nodes[y]
         if first.op != ca.OP_IF_ELSE_ZERO or second.op != ca.OP_IF_ELSE_ZERO:
             return None

@@ -1,8 +1,8 @@
 """Digest of the inputs of an expression, so that an expression of the same inputs need not be built again.
 
 Numbers, texts, arrays, enumerations, containers of them, dataclasses and objects of holdfast count by their values, together
-with the sources of the package and the versions of holdfast, CasADi and NumPy. A function of somebody else's, or an object of
-a class of somebody else's, has no digest: what is made of it is always built.
+with the sources of the package and the versions of holdfast, CasADi and NumPy. Functions and classes from outside holdfast have
+no digest, so expressions that depend on them are always built.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from holdfast.core.caching import cached_property
 from holdfast.core.provenance import versions
 
 _PACKAGE_FOLDER = Path(__file__).parents[1]
-_UNRELATED_FOLDERS = {"interface", "__pycache__"}  # no expression is built there, and nothing below imports them
+_UNRELATED_FOLDERS = {"interface", "__pycache__"}  # no expression is built there, and lower layers do not import them
 
 
 _known: WeakKeyDictionary[object, tuple[bytes, ...]] = WeakKeyDictionary()
 
 
 class _NoDigestError(Exception):
-    """Input without a digest."""
+    """Error: an input has no digest."""
 
 
 def fingerprint(*parts: object) -> str | None:
@@ -57,14 +57,14 @@ def _sources_digest() -> str:
             hasher.update(path[len(str(_PACKAGE_FOLDER)) :].encode())
             with open(path, "rb") as file:  # noqa: PTH123  (pathlib takes as long again)
                 hasher.update(file.read())
-    if not is_complete:  # they lie in an archive
+    if not is_complete:  # the sources are in an archive
         raise _NoDigestError
     return hasher.hexdigest()
 
 
 def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
     if id(x) in inside:
-        raise _NoDigestError  # it holds itself
+        raise _NoDigestError  # the object contains itself
     kind, inside = type(x), (*inside, id(x))
     yield f"{kind.__module__}.{kind.__qualname__}".encode()
     if x is None or kind in (bool, int, str, bytes):
@@ -89,9 +89,9 @@ def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _sequence_blocks([item for pair in x.items() for item in pair], inside)
     elif kind in (tuple, list):
         yield from _sequence_blocks(x, inside)
-    elif kind in (set, frozenset):  # whose order differs from start to start
+    elif kind in (set, frozenset):  # whose order differs between runs
         yield from _sequence_blocks(sorted(b"".join(_sequence_blocks([item], inside)) for item in x), inside)
-    elif hasattr(x, "made_of") or hasattr(x, "source_digest"):  # the second one: of a kernel or a loop
+    elif hasattr(x, "made_of") or hasattr(x, "source_digest"):  # the second is an attribute of kernels and loops
         _require_holdfast_name(kind)
         source = x.made_of if hasattr(x, "made_of") else x.source_digest
         if source is None:
@@ -99,7 +99,7 @@ def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _bytes_to_hash(source, inside)
     elif isinstance(x, Path):
         yield str(x).encode()
-    elif _compares_by_identity(kind):  # an arm: a part of all that is made for it
+    elif _compares_by_identity(kind):  # an arm, which is part of everything that is made for it
         if x not in _known:
             _known[x] = tuple(_object_blocks(x, inside))
         yield from _known[x]

@@ -1,10 +1,10 @@
 """Translate a program to JavaScript for a browser.
 
-V8 does not optimise a function of more than 60 kB of its own code, so a long program becomes several functions, which hand on
-through an array what more than one of them needs. Measured with Node 20 on one core of a shared machine, ten sub-steps of the
-failure-tolerant law: three links (4,300 CasADi operations) 29 us in functions of 100 operations, 20 of 200, 12 of 800 and more;
-Panda's position (12,800 operations) 85 us in functions of 200, 57 of 1600, 1,300 as a single function. Values written once stay
-inside the expression that reads them, which an engine skips on the side of a choice that is not taken.
+V8 does not optimise a function with more than 60 kB of code, so a long program becomes several functions, which share values
+through an array. Measured with Node 20 on one core of a shared machine, ten sub-steps of the failure-tolerant law: three links
+(4,300 CasADi operations) 29 us in functions of 100 operations, 20 of 200, 12 of 800 and more; Panda's position (12,800
+operations) 85 us in functions of 200, 57 of 1600, 1,300 as a single function. A value that is used once stays inside the
+expression that reads it, which an engine skips if the other branch of a choice is taken.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ import casadi as ca
 from holdfast.kernels.graph import OP_CONST, OP_INPUT, OP_OUTPUT, OP_SELECT, ValueGraph
 from holdfast.kernels.program import Program
 
-_OPERATIONS_PER_FUNCTION = 1000  # operations in one function, about
-_OPERATIONS_PER_EXPRESSION = 60  # operations in one expression, at most: engines read expressions recursively
+_OPERATIONS_PER_FUNCTION = 1000  # approximate operations in one function
+_OPERATIONS_PER_EXPRESSION = 60  # maximum operations in one expression, because engines parse expressions recursively
 
-# Strength of binding, from loose to tight; -x has that of a sum, so that it is never written next to another sign.
+# Operator precedence, from weak to strong; -x has that of a sum, so that it is never written next to another sign.
 _BINDS_CHOICE = 1
 _BINDS_OR = 2
 _BINDS_AND = 3
@@ -42,12 +42,12 @@ class _OperationForm:
     """JavaScript form of an operation.
 
     Attributes:
-        text: With ``{0}``, ``{1}``, ... for its arguments.
-        binds: Strength of binding of the whole.
-        needs: What each argument must bind at least.
-        truths: For each argument, whether it is a condition rather than a number.
-        truth: Whether the result is a condition.
-        helper: Name of a function that the text calls.
+        text: Code with ``{0}``, ``{1}``, ... for the arguments.
+        binds: Precedence of the whole.
+        needs: Minimum precedence of each argument.
+        truths: For each argument, True if it is a condition rather than a number.
+        truth: True if the result is a condition.
+        helper: Name of a function that the code calls.
     """
 
     text: str
@@ -72,7 +72,7 @@ _JAVASCRIPT_FORMS = {
     ca.OP_SQ: _OperationForm("{0}*{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
     ca.OP_TWICE: _OperationForm("2*{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
     ca.OP_INV: _OperationForm("1/{0}", _BINDS_PRODUCT, (_BINDS_UNARY,)),
-    # As compiled code has them: a comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
+    # As in compiled code, a comparison with NaN is false, also "not equal", and a condition that is NaN counts as true.
     ca.OP_LT: _OperationForm("{0}<{1}", _BINDS_LESS, (_BINDS_SUM, _BINDS_SUM), truth=True),
     ca.OP_LE: _OperationForm("{0}<={1}", _BINDS_LESS, (_BINDS_SUM, _BINDS_SUM), truth=True),
     ca.OP_EQ: _OperationForm("{0}==={1}", _BINDS_EQUAL, (_BINDS_LESS, _BINDS_LESS), truth=True),
@@ -107,11 +107,11 @@ _JAVASCRIPT_FORMS = {
 }
 
 _HELPER_FUNCTIONS = {
-    # An angle beyond 1e15 means nothing in double precision; see holdfast.kernels.llvm.arithmetic.
+    # An angle beyond 1e15 has no meaning in double precision; see holdfast.kernels.llvm.arithmetic.
     "sine": "const sine=a=>a*a<1e30?Math.sin(a):NaN;",
     "cosine": "const cosine=a=>a*a<1e30?Math.cos(a):NaN;",
     "tangent": "const tangent=a=>a*a<1e30?Math.tan(a):NaN;",
-    # C and IEEE 754 have 1 where JavaScript has NaN.
+    # C and IEEE 754 return 1 where JavaScript returns NaN.
     "power": "const power=(a,b)=>a===1||a===-1&&(b===Infinity||b===-Infinity)?1:Math.pow(a,b);",
 }
 
@@ -119,16 +119,16 @@ _HELPER_FUNCTIONS = {
 def write_javascript(program: Program, name: str) -> str:
     """Write a program in JavaScript: ``const NAME = (x, y) => ...``, strict, without allocation or dependencies.
 
-    ``x`` and ``y`` are two ``Float64Array``: the inputs are read from the first, the outputs written to the second, both
-    in the order of the program. What comes out is what a :class:`holdfast.kernels.Kernel` gives, to rounding: NaN or
+    ``x`` and ``y`` are two ``Float64Array``: the inputs are read from the first, and the outputs are written to the second,
+    both in the order of the program. Up to rounding, the outputs equal those of a :class:`holdfast.kernels.Kernel`; NaN or
     infinity in an input makes every output NaN.
 
     Args:
-        program: The computation.
-        name: Of the constant.
+        program: Program to translate.
+        name: Name of the constant.
 
     Raises:
-        KernelError: An operation that has no row in the table; the message names it.
+        KernelError: The program has an operation without a JavaScript form; the message names it.
     """
     graph = _NamedGraph(program)
     pieces, spilled = _write_functions(graph)
@@ -147,11 +147,11 @@ def write_javascript(program: Program, name: str) -> str:
 
 
 class _NamedGraph(ValueGraph):
-    """Values of a program and the names of those that are used more than once.
+    """Values of a program, and names for those that are used more than once.
 
     Attributes:
-        named: Their numbers.
-        size: Operations that an expression is written with.
+        named: Numbers of the named values.
+        size: Number of operations in the expression of each value.
     """
 
     def __init__(self, program: Program) -> None:
@@ -198,11 +198,11 @@ class _NamedGraph(ValueGraph):
         """Write the expression of a value.
 
         Args:
-            k: The value.
-            names: Of named values.
-            min_binding: What it must bind at least; otherwise it gets brackets.
-            as_condition: Whether a condition is wanted rather than a number.
-            ignore_own_name: Written out even if it has a name.
+            k: Number of the value.
+            names: Names of the named values.
+            min_binding: Minimum precedence; a weaker expression gets brackets.
+            as_condition: Return a condition rather than a number.
+            ignore_own_name: Write the expression even if the value has a name.
         """
         node, form = self.nodes[k], self.operation_form(k)
         if k in names and not ignore_own_name:
@@ -223,9 +223,9 @@ class _NamedGraph(ValueGraph):
 
 
 def _write_functions(graph: _NamedGraph) -> tuple[list[str], int]:
-    """Return the bodies of functions, and how many numbers they pass to each other.
+    """Return the bodies of functions, and the number of values that they share.
 
-    Engines do not optimise a function that is too long.
+    Engines do not optimise functions that are too long.
     """
     statements = [k for k in graph.needed if k in graph.named or graph.nodes[k].op == OP_OUTPUT]
     total = sum(graph.size[k] for k in statements)
@@ -277,7 +277,7 @@ def _write_functions(graph: _NamedGraph) -> tuple[list[str], int]:
 
 
 def _short_names() -> Iterator[str]:
-    """Yield short names that are not words of the language or w, x, y."""
+    """Yield short names except reserved words of the language and w, x, y."""
     letters = [c for c in ascii_letters if c not in "wxy"]
     yield from letters
     for number in count():
@@ -286,7 +286,7 @@ def _short_names() -> Iterator[str]:
 
 
 def _number_and_binding(value: float) -> tuple[str, int]:
-    """Write a constant that reads back as the same double, and return how it binds."""
+    """Return a constant that reads back as the same double, and its precedence."""
     if math.isnan(value):
         return "NaN", _BINDS_ATOM
     size = abs(value)

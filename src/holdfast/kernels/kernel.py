@@ -1,4 +1,4 @@
-"""Batched function: rows in, rows out, on any backend."""
+"""Batched functions from rows to rows, on any backend."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from holdfast.kernels.llvm.translation import UnsupportedOperationError
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 
-_SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
+_SCRATCH_BYTES = 1 << 20  # bytes, so that inputs and outputs of one chunk stay in the second-level cache
 BACKEND_NAMES = ("llvm", "casadi", "cuda")
 _chosen: str | None = None
 
@@ -32,16 +32,16 @@ def default_backend() -> str:
 
 
 def set_backend(name: str | None) -> None:
-    """Use a backend for all kernels made from now on.
+    """Use a backend for all kernels that are made from now on.
 
-    A GPU also takes over what arms, indices and laws have made already, until another one is named or None; else those keep
-    theirs.
+    A GPU backend also replaces the backend of existing kernels of arms, indices and laws, until another backend or None is set.
+    With other backends existing kernels keep theirs.
 
     Args:
         name: ``"llvm"``, ``"casadi"``, ``"cuda"`` or ``"cuda:1"``, as for :class:`holdfast.kernels.Kernel`; None: the default.
 
     Raises:
-        KernelError: It is not known, or there is no such GPU.
+        KernelError: The backend is not known, or the GPU does not exist.
     """
     global _chosen
     if name is not None and _check_backend(name).startswith("cuda"):
@@ -63,27 +63,27 @@ def _device_number(name: str) -> int:
 
 
 class Kernel:
-    """A batched function of CasADi expressions.
+    """Batched function of CasADi expressions.
 
-    Each input of shape ``(r, c)`` takes an array ``(N, r, c)``; axes of length 1 are dropped, so a scalar takes
-    ``(N,)`` or ``(N, 1)`` and a column ``(N, r)``. Without the leading ``N`` the result is that of one row. Inputs
-    without it are used for every row. Results follow the same rule.
+    Each input of shape ``(r, c)`` takes an array ``(N, r, c)``. Axes of length 1 are dropped, so a scalar takes ``(N,)`` or
+    ``(N, 1)`` and a column ``(N, r)``. An input without the leading axis ``N`` is used for every row; if no input has it, the
+    result has none either. Results follow the same rule.
 
-    The same row gives the same bits whatever the batch, the chunks and the number of threads: every call, also of one
-    row, is padded to the SIMD width. NaN or infinity in a row gives NaN in all results of that row, and in no other.
+    A row gives the same bits for any batch, chunk and number of threads, because every call, also for one row, is padded to the
+    SIMD width. NaN or infinity in a row gives NaN in all results of that row, and in no other row.
 
     Args:
-        name: For messages.
+        name: Name for messages.
         inputs: CasADi ``SX`` symbols.
-        outputs: CasADi ``SX`` expressions of them.
+        outputs: CasADi ``SX`` expressions of the symbols.
         backend: ``"llvm"`` (machine code, SIMD, threads), ``"casadi"`` (virtual machine), ``"cuda"`` (the first NVIDIA GPU) or
-            ``"cuda:1"`` (the second); None: the default, or ``"casadi"`` for an operation that ``"llvm"`` does not have.
+            ``"cuda:1"`` (the second). Default: ``default_backend()``, or ``"casadi"`` for operations that ``"llvm"`` lacks.
 
     Attributes:
-        lanes: Rows handled at once.
+        lanes: Number of rows that are computed at once.
 
     Raises:
-        KernelError: Unknown backend, an operation that the named backend does not have, or no GPU, no driver or too old a GPU.
+        KernelError: The backend is unknown or lacks an operation, or there is no GPU, no driver or only too old a GPU.
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
@@ -91,7 +91,7 @@ class Kernel:
 
     @classmethod
     def from_program(cls, program: Program) -> Kernel:
-        """Return the kernel of a program on the default backend."""
+        """Return the kernel of ``program`` on the default backend."""
         kernel = cls.__new__(cls)
         kernel._set_program(program, None)
         return kernel
@@ -120,12 +120,12 @@ class Kernel:
         self._out_dims = [_squeeze_shape(s) for s in self.program.output_shapes]
 
     def current(self) -> Kernel:
-        """Return the kernel, or the same one on the GPU that :func:`set_backend` has named since it was made."""
+        """Return the kernel itself, or its copy on the GPU that :func:`set_backend` has set since it was made."""
         must_move = _chosen is not None and _chosen != self.backend and not self._fixed and _chosen.startswith("cuda")
         return self.on_backend(str(_chosen)) if must_move else self
 
     def on_backend(self, backend: str) -> Kernel:
-        """Return the same kernel on another backend, made once."""
+        """Return the same kernel on ``backend`` (a name as for the constructor), made once."""
         moved = self._elsewhere.get(backend)
         if moved is None:
             moved = self._elsewhere[backend] = self.__class__.__new__(self.__class__)
@@ -134,17 +134,17 @@ class Kernel:
 
     @property
     def source_digest(self) -> str | None:
-        """Digest of the sources of the kernel, where known; see :func:`holdfast.kernels.cached_kernel`."""
+        """Digest of the sources of the kernel if known, else None; see :func:`holdfast.kernels.cached_kernel`."""
         return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:
-        """Evaluate.
+        """Evaluate ``inputs``, one array ``(N, r, c)`` or ``(r, c)`` per input, without axes of length 1.
 
         Returns:
-            One array per output (a tuple if there are several), ``(N, ...)``, or without ``N`` if no input has it.
+            One array ``(N, ...)`` per output (a tuple if there are several), without ``N`` if no input has it.
 
         Raises:
-            InputError: Wrong number of inputs, a wrong shape, or batches of different lengths.
+            InputError: The number of inputs, a shape, or the number of rows of an input is wrong.
         """
         arrays, rows = self._check_inputs(inputs)
         single = rows is None
@@ -161,16 +161,14 @@ class Kernel:
         return results[0] if len(results) == 1 else tuple(results)
 
     def rows(self, *inputs: ArrayLike, first: int | None = None) -> FloatArray:
-        """Evaluate and return (N, n_out): all outputs of a row one after the other, matrices row by row.
+        """Evaluate ``inputs`` as a call does; return (N, n_out), all outputs of a row in order, matrices row by row.
 
-        Of small programs half the time is spent on writing the results down; ``first`` gives only so many of them, (N, first).
+        ``first`` limits the results to (N, first), because small programs spend half the time on writing them.
         """
         return self._evaluate(*self._check_inputs(inputs), first)[0]
 
     def marked_rows(self, *inputs: ArrayLike) -> tuple[FloatArray, bool]:
-        """Evaluate as :meth:`rows` does, and return whether any row has NaN in its first output, checked while the chunk is in
-        the cache.
-        """
+        """Evaluate ``inputs`` as :meth:`rows` does, and return whether any first output is NaN, found in cache."""
         return self._evaluate(*self._check_inputs(inputs))
 
     def _evaluate(self, arrays: list[FloatArray], rows: int | None, first: int | None = None) -> tuple[FloatArray, bool]:
@@ -183,7 +181,7 @@ class Kernel:
             return outputs, self._run_chunk(arrays, outputs, 0, count, object())
         marks: list[bool] = []
         call = object()
-        starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
+        starts = iter(range(0, count, self._chunk))  # shared, so that each free worker takes the next chunk
 
         def evaluate_chunks(_: int) -> None:
             for start in starts:
@@ -205,7 +203,7 @@ class Kernel:
             if a.shape == dims:
                 arrays.append(a.reshape(1, -1))
                 continue
-            column = dims == () and a.ndim == 2 and a.shape[1] == 1  # a vector of one element, batch of them
+            column = dims == () and a.ndim == 2 and a.shape[1] == 1  # a batch of vectors of one element
             if not column and (a.ndim != len(dims) + 1 or a.shape[1:] != dims):
                 expected_shape = "(" + ", ".join(["N", *map(str, dims)]) + ")"
                 raise InputError(f"kernel '{self.name}': input {k} has shape {a.shape}; it must be {expected_shape} or {dims}")
@@ -219,21 +217,21 @@ class Kernel:
         """Evaluate in the backend's own layout, without padding, copies or threads.
 
         Args:
-            inputs: (n_in, W) contiguous, W a multiple of ``lanes``.
-            outputs: (n_out, W) contiguous, overwritten.
+            inputs: (n_in, W) contiguous array, W a multiple of ``lanes``.
+            outputs: (n_out, W) contiguous array that is overwritten.
 
         Raises:
-            KernelError: Arrays of another shape, type or layout.
+            KernelError: An array has another shape, type or layout.
         """
         self.bind_arrays(inputs, outputs)()
 
     def bind_arrays(self, inputs: FloatArray, outputs: FloatArray, used_width: int | None = None) -> Callable[[], None]:
-        """Return a function that evaluates :meth:`evaluate_columns` of these arrays repeatedly; their contents may change.
+        """Return a function that repeats :meth:`evaluate_columns` for these arrays; their contents may change.
 
         Args:
-            inputs: (n_in, W).
-            outputs: (n_out, W).
-            used_width: A multiple of ``lanes``: only so many of the columns, the first ones.
+            inputs: (n_in, W) contiguous array, W a multiple of ``lanes``.
+            outputs: (n_out, W) contiguous array that is overwritten.
+            used_width: Number of leading columns to evaluate, a multiple of ``lanes``; default: all.
         """
         if self.backend == "casadi":
             return lambda: casadi_backend.evaluate_columns(
@@ -252,18 +250,20 @@ class Kernel:
         return self._compiled.bind_arrays(inputs, outputs, used_width)
 
     def exchange(self, *inputs: Any, stream: int = 1) -> Any:
-        """Evaluate on the GPU what is there, without a copy: inputs and results are shared by DLPack.
+        """Evaluate arrays on the GPU without a copy; inputs and results are shared by DLPack.
 
         Args:
-            inputs: As for calling it, doubles with ``__dlpack__`` on the kernel's GPU: of PyTorch, CuPy, JAX, Warp.
-            stream: Handle of the stream to use, ``torch.cuda.current_stream().cuda_stream`` for example; 1 is the default one.
+            inputs: Arrays of doubles, shaped as for a call, with ``__dlpack__`` on the kernel's GPU (PyTorch, CuPy, JAX, Warp).
+            stream: Handle of the stream to use, for example ``torch.cuda.current_stream().cuda_stream``; 1 is the default
+                stream.
 
         Returns:
-            An array on the GPU for each output (a tuple if there are several), (N, ...), for ``from_dlpack`` of any of them.
+            One array (N, ...) on the GPU per output (a tuple if there are several), for ``from_dlpack`` of any of these
+            libraries.
 
         Raises:
             KernelError: The kernel is not on a GPU.
-            InputError: An input that is not such an array, or of a wrong shape.
+            InputError: An input is not such an array, or has a wrong shape.
         """
         on_device = self._require_gpu()
         if len(inputs) != len(self._in_dims):
@@ -271,7 +271,7 @@ class Kernel:
         return on_device.evaluate_device_arrays(inputs, (self._in_dims, self._out_dims), stream or 1)
 
     def upload(self, array: ArrayLike, stream: int = 1) -> Any:
-        """Copy an array from the host to the kernel's GPU, for :meth:`exchange`.
+        """Copy ``array``, of any shape, from the host to the kernel's GPU on ``stream`` (a handle), for :meth:`exchange`.
 
         Raises:
             KernelError: The kernel is not on a GPU.
@@ -287,7 +287,7 @@ class Kernel:
         return on_device
 
     def single_row(self) -> SingleRowKernel:
-        """Return the kernel for one row at a time, as fast as possible, for control loops."""
+        """Return the kernel for one row at a time with minimal overhead, for control loops."""
         return SingleRowKernel(self)
 
     def _thread_buffers(self, width: int) -> _Buffers:
@@ -296,7 +296,7 @@ class Kernel:
         if buffers is None:
             buffers = self._scratch.made = {}
         if width not in buffers:
-            # Columns a power of two apart would fall on the same places of the cache.
+            # Columns a power of two apart would map to the same cache lines.
             apart = width if width == self.lanes else width + self.lanes
             inputs, outputs = np.empty((self.program.n_in, apart)), np.empty((self.program.n_out, apart))
             buffers[width] = _Buffers(inputs[:, :width], outputs[:, :width], self.bind_arrays(inputs, outputs, width))
@@ -304,7 +304,7 @@ class Kernel:
 
     def _run_chunk(self, arrays: list[FloatArray], out: FloatArray, start: int, stop: int, call: object) -> bool:
         used_rows = stop - start
-        # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
+        # Few different widths (the chunk, or powers of two down to the SIMD width), so that few scratch arrays exist.
         width = self.lanes
         while width < used_rows:
             width *= 2
@@ -322,7 +322,7 @@ class Kernel:
             scratch.inputs[:, used_rows:] = scratch.inputs[:, used_rows - 1 : used_rows]
         scratch.compute()
         out[start:stop] = scratch.outputs[: out.shape[1], :used_rows].T
-        return math.isnan(scratch.outputs[0, :used_rows].min())  # NaN if any is: one pass, and one handing over of Python
+        return math.isnan(scratch.outputs[0, :used_rows].min())  # NaN if any is: one pass, one release of the lock
 
     def __repr__(self) -> str:
         p = self.program
@@ -331,7 +331,7 @@ class Kernel:
 
 @dataclass
 class _Buffers:
-    """Columns of inputs and outputs, the function between them, and the call whose constant inputs they hold."""
+    """Columns of inputs and outputs, the function between them, and the call whose constant inputs they contain."""
 
     inputs: FloatArray
     outputs: FloatArray
@@ -340,25 +340,25 @@ class _Buffers:
 
 
 class SingleRowKernel:
-    """Kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of ``Kernel.rows``.
+    """``kernel`` for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the same bits as ``Kernel.rows``.
 
-    Without any checks, and not for several threads at once. Everything is compiled when it is made.
+    Arguments are not checked, and only one thread may use it. Everything is compiled when it is made.
 
     Attributes:
-        inputs: (n_in,) numbers of the next call, for those who fill them themselves and call :meth:`run`.
+        inputs: (n_in,) numbers of the next call, for callers that fill them and call :meth:`run`.
     """
 
     def __init__(self, kernel: Kernel) -> None:
         program, compiled = kernel.program, kernel._compiled
         if kernel._on_device is not None:
-            compiled = CompiledProgram(program)  # a single row is no work for a GPU; the processor has the same bits for it
+            compiled = CompiledProgram(program)  # a single row does not use a GPU; the processor computes the same bits
         self.inputs, self._outputs = np.zeros(program.n_in), np.zeros(program.n_out)
-        self._kernel, self._compiled = kernel, compiled  # the code lives as long as what compiled it
+        self._kernel, self._compiled = kernel, compiled  # the code lives as long as its compiler object
         self._given = (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
         self._call = None if compiled is None else compiled.single_row_code.call
 
     def run(self) -> FloatArray:
-        """The results (n_out,) of ``inputs``; a new array."""
+        """Return the results (n_out,) of ``inputs`` as a new array."""
         if self._call is None:
             casadi_backend.evaluate_columns(self._kernel.program.function, self.inputs[:, None], self._outputs[:, None])
         else:
@@ -366,7 +366,7 @@ class SingleRowKernel:
         return self._outputs.copy()
 
     def __call__(self, row: FloatArray) -> FloatArray:
-        """The results (n_out,) of a row (n_in,); a new array."""
+        """Return the results (n_out,) of ``row`` (n_in,) as a new array."""
         self.inputs[:] = row
         return self.run()
 

@@ -1,4 +1,4 @@
-"""Straight-line factorisations of small symbolic matrices: no loops at run time, no LAPACK, ready for SIMD.
+"""Straight-line factorisations of small symbolic matrices, without loops at run time or LAPACK, ready for SIMD.
 
 Matrices are lists of CasADi ``SX`` scalars, so that structural zeros vanish from the code.
 """
@@ -45,15 +45,16 @@ def select_at_smallest(values: Sequence[SX], companions: Sequence[SX]) -> tuple[
 class HouseholderQR:
     """``(A J B)' = Q [R; 0]`` of a wide matrix J (m, n), by Householder reflections; A and B permute rows and columns.
 
-    The last n - m columns of Q are an orthonormal basis of the null space. Against 60-digit arithmetic its rows keep
-    1e-10 at cond(J) = 1e7, where the Gram matrix J J' keeps 2e-3. Sparse rows and dense columns go first, which keeps
-    zeros zero (measured: 733 instead of 955 operations for the 9-joint PA10). Every method speaks in the caller's order.
+    The last n - m columns of Q are an orthonormal basis of the null space. Compared with 60-digit arithmetic its rows are
+    accurate to 1e-10 at cond(J) = 1e7, and the Gram matrix J J' only to 2e-3. Sparse rows and dense columns go first, which
+    preserves zeros (measured: 733 instead of 955 operations for the 9-joint PA10). All methods use the caller's order of rows
+    and columns.
 
     Attributes:
-        reflectors: Vector ``v`` and ``2 / (v v)`` of each reflection, the k-th acting on entries k to n - 1.
-        r: upper triangle of R, ``r[i][j]`` for i <= j < m.
-        pivots: squares of the diagonal of R.
-        rows, columns: the permutations: ``rows[i]`` of J is eliminated as the i-th.
+        reflectors: Vector ``v`` and ``2 / (v v)`` of each reflection; the k-th acts on entries k to n - 1.
+        r: Upper triangle of R, ``r[i][j]`` for i <= j < m.
+        pivots: Squares of the diagonal of R.
+        rows, columns: Permutations; row ``rows[i]`` of J is eliminated as the i-th.
     """
 
     reflectors: list[tuple[Vector, SX]]
@@ -64,16 +65,16 @@ class HouseholderQR:
 
     @property
     def m(self) -> int:
-        """Rows of J."""
+        """Number of rows of J."""
         return len(self.rows)
 
     @property
     def n(self) -> int:
-        """Columns of J."""
+        """Number of columns of J."""
         return len(self.columns)
 
     def apply_q_transposed(self, x: Vector) -> Vector:
-        """``Q' x`` for x of n entries: the first m in the order of elimination, then coordinates in the null space."""
+        """Return ``Q' x`` for x of n entries: m entries in the order of elimination, then coordinates in the null space."""
         y = [x[c] for c in self.columns]
         for j in range(self.m):
             self._apply_reflector(j, y)
@@ -86,7 +87,7 @@ class HouseholderQR:
             y[j + k] = y[j + k] - t * entry
 
     def null_space_basis(self) -> list[Vector]:
-        """The orthonormal null-space basis N, n rows of n - m entries."""
+        """Return an orthonormal null-space basis N, n rows of n - m entries."""
         rows: list[Vector] = [[] for _ in range(self.n)]
         for c in range(self.m, self.n):
             y = [ca.SX(float(i == c)) for i in range(self.n)]
@@ -97,7 +98,7 @@ class HouseholderQR:
         return rows
 
     def apply_pinv_transposed(self, rotated: Vector) -> Vector:
-        """``(J^+)' x`` from ``rotated = Q' x``, m entries; for x = e_k this is ``(J J')^-1 j_k``."""
+        """Return ``(J^+)' x`` from ``rotated = Q' x``, m entries; for x = e_k this is ``(J J')^-1 j_k``."""
         x: Vector = [None] * self.m
         for i in reversed(range(self.m)):
             total = rotated[i]
@@ -127,7 +128,7 @@ class HouseholderQR:
 
 
 def factor_householder(j: SX) -> HouseholderQR:
-    """Factor the transpose of J (m, n), n >= m; a rank-deficient J divides by zero, for which the caller must test."""
+    """Factor the transpose of J (m, n), n >= m; callers must test for a rank-deficient J, which makes it divide by zero."""
     m, n = j.shape
     order = sorted(range(m), key=lambda i: j[i, :].nnz())
     columns = sorted(range(n), key=lambda k: -j[:, k].nnz())
@@ -139,7 +140,7 @@ def factor_householder(j: SX) -> HouseholderQR:
         x = rows[i][i:]
         pivots.append(dot_product(x, x))
         length = ca.sqrt(pivots[i])
-        sign = ca.if_else(x[0] < 0, -1.0, 1.0)  # reflect away from x: no cancellation in v
+        sign = ca.if_else(x[0] < 0, -1.0, 1.0)  # reflect away from x, so that v has no cancellation
         v = [x[0] + sign * length, *x[1:]]
         beta = 1 / (length * (length + sign * x[0]))
         reflectors.append((v, beta))
@@ -177,18 +178,18 @@ def jacobi_sweep(rows: list[Vector]) -> tuple[list[Vector], SX]:
 
 
 def rotate_to_singular_rows(rows: list[Vector], carried: Vector, sweeps: int) -> tuple[list[Vector], Vector, Vector]:
-    """``V' A`` and ``V' x`` for the left singular vectors V of a wide matrix A, by one-sided Jacobi rotations.
+    """Return ``V' A`` and ``V' x`` for the left singular vectors V of a wide matrix A, by one-sided Jacobi rotations.
 
     Args:
-        rows: A, m rows.
-        carried: x (m,).
-        sweeps: Over all pairs of rows. Four leave 1e-6 of the largest singular value off the diagonal of random 6 x 7
-            matrices, five nothing.
+        rows: Matrix A, m rows.
+        carried: Vector x (m,).
+        sweeps: Number of sweeps over all pairs of rows. Four leave 1e-6 of the largest singular value off the diagonal of
+            random 6 x 7 matrices, five leave nothing.
 
     Returns:
         ``V' A``, whose rows are orthogonal, ``V' x``, and the squared singular values, in no order.
 
-    Source: as of :func:`jacobi_sweep`.
+    Source: see :func:`jacobi_sweep`.
     """
     rows, x = [list(r) for r in rows], list(carried)
     for _ in range(sweeps):
@@ -206,20 +207,18 @@ def rotate_to_singular_rows(rows: list[Vector], carried: Vector, sweeps: int) ->
 
 
 def _jacobi_rotation(a: SX, b: SX, g: SX) -> tuple[SX, SX, SX]:
-    """Return cosine, sine, and tangent of the smaller angle that makes rows of squared lengths a, b and product g
-    orthogonal.
-    """
+    """Return cosine, sine, and tangent of the smaller angle that makes rows of squared lengths a, b, product g orthogonal."""
     difference = b - a
     root = ca.fabs(difference) + ca.sqrt(difference * difference + 4 * g * g)
     sign = ca.if_else(difference < 0, -1.0, 1.0)
-    # Not "root > 0 ? ... : 0": CasADi would carry the condition through every product.
+    # Not "root > 0 ? ... : 0", because CasADi would carry the condition through every product.
     t = 2 * sign * g / ca.if_else(root > 0, root, 1.0)
     c = 1 / ca.sqrt(1 + t * t)
     return c, c * t, t
 
 
 def gram_determinant(rows: Sequence[Vector]) -> SX:
-    """``det(A A')`` of a wide s x r matrix as the sum of its squared minors (Cauchy-Binet): exact near zero, no division."""
+    """Return ``det(A A')`` of a wide s x r matrix as the sum of its squared minors (Cauchy-Binet), exact near zero."""
     s, r = len(rows), len(rows[0])
     total = ca.SX(0)
     for columns in combinations(range(r), s):
@@ -229,7 +228,7 @@ def gram_determinant(rows: Sequence[Vector]) -> SX:
 
 
 def determinant(a: Sequence[Vector]) -> SX:
-    """Determinant by expansion along the first row, for the small sizes of simultaneous failures."""
+    """Return a determinant by expansion along the first row, for the small sizes of simultaneous failures."""
     if len(a) == 1:
         return a[0][0]
     total = ca.SX(0)
@@ -247,12 +246,12 @@ def directional_derivatives(values: Sequence[SX], q: SX, directions: Sequence[SX
 
 
 def damped_least_norm(j: SX, e: SX, damping: SX | float) -> SX:
-    """``J' (J J' + damping I)^-1 e``: the least-norm solution of ``J x = e``, damped."""
+    """Return ``J' (J J' + damping I)^-1 e``, the damped least-norm solution of ``J x = e``."""
     return j.T @ ca.vertcat(*solve_spd(damped_gram(j, damping), ca.vertsplit(ca.densify(e))))
 
 
 class Cholesky:
-    """``A = L D L'`` of a symmetric positive definite A (n, n), without roots, for several right sides.
+    """Factorisation ``A = L D L'`` of a symmetric positive definite A (n, n), without roots, for several right-hand sides.
 
     Attributes:
         pivots: Diagonal of D; their product is det A.
@@ -278,14 +277,14 @@ class Cholesky:
                 self._lower[i][j] = entry * self._inverse[j]
 
     def determinant(self) -> SX:
-        """``det A``."""
+        """Return ``det A``."""
         product = self.pivots[0]
         for pivot in self.pivots[1:]:
             product = product * pivot
         return product
 
     def solve(self, b: Vector) -> Vector:
-        """``A^-1 b``."""
+        """Return ``A^-1 b``."""
         n = len(b)
         x = list(b)
         for i in range(n):

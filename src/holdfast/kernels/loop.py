@@ -1,4 +1,4 @@
-"""Step kernel repeated until each row is finished, the only iteration over a batch in holdfast."""
+"""Step kernel repeated until each row is finished; it is the only iteration over batches in holdfast."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 
 Tell = Callable[[int], None]
 
-_WORKER_BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
-_MAX_WORKER_ROWS = 4096  # rows of that
-_MIN_WORKER_ROWS = 256  # no result depends on it
-_STEPS_PER_REPORT = 1000  # steps after which somebody is told of them
-_UNREACHED_STEP = 1 << 62  # when a row comes that is not there
+_WORKER_BYTES = 1 << 19  # bytes of state, parameters and results of one worker, so that they stay in its cache
+_MAX_WORKER_ROWS = 4096  # largest number of these rows
+_MIN_WORKER_ROWS = 256  # smallest number; no result depends on it
+_STEPS_PER_REPORT = 1000  # steps between two reports of progress
+_UNREACHED_STEP = 1 << 62  # start step of a row that does not exist
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,9 +30,9 @@ class LoopResult:
     """Final states of the rows of a loop.
 
     Attributes:
-        state: (N, s) the state at which the residual was last measured.
+        state: (N, s) state at which the residual was last measured.
         residual: (N,) that residual; at most the tolerance where ``done``.
-        done: (N,) the tolerance was reached.
+        done: (N,) True if the tolerance was reached.
         steps: (N,) number of steps taken.
     """
 
@@ -45,22 +45,22 @@ class LoopResult:
 class Loop:
     """Step ``state -> next state`` with a residual, repeated row by row until the residual is small.
 
-    Rows that are done leave the batch and others take their place, and each row's result is the one it had at that moment:
-    results do not depend on the other rows, on their order or on threads.
+    Finished rows leave the batch and others take their place. The result of a row is its state when it finished, so results do
+    not depend on the other rows, their order or the number of threads.
 
     Args:
-        name: For messages.
-        state: (s,) symbol.
+        name: Name for messages.
+        state: Symbol (s,).
         parameters: Symbols that stay constant while a row iterates.
-        next_state: (s,) expression.
+        next_state: Expression (s,).
         residual: Scalar expression of the present state, not negative; NaN never ends a row.
-        backend: As for :class:`Kernel`.
-        ahead: The residual is that of the next state, so that a row which converges needs no further step to notice.
-        times: How many steps of the caller's one step of the loop takes; only kept for the caller.
+        backend: Name as for :class:`Kernel`.
+        ahead: The residual is that of the next state, so that a converged row needs no further step to detect it.
+        times: Number of the caller's steps in one step of the loop; only stored for the caller.
 
     Attributes:
         size: Numbers in a state.
-        step: The kernel ``(state, parameters) -> (next state, residual)``.
+        step: Kernel ``(state, parameters) -> (next state, residual)``.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Loop:
 
     @classmethod
     def from_step(cls, step: Kernel, ahead: bool, times: int) -> Loop:
-        """Return the loop of a step kernel that another loop had."""
+        """Return a loop with a ``step`` kernel of another loop, and that loop's ``ahead`` and ``times``."""
         loop = cls.__new__(cls)
         loop._set_step(step, ahead, times)
         return loop
@@ -89,25 +89,25 @@ class Loop:
         self.size = step.program.n_out - 1
         program, lanes = step.program, step.lanes
         rows_in_cache = min(_MAX_WORKER_ROWS, max(_MIN_WORKER_ROWS, _WORKER_BYTES // (8 * (program.n_in + program.n_out))))
-        # Columns a power of two apart would fall on the same places of the cache.
+        # Columns a power of two apart would map to the same cache lines.
         self._width = (rows_in_cache // lanes | 1) * lanes
 
     @property
     def source_digest(self) -> str | None:
-        """Digest of the sources of the loop, where known; see :func:`holdfast.kernels.cached_kernel`."""
+        """Digest of the sources of the loop if known, else None; see :func:`holdfast.kernels.cached_kernel`."""
         return self.step.source_digest
 
     def run(
         self, state: FloatArray, parameters: FloatArray, tolerance: float, most_steps: int, *, report: Tell = ignore_count
     ) -> LoopResult:
-        """Iterate.
+        """Iterate the rows until each reaches the tolerance or the maximum number of steps.
 
         Args:
-            state: (N, s) where to start.
+            state: (N, s) initial states.
             parameters: (N, p) all parameters of a row one after the other, matrices row by row.
-            tolerance: A row is done when its residual is at most this.
-            most_steps: Give up after this many steps.
-            report: Is told of how many rows more have come within the tolerance, from any thread.
+            tolerance: Largest residual of a finished row, in the unit of the residual.
+            most_steps: Maximum number of steps of a row.
+            report: Called with the number of rows that newly reached the tolerance, from any thread.
         """
         rows = len(state)
         on_device = self.step.current()._on_device
@@ -128,7 +128,7 @@ class Loop:
         steps = ProgressCount("steps", most_steps * self.times, most=True)
         with counters as batch.ended, steps as stepped:
             batch.over = report
-            if rows <= _MIN_WORKER_ROWS:  # they begin together, and all may be on their way to the last step
+            if rows <= _MIN_WORKER_ROWS:  # they begin together, and all may run to the last step
                 batch.stepped = stepped
 
             def iterate_batch(_: int) -> None:
@@ -143,7 +143,7 @@ class Loop:
         return batch.result
 
     def _iterate_rows(self, batch: _RowQueue, max_rows: int) -> None:
-        """Take rows, step them all, return the finished rows and replace them by others until none are left."""
+        """Step all rows, collect the finished rows and replace them by waiting rows until none are left."""
         result, size, ahead, tolerance = batch.result, self.size, self.ahead, batch.tolerance
         active_rows = batch.take_rows(max_rows)
         if not active_rows.size:
@@ -157,13 +157,13 @@ class Loop:
         begun, wanted = (
             np.zeros(active_rows.size, dtype=np.int64),
             np.full(active_rows.size, tolerance),
-        )  # when rows came; NaN: gone
-        # Steps taken where a residual is measured, and of how many was told; when a row gives up, or this is to be told.
+        )  # steps at which rows came; NaN: the row has left
+        # Steps taken when a residual is measured, and at the last report; the step at which a row gives up or a report is due.
         now, last, told = int(ahead), min(batch.most_steps, _STEPS_PER_REPORT), 0
         while True:
             step()
             small = residual <= wanted
-            if now < last and not np.count_nonzero(small):  # a few rows may take many steps: nothing else is done for them
+            if now < last and not np.count_nonzero(small):  # a few rows may take many steps, and need no further work here
                 state[...] = after
                 now += 1
                 continue
@@ -192,7 +192,7 @@ class Loop:
                 if not still.size:
                     return
                 if 4 * still.size <= 3 * active_rows.size:
-                    # No rows are left to take: a batch that shrinks is cheaper.
+                    # If no rows wait, a smaller batch is cheaper.
                     columns, outputs, step = self._bind_step_columns(columns.take(still, axis=1))
                     active_rows, begun, wanted = active_rows[still], begun[still], wanted[still]
                     state, after, residual = columns[:size], outputs[:size], outputs[-1, : active_rows.size]
@@ -200,7 +200,7 @@ class Loop:
             last = min(int(begun.min()) + batch.most_steps, told + _STEPS_PER_REPORT)
 
     def trace_states(self, state: FloatArray, parameters: FloatArray, steps: int) -> FloatArray:
-        """Return the states (steps + 1, N, s) of every row, ``state`` first, without checking the residual."""
+        """Return the states (steps + 1, N, s) from ``state`` (N, s) on, for ``parameters`` (N, p) and ``steps`` steps."""
         states = np.empty((steps + 1, *state.shape))
         states[0] = state
         columns, outputs, step = self._bind_step_columns(state.T, parameters.T)
@@ -213,7 +213,7 @@ class Loop:
     def _bind_step_columns(self, *values: FloatArray) -> tuple[FloatArray, FloatArray, Callable[[], None]]:
         """Return the columns of states and parameters, the columns of the results, and the step between them.
 
-        The SIMD width divides their number: the last of the columns is repeated.
+        Their number is a multiple of the SIMD width; the last column is repeated.
         """
         used_width = values[0].shape[1]
         width = -(-used_width // self.step.lanes) * self.step.lanes
@@ -242,13 +242,13 @@ class _RowQueue:
         self._parameters, self._next, self._lock = parameters, 0, threading.Lock()
 
     def take_rows(self, count: int) -> NDArray[np.int64]:
-        """Return up to ``count`` rows that no worker has had."""
+        """Return up to ``count`` rows that no worker has taken."""
         with self._lock:
             start = self._next
             self._next = min(start + count, len(self._parameters))
             return np.arange(start, self._next)
 
     def row_inputs(self, rows: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
-        """Return the start states (s, R) of these consecutive rows and their parameters (p, R)."""
+        """Return the start states (s, R) and the parameters (p, R) of these consecutive rows."""
         selection = slice(rows[0], rows[-1] + 1)
         return self.result.state[selection].T, self._parameters[selection].T

@@ -31,13 +31,13 @@ class Instruction:
 class Program:
     """Straight-line scalar code with ``n_in`` inputs and ``n_out`` outputs.
 
-    Several inputs and outputs of any shape are flattened row by row (C order), so a batch of results can be
-    reshaped to ``(N, rows, columns)`` without moving data.
+    Inputs and outputs of any shape are flattened row by row (C order), so that a batch of results can be reshaped to
+    ``(N, rows, columns)`` without moving data.
 
     Args:
-        name: For messages.
+        name: Name for messages.
         inputs: Symbols, each a scalar, vector or matrix ``SX`` without repeated elements.
-        outputs: Expressions of those symbols.
+        outputs: Expressions of the symbols.
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX]) -> None:
@@ -51,7 +51,7 @@ class Program:
 
     @classmethod
     def from_facts(cls, facts: list[Any], build: Callable[[], Program]) -> Program:
-        """Return a program with known :meth:`facts`, which is built only when its operations are needed."""
+        """Return a program with known ``facts`` (:meth:`facts`); ``build`` makes the rest when it is needed."""
         program = cls.__new__(cls)
         program.name, shapes_in, shapes_out, program.size, program.digest = facts
         program.input_shapes, program.output_shapes = [tuple(x) for x in shapes_in], [tuple(y) for y in shapes_out]
@@ -63,17 +63,17 @@ class Program:
         """Return the properties that are known without the operations."""
         return [self.name, self.input_shapes, self.output_shapes, self.size, self.digest]
 
-    recipe: str | None = None  # digest of what it is made of, if it has one
+    recipe: str | None = None  # digest of its sources, if it has one
 
     @cached_property
     def function(self) -> Any:
-        """The CasADi function of all inputs in a column to all outputs in a column."""
+        """CasADi function of all inputs in a column to all outputs in a column."""
         assert self._build is not None
         return self._build().function
 
     @cached_property
     def instructions(self) -> list[Instruction]:
-        """The operations in order; ``OP_INPUT`` reads input ``inputs[0]``, ``OP_OUTPUT`` writes output ``output``."""
+        """Operations in order; ``OP_INPUT`` reads input ``inputs[0]``, ``OP_OUTPUT`` writes output ``output``."""
         f = self.function
         rows: list[Instruction] = []
         for k in range(f.n_instructions()):
@@ -89,7 +89,7 @@ class Program:
         return rows
 
     def shared_divisors(self) -> dict[int, int]:
-        """Return the divisions by a divisor that others share, each with the instruction that computes the divisor."""
+        """Return the divisions that share a divisor, each with the instruction that computes the divisor."""
         producers: dict[int, int] = {}  # work slot -> instruction that wrote it last
         divisor: dict[int, int] = {}
         for k, row in enumerate(self.instructions):

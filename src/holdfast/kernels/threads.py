@@ -15,9 +15,7 @@ _count: int | None = None
 
 
 def thread_count() -> int:
-    """Return the number of threads: :func:`set_threads`, else ``HOLDFAST_THREADS``, else the processors this
-    process may use.
-    """
+    """Return the number of threads: :func:`set_threads`, else ``HOLDFAST_THREADS``, else the processors of this process."""
     if _count is not None:
         return _count
     setting = os.environ.get("HOLDFAST_THREADS", "")
@@ -27,7 +25,7 @@ def thread_count() -> int:
 
 
 def set_threads(count: int | None) -> None:
-    """Use ``count`` threads from now on (None: the default again). Results do not depend on it."""
+    """Use ``count`` threads from now on; None restores the default. Results do not depend on the number."""
     global _pool, _count
     if count is not None and count < 1:
         from holdfast.core.errors import InputError
@@ -40,7 +38,7 @@ def set_threads(count: int | None) -> None:
 
 
 def in_pool() -> bool:
-    """Return True inside a task of the pool, where waiting for the pool again could deadlock."""
+    """Return True inside a task of the pool, where waiting for the pool could deadlock."""
     return threading.current_thread().name.startswith(_THREAD_PREFIX)
 
 
@@ -55,7 +53,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def shared_pool() -> ThreadPoolExecutor:
-    """Return the shared pool, made at first use."""
+    """Return the shared pool, which is created at first use."""
     global _pool
     with _lock:
         if _pool is None:

@@ -251,7 +251,7 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
     for failures, words in [
         ("all", "failures 'all' is not known"),
         ([1, "joint2"], "listed twice among the failures"),
-        ([["joint1", "joint2"]], "failure 'joint1.joint2' is of several joints at once; give joints that lock one at a time"),
+        ([["joint1", "joint2"]], "failure 'joint1.joint2' locks several joints at once; give joints that lock one at a time"),
     ]:
         with pytest.raises(hf.TaskError, match=words):
             hf.compare_laws(laws, q0, target, failures=failures)

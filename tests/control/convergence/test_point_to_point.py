@@ -80,7 +80,7 @@ def in_ring(motions, joint):
         ({"count": 3, "distance": (50, 60)}, "only 0 of"),
         ({"count": 3, "failures": "all"}, "failures 'all' is not known"),
         ({"count": 3, "failures": ["elbow"]}, "elbow"),
-        ({"count": 3, "failures": "pairs"}, "failure 'joint1.joint2' is of several joints at once"),
+        ({"count": 3, "failures": "pairs"}, "failure 'joint1.joint2' locks several joints at once"),
         ({"count": 3, "failures": [1], "restarts": 0}, "restarts is 0"),
     ],
 )

@@ -205,9 +205,9 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
         return hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
 
     first = run(0.1)
-    with pytest.raises(hf.StoreError, match=r'its law is "damped:0.1", asked for is "damped:0.10000001"'):
+    with pytest.raises(hf.StoreError, match=r'its law is "damped:0.1", but "damped:0.10000001" was requested'):
         run(0.10000001)
-    with pytest.raises(hf.StoreError, match=r"its gain is 1.0, asked for is 1.00000001"):
+    with pytest.raises(hf.StoreError, match=r"its gain is 1.0, but 1.00000001 was requested"):
         run(0.1, 1.00000001)
     np.testing.assert_array_equal(run(0.1).reach.full, first.reach.full)
 

@@ -63,7 +63,7 @@ def test_a_planar_arm_swings_into_a_wall_where_its_tip_is_as_high_as_the_wall(tw
     assert contact.time == pytest.approx(reference.t_events[0][0], abs=1e-8)
     deepest = TIP + np.sin(told.q_high[1]) - SIDE  # it goes on to there and stays
     assert contact.depth == pytest.approx(deepest, abs=1e-9)
-    assert f"At {contact.time:.4g} s joint2 touches wall, exactly." in told.describe()
+    assert f"At {contact.time:.4g} s joint2 touches wall, by exact distances." in told.describe()
 
 
 def test_looking_changes_nothing_of_a_run(two, panda, wall):

@@ -229,9 +229,9 @@ def test_an_interrupt_during_the_commit_leaves_no_rubbish(folder, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"plan": {**PLAN, "seed": 4}}, ["its seed is 3, asked for is 4"]),
-        ({"plan": {k: v for k, v in PLAN.items() if k != "seed"}}, ["its seed is 3, asked for is null"]),
-        ({"plan": {**PLAN, "more": True}}, ["its more is null, asked for is true"]),
+        ({"plan": {**PLAN, "seed": 4}}, ["its seed is 3, but 4 was requested"]),
+        ({"plan": {k: v for k, v in PLAN.items() if k != "seed"}}, ["its seed is 3, but null was requested"]),
+        ({"plan": {**PLAN, "more": True}}, ["its more is null, but true was requested"]),
         ({"plan": {**PLAN, "nested": {"a": [1, 3]}}}, ["its nested is"]),
         ({"plan": {**PLAN, "nested": "x" * 500}}, ["...", "its nested is"]),
         ({"rows": 24}, ["23 rows in chunks of 5", "24 in chunks of 5"]),

@@ -112,7 +112,7 @@ def test_merging_says_what_agrees_and_what_does_not(tmp_path, straight):
         store = study.cell_store(0)
         store.commit_chunk(1, {**rows, "x": rows["x"] + error})
     assert (merge_studies(mine.path, [near.path]).close, merge_studies(mine.path, [far.path]).apart) == (1, (("c0", 1),))
-    with pytest.raises(StoreError, match=r"not parts of one study.*its seed is 1, asked for is 2"):
+    with pytest.raises(StoreError, match=r"not parts of one study.*its seed is 1, but 2 was requested"):
         merge_studies(mine.path, [make(tmp_path / "other", seed=2).path])
 
 
@@ -313,9 +313,9 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
     make(tmp_path / "s")
     for some, seed, words in (
         (cells(3), 1, "cell 'c2' is not in it"),
-        (cells(1), 1, "cell 'c1' is not asked for"),
-        (cells(rows=24), 1, "has rows 23, asked for is 24"),
-        (cells(), 2, "its seed is 1, asked for is 2"),
+        (cells(1), 1, "cell 'c1' is not requested"),
+        (cells(rows=24), 1, "has rows 23, but 24 was requested"),
+        (cells(), 2, "its seed is 1, but 2 was requested"),
         ([SweepCell("c0", Toy(), {"scale": 9}, rows=23, chunk=5), cells()[1]], 1, "cell 'c0' has other settings"),
     ):
         with pytest.raises(StoreError, match=words):

@@ -213,7 +213,7 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
     assert found.capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
     with pytest.raises(InputError, match="cannot be found or is not a folder"):
         ClearanceOptions(clearance=True, meshes=tmp_path / "none").build_clearance(arm)
-    with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):
+    with pytest.raises(InputError, match="'planar-3r' was not read from a URDF file"):
         there.build_clearance(arms.load("planar-3r"))
 
 

@@ -69,7 +69,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     assert memory.read_bytes() == before
     code, _, err = cli("design", *SEARCH[:-1], "6", "--region", region, "--out", out)
     assert code == 2
-    assert "holds another search: its seed is 5, asked for is 6" in err
+    assert "holds another search: its seed is 5, but 6 was requested" in err
     code, told, err = cli("design", *SEARCH, "--region", region, "--out", out)
     assert (code, err) == (0, "")
     assert "whichever joint locks" in told or "the best design keeps" in told

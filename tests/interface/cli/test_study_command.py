@@ -370,7 +370,7 @@ def test_wrong_calls_are_sentences(refused, file, folder, tmp_path):
     assert "scheduler 'x' is not known" in refused("study", "run", file, "--out", tmp_path / "o", "--scheduler", "x")
     assert not (tmp_path / "o").exists()
     file.write_text(file.read_text().replace("seed: 3", "seed: 4"))
-    assert "its seed is 3, asked for is 4" in refused("study", "run", file, "--out", folder)
+    assert "its seed is 3, but 4 was requested" in refused("study", "run", file, "--out", folder)
     for command in ("status", "verify", "report"):
         assert "is not a study" in refused("study", command, tmp_path)
     data = read_unsealed(folder / "study.json")

@@ -258,6 +258,6 @@ def test_bad_options_of_an_analysis(refused, experiment):
 def test_a_used_folder_is_refused(refused, tiny, experiment):
     before = (experiment / "records.sqlite").read_bytes()
     call = ["teleop", "run", "--simulated", "--protocol", tiny, "--operators", "3", "--out", experiment]
-    assert "its seed is 2, asked for is 1; give another folder" in refused(*call, "--seed", "1")
+    assert "its seed is 2, but 1 was requested; give another folder" in refused(*call, "--seed", "1")
     assert "not an empty folder" in refused(*call[:-1], experiment.parent)
     assert (experiment / "records.sqlite").read_bytes() == before

@@ -107,7 +107,7 @@ def test_what_is_not_there_is_a_sentence(objectives, rng):
     with pytest.raises(InputError, match=r"takes \(\.\.\., 7\), got \(6,\)"):
         f(x[:6])
     (g,) = torch.autograd.grad(f(x), x, create_graph=True)
-    with pytest.raises(HoldfastError, match="no second ones"):
+    with pytest.raises(HoldfastError, match="no second derivatives"):
         g.sum().backward()
 
 

@@ -132,7 +132,7 @@ def test_a_ceiling_of_an_index(pa10):
 @pytest.mark.parametrize(
     ("size", "said"),
     [
-        ({"n": 6, "m": 6}, "no redundancy, nothing can be lost"),
+        ({"n": 6, "m": 6}, "no redundancy, so no joint may fail"),
         ({"n": 8, "m": 6, "k": 3}, "after 3 failures the task has 5 joints for 6 rows"),
         ({"n": 8, "m": 6, "k": 0}, "at least one joint must fail"),
         ({"n": 8.0, "m": 6}, "n is 8.0; it must be a whole number"),
@@ -151,7 +151,7 @@ def test_a_stored_null_space_that_is_wrong_is_refused():
     with pytest.raises(hf.InputError, match="is not orthonormal"):
         c.verify()
     beaten = hf.index_bounds.UpperBound(n=9, m=6, k=2, bound=0.2, bound_by="R2")
-    with pytest.raises(hf.InputError, match="one of both is wrong"):
+    with pytest.raises(hf.InputError, match="one of the two is wrong"):
         beaten.verify()
 
 

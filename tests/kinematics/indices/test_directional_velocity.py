@@ -77,7 +77,7 @@ def test_a_results_folder_and_its_report_hold_the_setting(tmp_path):
     page = run.report(tmp_path / "report.html").read_text(encoding="utf-8")
     for said in (f"--index {LABEL}", "directional velocity along 1, 0, 0", "direction 1,0,0", "Source: Chiu 1988"):
         assert said in page
-    with pytest.raises((StoreError, hf.InputError), match='asked for is "directional-velocity:0,1,0"'):
+    with pytest.raises((StoreError, hf.InputError), match='but "directional-velocity:0,1,0" was requested'):
         hf.assess(arm, region, "directional-velocity:0,1,0", poses=30, seed=1, store=tmp_path / "run", task="planar")
 
 

@@ -93,7 +93,7 @@ def test_pairs_have_failures_and_no_joints(by_pairs, rng):
         assert (by_pairs(q) <= by_pairs.bound).all()
     else:
         assert by_pairs.bound is None
-    with pytest.raises(TaskError, match="several joints fail together here; ask for worst_failure"):
+    with pytest.raises(TaskError, match="several joints fail together here; use worst_failure"):
         by_pairs.worst_joint(q)
 
 

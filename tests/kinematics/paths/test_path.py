@@ -144,7 +144,7 @@ def test_positions_take_the_orientation_of_the_pose_before(rng):
 def test_length_of_a_turn_is_in_radians_and_a_line_says_what_it_is():
     half = line(np.eye(4), oracles.pose(Rotation.from_euler("x", 90, degrees=True).as_matrix()))
     assert half.length == pytest.approx(np.pi / 2)
-    assert half.describe() == "a turn of 90 deg"
+    assert half.describe() == "a rotation of 90 deg"
     assert line([0, 0, 0], [0, 0, 0.5]).describe() == "0.5 m (straight); positions only"
     assert "2 corners" in sequence([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 1]]).describe()
     assert "(arc)" in arc([1, 0, 0], [0, 1, 0], [-1, 0, 0]).describe()

@@ -28,7 +28,7 @@ def test_the_example_of_the_documentation(write):
     np.testing.assert_allclose(timed.path.pose([0, 1])[:, :3, 3], [[0.4, -0.3, 0.5], [0.4, 0.3, 0.5]])
     np.testing.assert_allclose(timed.path.pose([0, 1])[:, :3, :3], [np.diag([1, -1, -1])] * 2, atol=1e-15)
     write("x,y,z\n0,0,1\n1,0,1\n", "poses.csv")
-    for text in rest.split("Where no pose")[0].strip().splitlines():
+    for text in rest.split("If no pose")[0].strip().splitlines():
         path = Path.load(write(text.strip()))
         assert not path.oriented
         assert path.name == "along"
@@ -109,7 +109,7 @@ REFUSED = [
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 0}}", "timing: duration is 0 s; it must be above 0"),
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{}}", "timing.duration: it is missing; it must be given"),
     (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: true}}", "timing.duration: True is wrong; it must be a number"),
-    (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 1, accelerate: 0.9}}", "they are shares of the time"),
+    (f"poses: [{P}, {{xyz: [1, 0, 0]}}]\ntiming: {{duration: 1, accelerate: 0.9}}", "they are fractions of time"),
 ]
 
 

@@ -120,7 +120,7 @@ def test_one_time_and_times_outside(rng):
         (lambda: Trapezoid(0.0), "duration is 0 s; it must be above 0"),
         (lambda: Trapezoid(np.nan), "duration is nan s"),
         (lambda: Constant(-1.0), "duration is -1 s"),
-        (lambda: Trapezoid(1.0, 0.7, 0.4), "accelerate is 0.7 and decelerate 0.4; they are shares"),
+        (lambda: Trapezoid(1.0, 0.7, 0.4), "accelerate is 0.7 and decelerate 0.4; they are fractions"),
         (lambda: Trapezoid(1.0, -0.1), "accelerate is -0.1"),
         (lambda: TimedPath(sequence(np.eye(3)), Constant(1.0)).stretch(0), "factor is 0; it must be above 0"),
         (lambda: TimedPath(sequence(np.eye(3)), Constant(1.0)).pose(np.zeros((2, 2))), r"t has shape \(2, 2\)"),

@@ -334,7 +334,7 @@ def test_a_sampler_is_the_same_whatever_was_drawn_before():
     [
         (3, "must be a function"),
         (lambda g, n: np.zeros((n, 3)), "shape"),
-        (lambda g, n: np.eye(4), "gave 1 poses, asked were 2"),
+        (lambda g, n: np.eye(4), "returned 1 poses; it must return 2"),
         (lambda g, n: np.full((n, 4, 4), np.nan), "finite"),
         (lambda g, n: (ring(g, n), np.full(n, -1.0)), "weight 1 is -1"),
         (lambda g, n: (ring(g, n), np.ones(n + 1)), "shape"),

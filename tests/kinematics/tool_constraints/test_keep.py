@@ -125,10 +125,10 @@ def test_an_upright_transfer_with_a_locked_joint(panda):
     # What plans it and what looks at it are different code: a spoilt motion is refused.
     spoilt = np.concatenate([kept.q[:1], kept.q[:1] + 0.2 * np.eye(7)[5], kept.q])
     found = verify_waypoints(kept.degraded, a, spoilt, rows=make_row_solver(panda, kept.task).rows, constraints=kept.keep)
-    assert "turned away by" in str(found)
+    assert "rotated away by" in str(found)
     replay = hf.recovery.check_waypoints(panda, spoilt, bad, keep="upright:5deg")
     assert not replay.ok
-    assert "turned away by" in "\n".join(replay.describe())
+    assert "rotated away by" in "\n".join(replay.describe())
     assert kept.check().ok
     assert "What is kept all the way is kept." in kept.check().describe()
 
@@ -238,7 +238,7 @@ def test_a_start_and_a_goal_that_break_a_row(panda):
     ask = {"samples": 0, "clearance": False}
     answer = hf.recover(panda, [2], at, goal=goal, keep=tool_constraints.upright(0.9 * leaning), **ask)
     assert (answer.ending, answer.verdict.kind) == (RecoveryOutcome.START_VIOLATES_CONSTRAINTS, "start")
-    assert f"turned away by {np.rad2deg(leaning):.4g} deg" in answer.reason
+    assert f"rotated away by {np.rad2deg(leaning):.4g} deg" in answer.reason
     goal = panda.forward_kinematics(at)
     goal[0, 3] += 0.05
     for wanted, task in ((goal, None), (goal, "position"), (at + 0.1 * np.eye(7)[0], None)):

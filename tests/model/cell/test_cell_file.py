@@ -148,7 +148,7 @@ def test_files_that_changed_since_are_told(folder):
         ("half_space: [0, 1, 1]", "half_space: [0, 0, 0]", "the direction is 0"),
         ("rpy: [0, 0.1, 0]", "rpy: [0, 0.1, 0], quaternion: [0, 0, 0, 1]", "both rpy and quaternion"),
         ("jig.stl", "none.stl", r"object 'jig': 'none\.stl' cannot be read"),
-        ("jig.stl", "jig.xyz", "no kind of mesh that is known; use STL, OBJ, GLB, PLY"),
+        ("jig.stl", "jig.xyz", "not a mesh file of a known format; use STL, OBJ, GLB, PLY"),
         ("scale: 0.001", "scale: 1", r"object 'jig' is 500 m large, more than 50 m; is scale 0\.001 meant\?"),
         ("exact", "fuzzy", "objects.jig.solid: 'fuzzy' is not known"),
         (", radius: 0.005", "", "objects.scan.radius: it is missing"),
@@ -187,7 +187,7 @@ def test_damaged_meshes(tmp_path):
 
 def test_surfaces_without_an_inside():
     shape = ring()
-    with pytest.raises(hf.InputError, match=r"not closed, so it has no inside; close it, or say solid: hull"):
+    with pytest.raises(hf.InputError, match=r"not closed, so it has no inside; close it, or use solid: hull"):
         Mesh("jig", (shape.vertices, shape.faces[1:]))
     assert Mesh("jig", (shape.vertices, shape.faces[1:]), solid="hull").surface.is_closed
     broken = shape.vertices.copy()

@@ -172,7 +172,7 @@ def test_objects_have_the_names_of_their_geoms(folder):
         (
             "a.xml",
             MJCF.replace('type="sphere" size="0.12"', 'type="ellipsoid" size="1 1 2"'),
-            "is an ellipsoid, and no distance",
+            "is an ellipsoid, which has no distance formula",
         ),
         ("a.xml", MJCF.replace("jig.stl", "none.stl"), "none.stl"),
         ("a.mjcf", "<mujoco", "not valid XML"),

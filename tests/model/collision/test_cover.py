@@ -267,7 +267,7 @@ def test_an_arm_that_is_not_that_of_its_file_is_refused(three):
     longer = three.joints[1].origin.copy()
     longer[2, 3] *= 2
     other = replace(three, joints=(three.joints[0], replace(three.joints[1], origin=longer)))
-    with pytest.raises(ArmError, match="joint 'b' of 'three' is not as in the file of the arm"):
+    with pytest.raises(ArmError, match="joint 'b' of 'three' differs from the file of the arm"):
         CollisionModel.from_arm(other)
 
 
@@ -337,7 +337,7 @@ def test_what_is_held_moves_with_the_last_link(panda, rng):
     # Against its neighbour as well, which the link itself meets by construction; never against its own link.
     assert "panda_joint6 (1) & panda_joint7 (4)" in names
     assert not any(name.count("panda_joint7") > 1 for name in names)
-    assert clearance.capsules.describe(arm) == f"{capsules.source}; {len(extra)} more about what is held"
+    assert clearance.capsules.describe(arm) == f"{capsules.source}; {len(extra)} more around held objects"
     assert hf.Capsules.from_dict(clearance.capsules.to_dict(arm), arm) == capsules
     free = clearance.with_cell(hf.Cell(cell.objects, may_touch=cell.may_touch))
     assert free.capsules == capsules

@@ -77,11 +77,11 @@ def test_words():
     told = [Contact(time=1.0, link="a", object="b", depth=0.01, exact_time=exact) for exact in (None, 1.0, 1.25, float("inf"))]
     assert [c.sentence() for c in told] == [
         "at 1 s a touches b",
-        "at 1 s a touches b, exactly",
-        "at 1 s a touches b, by the bound; exactly, at 1.25 s",
-        "at 1 s a touches b, by the bound; exactly, it does not",
+        "at 1 s a touches b, by exact distances",
+        "at 1 s a touches b, by the lower bound; by exact distances at 1.25 s",
+        "at 1 s a touches b, by the lower bound; by exact distances there is no contact",
     ]
-    assert told[2].sentence("cycles") == "in cycle 2 a touches b, exactly"
+    assert told[2].sentence("cycles") == "in cycle 2 a touches b, by exact distances"
     entries = list_contacts(told)
     assert [e.get("exact") for e in entries] == [None, True, True, False]
     assert [e.get("exact_time_s") for e in entries] == [None, 1.0, 1.25, None]

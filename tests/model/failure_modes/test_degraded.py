@@ -88,12 +88,12 @@ def test_what_only_counts_locks_refuses_ranges_and_speeds_in_a_sentence(three):
         if name in ("recover", "check_waypoints", "execute", "reachable_when_locked"):
             call(bad)
         else:
-            with pytest.raises(InputError, match="only locked joints count here, and what is degraded has a range of 'joint1'"):
+            with pytest.raises(InputError, match="only locked joints count here, but the failures include a range of 'joint1'"):
                 call(bad)
     elsewhere = Degraded(arm, locked={"joint2": 0.5})
     with pytest.raises(InputError, match="a joint locks where it is"):
         calls(three)["simulate"](elsewhere)
-    with pytest.raises(InputError, match="belongs to 'planar-3r', not to 'panda'"):
+    with pytest.raises(InputError, match="belong to 'planar-3r', not to 'panda'"):
         hf.recover(hf.arms.load("panda"), bad, np.zeros(7))
 
 

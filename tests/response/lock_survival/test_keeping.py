@@ -83,7 +83,7 @@ def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     assert free.survival > best.survival
     again = hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE))
     np.testing.assert_array_equal(again.survives, best.survives)
-    with pytest.raises(hf.InputError, match=r"motion violates a constraint: at \S+ s the tool is turned away by"):
+    with pytest.raises(hf.InputError, match=r"motion violates a constraint: at \S+ s the tool is rotated away by"):
         hf.evaluate_motion(machine, best.q, path, samples=SAMPLES, keep=heading(CONE / 3))
 
 

@@ -398,9 +398,9 @@ def test_save_and_load_of_mixed_arms_with_tasks_of_their_own(mixed8, tmp_path):
 @pytest.mark.parametrize(
     ("change", "word"),
     [
-        ({"seed": 1}, "its seed is 0, asked for is 1"),
-        ({"restarts": 7}, "its restarts is 100, asked for is 7"),
-        ({"sampling": "sobol"}, 'its sampling is "random", asked for is "sobol"'),
+        ({"seed": 1}, "its seed is 0, but 1 was requested"),
+        ({"restarts": 7}, "its restarts is 100, but 7 was requested"),
+        ({"sampling": "sobol"}, 'its sampling is "random", but "sobol" was requested'),
         ({"poses": 1001}, "it has 1000 rows .* 1001"),
         ({"index": "manipulability"}, "its index is"),
         ({"region": Region.joints([0, 0, 0], [1, 1, 1])}, "its region is"),

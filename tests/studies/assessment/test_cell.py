@@ -128,7 +128,7 @@ def test_a_folder_holds_the_cell_and_no_other_resumes_it(arm, cell, call, run, t
     with pytest.raises(KeyboardInterrupt):
         hf.assess(arm, **call, optimise=True, after_lock=True, store=folder, progress=stop)
     other = hf.Cell([Sphere("near", 0.2, pose=cells.placed(0.9, 0.9, 0))], name="discs")
-    with pytest.raises(StoreError, match=r"holds another run: its cell is .*discs.*, asked for is"):
+    with pytest.raises(StoreError, match=r"holds another run: its cell is .*discs.*, but .* was requested"):
         hf.assess(arm, **{**call, "cell": other}, optimise=True, after_lock=True, store=folder)
     whole = hf.assess(arm, **call, optimise=True, after_lock=True, store=folder)
     back = hf.load(folder)

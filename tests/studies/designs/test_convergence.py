@@ -195,7 +195,7 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     looked.clear()
     assert design_for_convergence(law, vary, 3, **options, store=tmp_path).best == whole.best
     assert not looked
-    with pytest.raises(hf.StoreError, match="its seed is 4, asked for is 5"):
+    with pytest.raises(hf.StoreError, match="its seed is 4, but 5 was requested"):
         design_for_convergence(law, vary, 3, **(options | {"seed": 5}), store=tmp_path)
     near = hf.control.damped(hf.arms.load("planar-3r"), 0.10000001, "planar")
     with pytest.raises(hf.StoreError, match="its law is"):

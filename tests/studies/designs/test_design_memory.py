@@ -87,7 +87,7 @@ def test_a_search_of_holdfast_0_1_is_converted(tmp_path: Path, rng: np.random.Ge
 
 def test_refusals(tmp_path: Path) -> None:
     SearchMemory(tmp_path / "run", PLAN)
-    with pytest.raises(hf.StoreError, match="holds another search: its seed is 3, asked for is 4; give another folder"):
+    with pytest.raises(hf.StoreError, match="holds another search: its seed is 3, but 4 was requested; give another folder"):
         SearchMemory(tmp_path / "run", {**PLAN, "seed": 4})
     (tmp_path / "run" / MEMORY_FILE).write_text("{]\n")
     with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):

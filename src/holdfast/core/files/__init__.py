@@ -1,1 +1,1 @@
-"""Read and write files; each failure raises an error with one sentence."""
+"""Read and write files; each failure raises an error with a one-sentence message."""

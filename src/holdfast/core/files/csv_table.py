@@ -1,4 +1,4 @@
-"""Tables in CSV files: one way to write rows, and one to read columns of numbers."""
+"""Write rows to CSV files, and read columns of numbers from them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from holdfast.core.typing import FloatArray
 
 
 def write_rows(path: str | Path, header: Iterable[str], rows: Iterable[Iterable[Any]], content_name: str = "") -> Path:
-    """Write rows of texts and numbers, these with every digit; ``content_name`` they are is for the error.
+    """Write rows of texts and numbers with all digits; ``content_name`` is the name of the content in error messages.
 
     Raises:
         StoreError: The file cannot be written.
@@ -36,9 +36,9 @@ class CsvTable:
     """Contents of a CSV file.
 
     Attributes:
-        title: What it is and where, for messages.
-        header: Names of all its columns.
-        numbered_lines: Number in the file and cells of each line below the header.
+        title: Name and path of the file, for messages.
+        header: Names of all columns.
+        numbered_lines: Line number in the file and cells of each line below the header.
     """
 
     title: str
@@ -46,10 +46,10 @@ class CsvTable:
     numbered_lines: tuple[tuple[int, list[str]], ...]
 
     def select_columns(self, names: Sequence[str]) -> FloatArray:
-        """Return the columns with the given names, (K, len(names)).
+        """Return the columns ``names`` (K strings of the header) of all L lines, (L, K).
 
         Raises:
-            InputError: There are no lines, or one without finite numbers there.
+            InputError: There are no lines, or a cell of these columns is not a finite number.
         """
         column_indices, rows = [self.header.index(name) for name in names], []
         for number, cells in self.numbered_lines:
@@ -67,10 +67,10 @@ class CsvTable:
 
 
 def read_csv_table(file: Path, title: str) -> CsvTable:
-    """Read a CSV file with a line of names above its rows; ``title`` says in messages what it is and where.
+    """Read a CSV file whose first line has the column names; ``title`` is the name of the file in messages.
 
     Raises:
-        InputError: It cannot be read, or is not CSV.
+        InputError: The file cannot be read, or is not CSV.
     """
     try:
         with reading.guard_reading(title, "give a CSV file"):

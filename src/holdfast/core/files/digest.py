@@ -1,4 +1,4 @@
-"""Digests of stored JSON documents: a changed character is detected before a number is used."""
+"""Digests of stored JSON documents, so that a changed character is detected before a number is used."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def seal_document(data: dict[str, Any]) -> str:
 
 
 def check_seal(text: str) -> None:
-    """Refuse a text that differs from the one that :func:`seal_document` returned.
+    """Reject a text that differs from the text that :func:`seal_document` returned.
 
     Raises:
         InputError: The digest is missing or does not match.

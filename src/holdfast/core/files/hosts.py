@@ -1,7 +1,7 @@
-"""Decide which requests a server on this computer answers, by their host and their origin.
+"""Decide which requests a local server answers, by the host and the origin of the request.
 
-A browser lets every page of the web send requests to this machine, and tells in ``Origin`` whose page it is; a page that
-gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Other programs send no ``Origin``.
+A browser lets every web page send requests to this computer. The header ``Origin`` names the host of that page; ``Host``
+reveals a page whose host name was given the address of this computer (DNS rebinding). Other programs send no ``Origin``.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ def request_rejection_reason(hosts: Sequence[str], origins: Sequence[str], is_ow
     """Return the reason to reject a request, or None.
 
     Args:
-        hosts: Its ``Host`` headers; one is right.
-        origins: Its ``Origin`` headers; one, or none.
-        is_own_host: Whether the server answers for the name of a host, which is lower case and without port and brackets.
+        hosts: ``Host`` headers of the request; exactly one is right.
+        origins: ``Origin`` headers of the request; at most one is right.
+        is_own_host: Returns whether the server answers for a host name, which has lower case and no port or brackets.
     """
     host = hosts[0] if len(hosts) == 1 else ""
     name = _parse_host_name(host)

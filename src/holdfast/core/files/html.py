@@ -8,7 +8,7 @@ from pathlib import Path
 
 from holdfast.core.files.output import replace_file
 
-# A page in a frame cannot see where it lies: it is told whether the text around it is light, now and when that changes.
+# A page in a frame does not see its surroundings. This script tells it whether their text is light, now and on changes.
 _PAGE_BACKGROUND = """
 const told = () => {
   const [r, g, b] = getComputedStyle(this).color.match(/[\\d.]+/g).map(Number);
@@ -27,7 +27,7 @@ class Html:
 
     Attributes:
         text: The page.
-        height: Of its frame in a notebook, pixels.
+        height: Height of the frame in a notebook, pixels.
     """
 
     text: str
@@ -38,17 +38,17 @@ class Html:
         return self.text
 
     def save(self, file: str | Path) -> Path:
-        """Write the page.
+        """Write the page to ``file`` and return its path.
 
         Raises:
-            StoreError: It cannot be written; what was there is as it was.
+            StoreError: The file cannot be written; an existing file is unchanged.
         """
         path = Path(file)
         replace_file(path, self.text, "page")
         return path
 
     def _repr_html_(self) -> str:
-        """The page in a frame of its own, so that it takes nothing from a notebook but whether it is dark."""
+        """Return the page in its own frame, so that it takes nothing from the notebook except whether the notebook is dark."""
         return (
             f'<iframe srcdoc="{escape(self.text, quote=True)}" title="holdfast" sandbox="allow-scripts" '
             f'onload="{escape(_PAGE_BACKGROUND, quote=True)}" '

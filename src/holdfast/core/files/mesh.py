@@ -29,8 +29,8 @@ class Triangles:
     """Triangle surface.
 
     Attributes:
-        vertices: (V, 3), each once.
-        faces: (F, 3) positions of their corners in ``vertices``; those without an area are left out.
+        vertices: (V, 3) distinct vertices.
+        faces: (F, 3) row numbers of the corners in ``vertices``, without triangles of zero area.
     """
 
     vertices: FloatArray
@@ -38,7 +38,7 @@ class Triangles:
 
     @property
     def is_closed(self) -> bool:
-        """True if every edge belongs to two triangles that pass it in opposite directions: the surface has an inside."""
+        """True if every edge belongs to two triangles that pass it in opposite directions, so the surface has an inside."""
         start, end = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
         one, other = start * len(self.vertices) + end, end * len(self.vertices) + start
         one.sort()
@@ -47,7 +47,7 @@ class Triangles:
 
     @property
     def volume(self) -> float:
-        """Enclosed volume in cubes of the vertices' unit; negative if the triangles face inward."""
+        """Enclosed volume in the cube of the vertices' unit; negative if the triangles face inward."""
         a, b, c = (self.vertices[self.faces[:, k]] - self.vertices.mean(axis=0) for k in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
@@ -56,7 +56,7 @@ def import_trimesh() -> ModuleType:
     """Import the optional package that reads meshes.
 
     Raises:
-        HoldfastError: It is not installed.
+        HoldfastError: The package is not installed.
     """
     try:
         import trimesh
@@ -65,20 +65,20 @@ def import_trimesh() -> ModuleType:
             "meshes are read by trimesh, which is not installed; install holdfast-arms[cell] (pip install "
             "'holdfast-arms[cell]')"
         ) from error
-    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what is wrong is said once, by us
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # errors are reported once, by holdfast
     return trimesh  # type: ignore[no-any-return, unused-ignore]
 
 
 def read_mesh(path: Path) -> tuple[Triangles, bytes]:
-    """Read the triangles of a file in its own unit, and the bytes of the file.
+    """Read the triangles of a file in its own length unit, and the bytes of the file.
 
     Raises:
-        InputError: It is missing, empty, cut off, of no known kind, or holds NaN.
-        HoldfastError: It is no STL file and the extra ``cell`` is not installed.
+        InputError: The file is missing, empty, truncated, of an unknown format, or contains NaN.
+        HoldfastError: The file is not an STL file and the extra ``cell`` is not installed.
     """
     kind = path.suffix.lower().lstrip(".")
     if kind not in MESH_FORMATS:
-        raise InputError(f"'{path.name}' is no kind of mesh that is known; use {', '.join(MESH_FORMATS).upper()}")
+        raise InputError(f"'{path.name}' is not a mesh file of a known format; use {', '.join(MESH_FORMATS).upper()}")
     with reading.guard_reading(f"'{path.name}'", "give the path of a mesh that exists"):
         content = reading.read_bytes(path)
     if not content:
@@ -93,12 +93,12 @@ def read_mesh(path: Path) -> tuple[Triangles, bytes]:
         )
     trimesh = import_trimesh()
     try:
-        # From memory: nothing that the file names, as a picture, is opened.
-        with np.errstate(invalid="ignore"):  # a signaling NaN, which is refused below
+        # From memory, so that no other file, such as a texture, is opened.
+        with np.errstate(invalid="ignore"):  # a signaling NaN, which is rejected below
             loaded = trimesh.load_mesh(io.BytesIO(content), file_type=kind, process=False)
             vertices, faces = np.array(loaded.vertices, dtype=np.float64), np.array(loaded.faces, dtype=np.int64)
-    except Exception as error:  # its readers fail in every way that Python knows
-        raise InputError(f"'{path.name}' is damaged or not a mesh in the format {kind.upper()}; write it anew") from error
+    except Exception as error:  # trimesh and its readers raise errors of all kinds
+        raise InputError(f"'{path.name}' is damaged or not a mesh in the format {kind.upper()}; export it again") from error
     return make_triangles(vertices, faces, f"'{path.name}'"), content
 
 
@@ -115,7 +115,7 @@ def _reject_truncated_file(content: bytes, kind: str, name: str) -> None:
     else:
         return
     if is_cut:
-        raise InputError(f"'{name}' is cut off or damaged: it is shorter than it says; write it anew")
+        raise InputError(f"'{name}' is cut off or damaged: it is shorter than its header states; export it again")
 
 
 def _is_text_stl(content: bytes) -> bool:
@@ -129,9 +129,9 @@ def _read_stl(content: bytes, name: str) -> tuple[NDArray[np.floating[Any]], Ind
         try:
             corners = np.array(_STL_VERTEX.findall(content), dtype=np.float64).reshape(-1, 3)
         except ValueError as error:
-            raise InputError(f"'{name}' is damaged: a vertex in it is not three numbers; write it anew") from error
+            raise InputError(f"'{name}' is damaged: a vertex in it is not three numbers; export it again") from error
         if len(corners) % 3:
-            raise InputError(f"'{name}' is damaged: a triangle in it has not three vertices; write it anew")
+            raise InputError(f"'{name}' is damaged: a triangle in it does not have three vertices; export it again")
     else:
         count = int.from_bytes(content[80:84], "little")
         corners = np.frombuffer(content, _STL_RECORD, count, 84)["corners"].reshape(-1, 3)
@@ -142,12 +142,12 @@ def make_triangles(vertices: ArrayLike, faces: ArrayLike, surface_name: str) -> 
     """Check a surface and return it with every vertex once.
 
     Args:
-        vertices: (V, 3).
-        faces: (F, 3) whole numbers.
-        surface_name: What an error calls them.
+        vertices: (V, 3) coordinates in the unit of the caller.
+        faces: (F, 3) whole numbers, the row numbers of the corners in ``vertices``.
+        surface_name: Name of the surface in error messages.
 
     Raises:
-        InputError: They are no triangles, none, or not finite.
+        InputError: There are no triangles, or the arrays are not finite or not of these shapes.
     """
     points = np.array(require_real_numbers(vertices, f"{surface_name}: vertices"))
     corners = require_real_numbers(faces, f"{surface_name}: faces")
@@ -156,12 +156,12 @@ def make_triangles(vertices: ArrayLike, faces: ArrayLike, surface_name: str) -> 
     if not np.isfinite(points).all():
         raise InputError(f"{surface_name} holds NaN or infinity; all its vertices must be finite")
     if not ((corners >= 0) & (corners < len(points)) & (corners == np.floor(corners))).all():
-        raise InputError(f"{surface_name} is damaged: a face names a vertex that is not there; write it anew")
+        raise InputError(f"{surface_name} is damaged: a face refers to a vertex that does not exist; export it again")
     used, numbers = _unique_rows(points[corners.astype(np.int64).ravel()] + 0.0)
     sound = numbers.reshape(-1, 3)
     sound = sound[(sound != np.roll(sound, 1, axis=1)).all(axis=1)]
     if not len(sound):
-        raise InputError(f"{surface_name} has no triangle with an area; write it anew")
+        raise InputError(f"{surface_name} has no triangle with an area; export it again")
     return Triangles(used, sound)
 
 
@@ -176,7 +176,7 @@ def _unique_rows(points: FloatArray) -> tuple[FloatArray, IndexArray]:
 
 
 def write_obj_text(surface: Triangles) -> str:
-    """Return a surface as an OBJ file with every digit."""
+    """Return a surface as the text of an OBJ file, numbers with all digits."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
     return "\n".join(lines) + "\n"

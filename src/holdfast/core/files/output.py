@@ -16,20 +16,20 @@ from numpy.typing import NDArray
 from holdfast.core.errors import StoreError
 from holdfast.core.files.spreadsheet import escape_formula
 
-_TEMPORARY_SUFFIX = ".holdfast-{}.tmp"  # beside a file that is being written
+_TEMPORARY_SUFFIX = ".holdfast-{}.tmp"  # next to a file that is being written
 
 
 @contextmanager
 def guard_writing(target: str | Path, content_name: str = "to", advice: str = "choose another folder") -> Iterator[None]:
-    """Context of a block that writes; if the disk refuses, the error states it in one sentence.
+    """Context of a block that writes; if the operating system reports an error, raise it as one sentence.
 
     Args:
-        target: The file or folder that the sentence names.
-        content_name: It is: ``report``, ``tables into``.
-        advice: How the sentence ends.
+        target: File or folder that the message names.
+        content_name: Words before the name, such as ``report`` or ``tables into``.
+        advice: End of the message.
 
     Raises:
-        StoreError: The disk refused.
+        StoreError: Writing failed.
     """
     try:
         yield
@@ -39,10 +39,10 @@ def guard_writing(target: str | Path, content_name: str = "to", advice: str = "c
 
 
 def make_folder(folder: str | Path) -> Path:
-    """Return the folder, after creating it where needed.
+    """Return the folder after creating it if it does not exist.
 
     Raises:
-        StoreError: It cannot be made.
+        StoreError: The folder cannot be created.
     """
     path = Path(folder)
     with guard_writing(path):
@@ -58,19 +58,19 @@ def replace_file(
     Args:
         path: The file.
         content: Its content; text is written as UTF-8.
-        content_name: It is, for the sentence where the disk refuses; see :func:`guard_writing`.
-        advice: How that sentence ends.
-        errors: What becomes of characters that UTF-8 does not have, as :meth:`str.encode` takes it.
+        content_name: Name of the content in the error message; see :func:`guard_writing`.
+        advice: End of the error message.
+        errors: Treatment of characters that UTF-8 does not have, as for :meth:`str.encode`.
 
     Raises:
-        StoreError: The disk refuses; what was there is as it was.
+        StoreError: Writing failed; an existing file is unchanged.
     """
     with guard_writing(path, content_name, advice), _temporary_file(path) as temporary:
         temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
 
 
 def write_files(folder: str | Path, texts: Mapping[str, str]) -> list[Path]:
-    """Write text files into a folder, which is created where needed."""
+    """Write text files into a folder, which is created if it does not exist."""
     folder_path = make_folder(folder)
     for name, text in texts.items():
         replace_file(folder_path / name, text)
@@ -84,10 +84,10 @@ def is_occupied(folder: Path) -> bool:
 
 @contextmanager
 def open_replacement(path: Path, content_name: str = "") -> Iterator[TextIO]:
-    """Open a UTF-8 text file that takes its place when the block ends without an error; line ends are written as given.
+    """Open a UTF-8 text file that replaces ``path`` when the block ends without an error; line ends are written unchanged.
 
     Raises:
-        StoreError: The disk refuses; what was there is as it was.
+        StoreError: Writing failed; an existing file is unchanged.
     """
     with (
         guard_writing(path, content_name, "choose another path"),
@@ -104,10 +104,10 @@ def write_table(
     rows: NDArray[np.float64],
     number_format: str | Sequence[str] = "%.9g",
 ) -> Path:
-    """Write numbers (N, columns) as CSV, each as ``number_format`` says; ``content_name`` they are is for the error.
+    """Write numbers (N, columns) as CSV in ``number_format``; ``content_name`` is the name of the content in error messages.
 
     Raises:
-        StoreError: It cannot be written.
+        StoreError: The file cannot be written.
     """
     file = Path(path)
     with open_replacement(file, content_name) as stream:
@@ -122,8 +122,8 @@ def _temporary_file(path: Path) -> Iterator[Path]:
     if path.exists() and not path.is_file():  # a device or a pipe is written to, not replaced
         yield path
         return
-    path = path.resolve()  # a link stays one
-    # Not tempfile: its files are private, and results are for sharing.
+    path = path.resolve()  # a symbolic link stays a link
+    # Not tempfile, because its files are private and results are meant to be shared.
     temporary = path.with_name(_TEMPORARY_SUFFIX.format(f"{os.getpid()}-{secrets.token_hex(4)}"))
     try:
         yield temporary

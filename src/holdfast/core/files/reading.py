@@ -13,20 +13,20 @@ from typing import Any
 from holdfast.core.errors import HoldfastError, InputError
 
 LARGEST_FILE_BYTES = 256 << 20
-LARGEST_INTEGER = 1 << 63  # of text that is parsed
-MAX_INTEGER_DIGITS = 80  # of a whole number, its base and separators included
+LARGEST_INTEGER = 1 << 63  # for parsed text
+MAX_INTEGER_DIGITS = 80  # of a whole number, with its base and separators
 
 
 @contextmanager
 def guard_reading(
     file_name: str = "the file", advice: str = "", error_type: type[HoldfastError] = InputError
 ) -> Iterator[None]:
-    """Context of a block that reads; if reading fails, the error states it in one sentence.
+    """Context of a block that reads; if the operating system reports an error, raise it as one sentence.
 
     Args:
-        file_name: The file, as the sentence names it.
-        advice: How the sentence ends.
-        error_type: Of the error.
+        file_name: Name of the file in the message.
+        advice: End of the message.
+        error_type: Type of the error that is raised.
     """
     try:
         yield
@@ -40,10 +40,10 @@ def read_bytes(path: str | Path, max_bytes: int = LARGEST_FILE_BYTES) -> bytes:
 
     Args:
         path: The file.
-        max_bytes: Bytes that it may have.
+        max_bytes: Maximum size of the file, bytes.
 
     Raises:
-        OSError: It cannot be read, is not a regular file, or is larger; its ``strerror`` says which.
+        OSError: The file cannot be read, is not a regular file, or is too large; ``strerror`` gives the reason.
     """
     try:
         state = Path(path).stat()
@@ -51,12 +51,12 @@ def read_bytes(path: str | Path, max_bytes: int = LARGEST_FILE_BYTES) -> bytes:
         raise OSError(errno.EINVAL, "its name holds a null character", str(path)) from error
     if stat.S_ISDIR(state.st_mode):
         raise OSError(errno.EISDIR, "it is a folder, not a file", str(path))
-    if not stat.S_ISREG(state.st_mode):  # opening a pipe waits, reading a device may never end
+    if not stat.S_ISREG(state.st_mode):  # opening a pipe waits, and reading a device may never end
         raise OSError(errno.EINVAL, "it is a device, pipe or socket, not a regular file", str(path))
     content = b""
     if state.st_size <= max_bytes:
         with Path(path).open("rb") as file:
-            content = file.read(max_bytes + 1)  # not its size: files of /proc have none
+            content = file.read(max_bytes + 1)  # not the stated size, because files of /proc have none
     if max(state.st_size, len(content)) > max_bytes:
         raise OSError(errno.EFBIG, f"it is larger than {max_bytes / (1 << 20):.4g} MiB", str(path))
     return content
@@ -67,11 +67,11 @@ def read_text(path: str | Path, max_bytes: int = LARGEST_FILE_BYTES) -> str:
 
     Args:
         path: The file.
-        max_bytes: Bytes that it may have.
+        max_bytes: Maximum size of the file, bytes.
 
     Raises:
         OSError: As :func:`read_bytes`.
-        UnicodeDecodeError: It is not UTF-8.
+        UnicodeDecodeError: The file is not UTF-8.
     """
     return read_bytes(path, max_bytes).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
@@ -81,16 +81,17 @@ def read_json(path: str | Path) -> Any:
 
     Raises:
         OSError: As :func:`read_bytes`.
-        ValueError: It is not UTF-8, not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
+        ValueError: The text is not UTF-8, not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate
+            pair.
     """
     return parse_json(read_text(path))
 
 
 def parse_json(content: str) -> Any:
-    """Return what a text in JSON holds.
+    """Return the content of a JSON text.
 
     Raises:
-        ValueError: It is not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
+        ValueError: The text is not JSON, nested too deep, or has a whole number beyond 2^63 or half a surrogate pair.
     """
     try:
         data = json.loads(content, parse_int=_parse_integer)
@@ -108,7 +109,7 @@ def _parse_integer(digits: str) -> int:
 
 
 def is_unicode(text: str) -> bool:
-    """Return whether a text can be written as UTF-8, which half of a surrogate pair cannot."""
+    """Return whether a text can be written as UTF-8, which excludes half of a surrogate pair."""
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -117,7 +118,7 @@ def is_unicode(text: str) -> bool:
 
 
 def path_exists(path: str | Path) -> bool:
-    """Return whether a file or folder of this name exists; False for a name that none can have."""
+    """Return whether a file or folder of this name exists; False for a name that no file can have."""
     try:
         Path(path).stat()
     except (OSError, ValueError):

@@ -11,14 +11,14 @@ from holdfast.core.files.digest import check_seal
 
 
 def read_sealed(path: str | Path) -> Any:
-    """Return the content of a JSON file without its digest, after comparing the digest.
+    """Return the content of a JSON file without its digest, after checking the digest.
 
     Raises:
         OSError: The file cannot be read.
-        ValueError: It is not UTF-8, not JSON, or nested too deep.
-        InputError: Its digest is missing or does not match.
+        ValueError: The file is not UTF-8, not JSON, or nested too deep.
+        InputError: The digest is missing or does not match.
     """
-    content = reading.read_bytes(path).decode()  # exactly: a changed end of a line counts as well
+    content = reading.read_bytes(path).decode()  # exact bytes, so that a changed line end counts as a change
     data = reading.read_json(path)
     if not isinstance(data, dict):
         raise InputError("it is not a JSON object")

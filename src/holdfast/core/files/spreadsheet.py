@@ -11,7 +11,7 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def escape_formula(value: Any) -> Any:
-    """Return a value for a CSV file; text that a spreadsheet would compute gets an apostrophe, numbers stay."""
+    """Return a value for a CSV file; text that a spreadsheet would evaluate gets an apostrophe, numbers stay unchanged."""
     if not isinstance(value, str) or not value.startswith(_FORMULA_STARTS):
         return value
     try:
@@ -22,18 +22,18 @@ def escape_formula(value: Any) -> Any:
 
 
 def unescape_formula(text: str) -> str:
-    """Return the text that :func:`escape_formula` made a cell from."""
+    """Return the text from which :func:`escape_formula` made a cell."""
     return text[1:] if text.startswith("'") and escape_formula(text[1:]) == text else text
 
 
 def write_csv_text(table: DataFrame, missing: str = "") -> str:
-    """Return a table as CSV with every digit of its numbers and no text that a spreadsheet would compute.
+    """Return a table as CSV with all digits of its numbers and no text that a spreadsheet would evaluate.
 
-    Numbers are written in columns, which takes a third of the time of :meth:`pandas.DataFrame.to_csv`.
+    Whole columns are formatted at once, which takes a third of the time of :meth:`pandas.DataFrame.to_csv`.
 
     Args:
-        table: Without its index.
-        missing: For NaN and None.
+        table: Table; its index is not written.
+        missing: Text for NaN and None.
     """
     safe = table.rename(columns=escape_formula)
     other = [k for k, kind in enumerate(safe.dtypes) if kind.kind not in "fi"]

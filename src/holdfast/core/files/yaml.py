@@ -1,4 +1,4 @@
-"""Read YAML files that users write: each key once, no unknown key, and one sentence for each error."""
+"""Read YAML files that users write: each key once, no unknown key, and a one-sentence message for each error."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Tag, Validat
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
 
-_LARGEST_FILE_BYTES = 1 << 20  # bytes: PyYAML takes ten seconds for as many
+_LARGEST_FILE_BYTES = 1 << 20  # bytes: PyYAML takes ten seconds for this size
 _MAX_DEPTH = 50
 _MAX_ENTRIES = 500_000
 _TOO_DEEP = f"its blocks are more than {_MAX_DEPTH} levels deep; write it flatter"
@@ -26,20 +26,20 @@ def _reject_boolean(value: Any) -> Any:
     return value
 
 
-# Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
+# Text reaches the number parser because YAML 1.1 reads 1e-3 (no point) as text.
 Number = Annotated[float, BeforeValidator(_reject_boolean)]
 Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
 
 
 class Strict(BaseModel):
-    """A block of keys: unknown keys, NaN and infinity are errors."""
+    """Block of keys in which unknown keys, NaN and infinity are errors."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
 class _Loader(yaml.SafeLoader):
-    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite, and so is what blows up."""
+    """YAML loader of PyYAML that also rejects a key given twice, huge whole numbers, and half surrogate pairs."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         seen: set[str] = set()
@@ -60,7 +60,7 @@ class _Loader(yaml.SafeLoader):
         return value
 
     def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
-        # Numbers in base 60 take quadratic time, and those in base 16 have no limit of digits in Python.
+        # Numbers in base 60 take quadratic time to parse, and Python does not limit the digits of numbers in base 16.
         value = (
             super().construct_yaml_int(node) if len(node.value) <= reading.MAX_INTEGER_DIGITS else reading.LARGEST_INTEGER + 1
         )
@@ -78,11 +78,11 @@ def parse_yaml(text: str, hint: str = "") -> Any:
 
     Args:
         text: The text.
-        hint: How messages about wrong YAML end.
+        hint: End of messages about invalid YAML.
 
     Raises:
-        InputError: It is not YAML, gives a key twice, or is far larger or deeper than what people write once its aliases are
-            written out.
+        InputError: The text is not YAML, gives a key twice, or is far larger or deeper with its aliases expanded than a file
+            that a person writes.
     """
     try:
         loader = _Loader(text)
@@ -95,7 +95,7 @@ def parse_yaml(text: str, hint: str = "") -> Any:
         raise
     except RecursionError as error:
         raise InputError(_TOO_DEEP) from error
-    # PyYAML lets pass what Python says of a value, as of the day 2026-02-30 or of !!int x.
+    # PyYAML does not catch the errors of Python's constructors, for example for the date 2026-02-30 or !!int x.
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError) as error:
         raise InputError(f"this is not valid YAML ({_shorten(' '.join(str(error).split()), 300)}){hint}") from error
 
@@ -104,7 +104,7 @@ def _count_entries(node: yaml.Node, known: dict[int, tuple[int, int]]) -> tuple[
     """Return the entries and the depth of a node with every alias and merge expanded."""
     if id(node) in known:
         return known[id(node)]
-    known[id(node)] = _MAX_ENTRIES, 0  # while it is open: an alias to a block from within it has no end
+    known[id(node)] = _MAX_ENTRIES, 0  # while the node is open: an alias to a block within this block would never end
     size, depth = 1, 0
     inner = () if isinstance(node, yaml.ScalarNode) else node.value
     for part in itertools.chain.from_iterable(inner) if isinstance(node, yaml.MappingNode) else inner:
@@ -126,8 +126,8 @@ def read_mapping(path: Path, example: str, required: str) -> dict[str, Any]:
 
     Args:
         path: The file.
-        example: Where an example of the format is, for messages.
-        required: What the file must hold at least, for messages.
+        example: Location of an example of the format, for messages.
+        required: Minimum content of the file, for messages.
 
     Raises:
         InputError: The file cannot be read, or is not YAML with keys and values.
@@ -147,12 +147,12 @@ def _shorten(text: str, most: int = 80) -> str:
 
 
 def describe_validation_error(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
-    """Return pydantic's most informative error as one sentence; a misspelt key comes before the key that it leaves missing.
+    """Return pydantic's most informative error as one sentence; a misspelt key precedes the missing key that it causes.
 
     Args:
-        error: What pydantic says.
-        model: The whole file.
-        tags: Names of the alternatives in ``model``, which do not count in the place.
+        error: Error of pydantic.
+        model: Model of the whole file.
+        tags: Names of the alternatives in ``model``, which are no part of the key path.
     """
     problems = error.errors()
     problem = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
@@ -192,9 +192,9 @@ def _keys_of_block(model: type[BaseModel], key_path: tuple[int | str, ...]) -> l
     for step in key_path[:-1]:
         if isinstance(step, str):
             field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
-            if field is not None:  # else a tag, or a key that people choose, as the name of a link
+            if field is not None:  # else a tag, or a key chosen by the user, such as the name of a link
                 annotation = field.annotation
-                model = next(_nested_models(annotation), model)  # a name that people choose may be that of a field
+                model = next(_nested_models(annotation), model)  # a name chosen by the user may equal the name of a field
             else:
                 model = next(_nested_models(_find_tagged_alternative(annotation, step)), model)
     return [field.alias or name for name, field in model.model_fields.items()]

@@ -15,7 +15,7 @@ BIN_COUNT = 1 << 16
 
 
 class DistributionCollector:
-    """Collect values chunk by chunk; beyond ``most`` of them the collector uses fine bins and constant memory."""
+    """Collect values chunk by chunk; beyond ``most`` values, keep fine bins instead of the values, in constant memory."""
 
     def __init__(
         self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000, heaviest: float = 0.0
@@ -26,7 +26,7 @@ class DistributionCollector:
         self._edges: FloatArray | None = None
         self._counts: NDArray[Any] | None = None
         self._weights: list[FloatArray] = []
-        self._sums: tuple[WeightSums, WeightSums, WeightSums] | None = None  # of finite values, of reached poses, of the others
+        self._sums: tuple[WeightSums, WeightSums, WeightSums] | None = None  # finite values, reached and unreached poses
         self._unreached = self._singular = self._infinite = self._reached = 0
         self._total, self._low, self._high = 0.0, np.inf, -np.inf
 
@@ -38,9 +38,9 @@ class DistributionCollector:
         weights: FloatArray | None = None,
         unreached_weights: FloatArray | None = None,
     ) -> None:
-        """Values at reached poses, number of the others, and how many of the values are singular.
+        """Add the values at reached poses, the number of unreached poses, and the number of singular configurations.
 
-        Weights, of the values and of the poses not reached, are given with every chunk or with none.
+        Every chunk has weights, of the values and of the unreached poses, or none has.
         """
         self._unreached += unreached
         self._singular += singular
@@ -75,7 +75,7 @@ class DistributionCollector:
         if self._bound is not None:
             edges = np.linspace(0.0, self._bound, BIN_COUNT)
         else:
-            # Half the edges evenly spaced, half at quantiles: a heavy tail must not blur the rest.
+            # Half the edges are evenly spaced and half are quantiles, so that a heavy tail does not blur the rest.
             low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
             top = high + max(abs(high), high - low, 1e-300)
             even_edges = np.linspace(0.0 if low >= 0 else 2 * low, top, BIN_COUNT // 2)
@@ -94,13 +94,13 @@ class DistributionCollector:
         last = len(self._counts) - 1
         if self._bound is not None:  # even bins need no search
             bin_index = np.minimum(values * ((BIN_COUNT - 1) / self._bound), last).astype(np.int64)
-            bin_index[values >= self._bound] = last  # where many values sit: the product may round to just below
+            bin_index[values >= self._bound] = last  # many values may equal the bound; the product may round below it
         else:
             bin_index = np.searchsorted(self._edges, values, side="right") - 1
         self._counts += np.bincount(bin_index.clip(0, last), weights, minlength=last + 1)
 
     def make_distribution(self) -> Distribution:
-        """The distribution of everything added."""
+        """Return the distribution of all added values."""
         if self._edges is None:
             values = np.concatenate(self._parts) if self._parts else np.zeros(0)
             if self._sums is not None:

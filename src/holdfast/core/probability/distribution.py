@@ -16,26 +16,27 @@ from holdfast.core.typing import FloatArray
 __all__ = ["Distribution", "Interval"]
 
 
-_SMALLEST_BIN_WIDTH = 1e-300  # a density over less is no number any more
+_SMALLEST_BIN_WIDTH = 1e-300  # a density over a narrower bin overflows
 
 
 @dataclass(kw_only=True)
 class Distribution:
-    """Values of an index at the samples of a region, exact or, for very large runs, in fine bins.
+    """Distribution of an index over the samples of a region, with exact values or, for very large runs, in fine bins.
 
-    A pose for which no configuration was found counts as the worst possible value (0 if larger is better, infinity
-    otherwise), unless ``reachable_only``. Samples may have weights: shares, quantiles, mean and density are then of the
-    weights, and error bars are those of as many equal samples as :meth:`effective` says.
+    A pose without a configuration counts as the worst possible value (0 if larger is better, infinity otherwise), except with
+    ``reachable_only=True``. Samples may have weights. Fractions, quantiles, mean and density are then weighted, and error bars
+    are those of :meth:`effective` equally weighted samples.
 
     Attributes:
-        better: ``"larger"`` or ``"smaller"``.
-        values: Sorted values at the poses that have a configuration; None once they are only kept in bins.
-        edges, counts: Bins and their contents, if binned: a probability is then exact at the edges.
-        unreached: Poses without a configuration.
-        singular: Configurations that are singular (they count with the value of the convention).
-        total: Sum of the finite values, each times its weight.
-        lowest, highest: Over the finite values, without those of weight 0.
-        weights: Of ``values``, or None if every sample counts alike. In bins, ``counts`` are sums of weights.
+        better: ``"larger"`` or ``"smaller"``, the better direction of the index.
+        values: (N,) sorted values at the poses with a configuration; None if only bins are kept.
+        edges, counts: (B + 1,) edges and (B,) contents of the bins, if binned; a probability is then exact at the edges.
+        unreached: Number of poses without a configuration.
+        singular: Number of singular configurations (they count with the value of the convention).
+        infinite: Number of infinite values.
+        total: Sum of the finite values times their weights, in the unit of the index.
+        lowest, highest: Smallest and largest finite value with a weight above 0.
+        weights: (N,) weights of ``values``, or None for equal weights. In bins, ``counts`` are sums of weights.
     """
 
     better: Literal["larger", "smaller"]
@@ -66,16 +67,16 @@ class Distribution:
         unreached_weights: ArrayLike = (),
         heaviest: float = 0.0,
     ) -> Distribution:
-        """The distribution of given values.
+        """Return the distribution of given values.
 
         Args:
-            values: (N,) at the poses that have a configuration.
-            better: Which values are better.
+            values: (N,) index values at the poses with a configuration.
+            better: ``"larger"`` or ``"smaller"``, the better direction of the index.
             unreached: Number of poses without a configuration.
-            singular: How many of the values are at singular configurations.
-            weights: (N,) of the values, 0 or more; all count alike if not given.
-            unreached_weights: (unreached,) of the poses without a configuration, if ``weights`` are given.
-            heaviest: The largest weight that a sample can have, if known: see :meth:`effective`.
+            singular: Number of values at singular configurations.
+            weights: (N,) weights of the values, 0 or more; default: equal weights.
+            unreached_weights: (unreached,) weights of the poses without a configuration, if ``weights`` are given.
+            heaviest: Largest possible weight of a sample, if known; see :meth:`effective`.
         """
         if weights is not None:
             lost = WeightSums(largest=heaviest)
@@ -136,30 +137,30 @@ class Distribution:
 
     @property
     def reached(self) -> int:
-        """Poses with a configuration."""
+        """Number of poses with a configuration."""
         return self._reached
 
     @property
     def samples(self) -> int:
-        """All poses drawn."""
+        """Number of all sampled poses."""
         return self._reached + self.unreached
 
     @property
     def mean(self) -> float:
-        """Mean of the finite values at the poses that have a configuration."""
+        """Mean of the finite values at the poses with a configuration."""
         finite = self._finite_weight
         return self.total / finite if finite else np.nan
 
     @property
     def unreached_share(self) -> float:
-        """Share of the samples without a configuration, by weight."""
+        """Fraction of the samples without a configuration, by weight."""
         return self._unreached_weight / self._total_size(False)
 
     def effective(self, reachable_only: bool = False) -> float:
         """Return the effective sample size ``sum w / max w``: the number of equally weighted samples with the same information.
 
-        ``max w`` is the largest weight that a sample can have where that is known (densities of a region), else the largest of
-        these: weights that are rare and heavier than any of these make error bars too narrow.
+        ``max w`` is the largest possible weight if it is known (densities of a region), else the largest sampled weight; error
+        bars are then too narrow if rare samples are heavier. With ``reachable_only``, unreached poses do not count.
 
         Source: Martino, Elvira, Louzada 2017; ``(sum w)^2 / sum w^2`` of Kish is larger, and
         its intervals need not cover (:doc:`/evidence/intervals`).
@@ -170,19 +171,19 @@ class Distribution:
         return WeightSums(size, max(self._found.largest, self._lost.largest)).effective_size
 
     def total_weight(self, reachable_only: bool = False) -> float:
-        """Sum of the weights of the samples; their number if all count alike."""
+        """Return the sum of the sample weights (their number if unweighted), without unreached poses if ``reachable_only``."""
         return self._total_size(reachable_only)
 
     @cached_property
     def _cumulative_weight(self) -> FloatArray:
-        """Weight of the first k values, or of the first k bins."""
+        """Total weight of the first k values, or of the first k bins."""
         parts = self.counts if self.values is None else self.weights
         assert parts is not None
         return np.asarray(np.r_[0, np.cumsum(parts)])
 
     @property
     def _bin_ends(self) -> FloatArray:
-        """Upper ends of the bins, none of them beyond the highest value: the last bin has no end of its own."""
+        """Upper ends of the bins, none of them beyond the highest value, because the last bin has no upper end."""
         assert self.edges is not None
         return np.minimum(self.edges[1:], self.highest)
 
@@ -195,7 +196,7 @@ class Distribution:
         return self.unreached if self._lost is None else self._lost.weight
 
     def _total_size(self, reachable_only: bool) -> float:
-        """Total weight: the number of samples if all count alike."""
+        """Return the total weight; the number of samples if they have no weights."""
         size: float = self.reached if reachable_only else self.samples
         if not self.samples:
             raise InputError("this distribution has no samples: nothing is computed yet")
@@ -204,14 +205,14 @@ class Distribution:
                 "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
             )
         if self.has_weights:
-            size = float(self._cumulative_weight[-1])  # not the sum of chunks: F must end at 1
+            size = float(self._cumulative_weight[-1])  # not the sum over chunks, because F must end at 1
             size = size if reachable_only else size + self._unreached_weight
             if not size > 0:
                 raise InputError("the weights of these samples are all 0; give at least one a weight above 0")
         return size
 
     def _weight_below(self, h: FloatArray, reachable_only: bool) -> FloatArray:
-        """Weight of the samples whose value is less than h: their number if all count alike."""
+        """Return the weight of the samples with a value below h; their number if they have no weights."""
         if self.values is not None:
             place = np.searchsorted(self.values, h, side="left")
             count = place.astype(np.float64) if self.weights is None else self._cumulative_weight[place]
@@ -224,7 +225,9 @@ class Distribution:
         return np.asarray(count)
 
     def cdf(self, h: ArrayLike, reachable_only: bool = False) -> FloatArray:
-        """``F(h)``, the share of samples with a value less than h; F(0) = 0.
+        """Return ``F(h)``, the fraction of samples with a value below ``h``, an array of any shape; F(0) = 0.
+
+        With ``reachable_only``, poses without a configuration do not count.
 
         Source: Abdi et al. 2012, section IV; strict ``<``, so that the probability of at least 0 is 1.
         """
@@ -232,10 +235,12 @@ class Distribution:
         return np.asarray(self._weight_below(h_, reachable_only) / self._total_size(reachable_only))
 
     def probability(self, at_least: float | None = None, at_most: float | None = None, reachable_only: bool = False) -> float:
-        """Share of samples with a value of at least (or at most) a threshold: the paper's global index ``1 - F(h)``.
+        """Return the fraction of values ``at_least`` or ``at_most`` a threshold, the paper's global index ``1 - F(h)``.
+
+        Thresholds have the unit of the index. With ``reachable_only``, poses without a configuration do not count.
 
         Raises:
-            InputError: Not exactly one threshold.
+            InputError: Not exactly one threshold is given.
         """
         return self.interval(at_least, at_most, reachable_only).value
 
@@ -247,10 +252,12 @@ class Distribution:
         *,
         confidence: float = 0.95,
     ) -> Interval:
-        """The probability with its exact (Clopper-Pearson) interval; of weighted samples that of :meth:`effective` equal ones.
+        """Return :meth:`probability` of ``at_least``, ``at_most`` and ``reachable_only`` with its interval at ``confidence``.
+
+        The interval is Clopper and Pearson's; for weighted samples, that of :meth:`effective` equally weighted ones.
 
         Raises:
-            InputError: Not exactly one threshold, or a confidence outside (0, 1).
+            InputError: Not exactly one threshold is given, or the confidence is outside (0, 1).
         """
         if (at_least is None) == (at_most is None):
             raise InputError("give exactly one of at_least and at_most")
@@ -269,18 +276,19 @@ class Distribution:
         return Interval.from_counts(hits, int(size), confidence)
 
     def band(self, confidence: float = 0.95, reachable_only: bool = False) -> float:
-        """Half width of the band that holds the whole true CDF with the given confidence.
+        """Return the half width of the band that contains the whole true CDF with probability ``confidence`` (0 to 1).
 
         Source: Dvoretzky, Kiefer, Wolfowitz 1956 with the constant of Massart 1990: ``sqrt(ln(2/delta)/(2N))``.
-        It assumes independent samples; for scrambled Sobol points it is conservative in practice, not by theorem. With
-        weights, N is the :meth:`effective` sample size: the theorem then holds for the samples that a fair thinning to equal
-        weights keeps, of which the weighted CDF is about the mean; that the band covers is measured, not proved.
+        It assumes independent samples. For scrambled Sobol points it is conservative in practice, but not by theorem. With
+        weights, N is the :meth:`effective` sample size: a fair thinning to equal weights keeps about N samples, for which the
+        theorem holds and whose mean CDF is the weighted CDF. That the band covers is therefore measured, not proved. With
+        ``reachable_only``, poses without a configuration do not count.
         """
         check_confidence(confidence)
         return float(min(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self.effective(reachable_only))), 1.0))
 
     def quantile(self, p: ArrayLike, reachable_only: bool = True) -> FloatArray:
-        """Smallest value v with ``share(value <= v) >= p``."""
+        """Return the least v with ``fraction(value <= v) >= p``, ``p`` of any shape; ``reachable_only`` as in :meth:`cdf`."""
         p_ = np.asarray(p, dtype=np.float64)
         if not ((p_ >= 0) & (p_ <= 1)).all():
             raise InputError("a quantile is asked for a share outside 0 to 1")
@@ -288,7 +296,7 @@ class Distribution:
         if self.has_weights:
             return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._unreached_weight)
         lost = 0 if reachable_only else self.unreached
-        rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # from 0
+        rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # counted from 0
         rank -= (rank >= 1) & (rank / size >= p_)  # p * size may round up past a whole number
         worst_first = self.better == "larger"
         offset = lost if worst_first else 0
@@ -303,7 +311,7 @@ class Distribution:
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
     def _weighted_quantile(self, p: FloatArray, size: float, lost: float) -> FloatArray:
-        # Sums of weights are rounded; a share of 0 asks for more.
+        # Sums of weights have rounding errors, and a fraction of 0 still needs a weight above 0.
         least = np.maximum(p * (1 - 1e-12), np.finfo(np.float64).tiny)
         offset = lost if self.better == "larger" else 0.0
         place = np.searchsorted((offset + self._cumulative_weight[1:]) / size, least, side="left")
@@ -317,7 +325,9 @@ class Distribution:
         return np.where(beyond, np.inf, found)
 
     def density(self, bins: int = 40) -> tuple[FloatArray, FloatArray]:
-        """Edges (bins + 1,) and probability density (bins,) of the finite values at reached poses; integrates to their share.
+        """Return edges (bins + 1,) and density (bins,) of the finite values at reached poses, in ``bins`` equal bins.
+
+        The density integrates to the fraction of these values.
 
         Source: Abdi et al. 2012, section IV: counts / (N width).
         """

@@ -1,6 +1,6 @@
-"""Probabilities and their differences with confidence intervals, and the sums of weights that determine their precision.
+"""Confidence intervals of probabilities and their differences, and the sums of weights that determine their precision.
 
-How often each kind of interval covers the truth was measured: benchmarks/interval_coverage.py, and the page on intervals.
+The coverage of each kind of interval was measured: benchmarks/interval_coverage.py and :doc:`/evidence/intervals`.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 
-BETTING_ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly depends on the order they came in
-_MAX_BET_FRACTION = 0.75  # of the capital is the most that a single bet may lose
+BETTING_ORDERS = 16  # orders in which the bets meet the same values; the mean capital hardly depends on the original order
+_MAX_BET_FRACTION = 0.75  # largest fraction of the capital that a single bet may lose
 
 
 @dataclass(frozen=True, kw_only=True)
 class Interval:
-    """Probability, or mean of values between 0 and 1, with its confidence interval."""
+    """Probability or mean of values from 0 to 1 (``value``), with its interval ``low`` to ``high`` at level ``confidence``."""
 
     value: float
     low: float
@@ -28,9 +28,9 @@ class Interval:
 
     @classmethod
     def from_counts(cls, hits: float, size: float, confidence: float = 0.95) -> Interval:
-        """Share ``hits / size`` of independent cases with its exact interval; for weighted cases neither need be whole.
+        """Return the fraction ``hits`` / ``size`` of independent cases with its interval at the level ``confidence``.
 
-        It covers at least as often as ``confidence`` says, for any share and any number of whole cases.
+        Weighted cases need not be whole numbers. For whole cases the coverage is at least ``confidence`` for any fraction.
 
         Source: Clopper and Pearson 1934.
         """
@@ -39,25 +39,25 @@ class Interval:
         rest, value = (1 - confidence) / 2, float(hits / size)
         low = float(betaincinv(hits, size - hits + 1, rest)) if hits > 0 else 0.0
         high = float(betaincinv(hits + 1, size - hits, 1 - rest)) if hits < size else 1.0
-        # betaincinv ends at 1.8e-12 where the limit of next to no hits is smaller.
+        # betaincinv ends at 1.8e-12; the limit for almost no hits is smaller
         return cls(value=value, low=min(low, value), high=max(high, value), confidence=confidence)
 
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:
-        """A share of weighted samples with the interval of ``effective`` equal ones; see ``Sums.effective``."""
+        """Return a weighted fraction ``share`` with the ``confidence`` interval of ``effective`` equal samples."""
         low, high = _interval_ends(cls.from_counts(share * effective, effective, confidence))
         return cls(value=share, low=low, high=high, confidence=confidence)
 
     @classmethod
     def of_fractions(cls, values: FloatArray, confidence: float = 0.95) -> Interval:
-        """Mean of independent values (N,), one or more, between 0 and 1, with an interval that always covers.
+        """Return the mean of independent ``values`` (N,), one or more, between 0 and 1, with an interval that always covers.
 
-        Whatever the values' distribution and however few they are, it covers at least as often as ``confidence`` says: those
-        means are left out against which a gambler, betting on the values one after the other, would have multiplied his
-        capital by ``2 / (1 - confidence)``. The price: about 1.4 times as wide as Student's t of many values, more of few.
+        For any distribution and any N the coverage is at least ``confidence``. The interval excludes a mean if a gambler who
+        bets against that mean, on one value after another, would have multiplied the capital by ``2 / (1 - confidence)``. Its
+        width is about 1.4 times that of Student's t for many values, and more for few.
 
-        Source: Waudby-Smith and Ramdas 2024, hedged capital with predictable plug-in bets; the mean of the capital over
-        several orders is ours (a mean of capitals is one, too).
+        Source: Waudby-Smith and Ramdas 2024, hedged capital with predictable plug-in bets; averaging the capital over several
+        orders is our addition (a mean of capitals is a capital as well).
         """
         low = _lower_mean_limit(values, confidence)
         high = 1 - _lower_mean_limit(1 - values, confidence)
@@ -70,13 +70,13 @@ class Interval:
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """Mean difference between two methods tried on the same cases, with its confidence interval.
+    """Mean difference between two methods on the same cases, with its confidence interval.
 
     Attributes:
-        value: The second's mean minus the first's.
-        low, high: Ends of the interval.
-        confidence: Of the interval.
-        p_value: Two-sided, of no difference at all.
+        value: Mean of the second method minus mean of the first, in the unit of the cases.
+        low, high: Limits of the interval, in the same unit.
+        confidence: Confidence level of the interval, 0 to 1.
+        p_value: Two-sided p value, 0 to 1, of the hypothesis of no difference.
     """
 
     value: float
@@ -87,13 +87,14 @@ class Difference:
 
     @classmethod
     def of_pairs(cls, first: NDArray[np.bool_], second: NDArray[np.bool_], confidence: float = 0.95) -> Difference:
-        """Difference of two shares of the same N cases, (N,) each, one or more; only the cases that differ tell.
+        """Return the fraction of ``second`` minus that of ``first``, both (N,) booleans for the same N >= 1 cases.
 
-        The interval holds 0 wherever the test does not refuse it. It is no theorem that it covers: of 700 random cases for each
-        of N = 5 to 30 (measured) nearly all cover 0.95 or more, and the worst, where the two nearly always differ, 0.91.
+        Only cases that differ are informative. The interval at the level ``confidence`` contains 0 unless the test rejects 0.
+        Its coverage has no proof: of 700 random cases for each of N = 5 to 30 (measured) nearly all cover 0.95 or more, and the
+        worst, in which the two nearly always differ, covers 0.91.
 
-        Source: Newcombe 1998, method 10, here with the exact limits of both shares (``Interval.of``) in place of Wilson's,
-        with which the worst case covers 0.82; McNemar's exact test for the p value.
+        Source: Newcombe 1998, method 10, with the Clopper-Pearson limits of both fractions (``Interval.from_counts``) instead
+        of Wilson's, with which the worst case covers 0.82; McNemar's exact test for the p value.
         """
         from scipy import stats
 
@@ -115,10 +116,10 @@ class Difference:
 
     @classmethod
     def of_fractions(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
-        """Mean of independent differences (N,), one or more, between -1 and 1, with an interval that always covers.
+        """Return the mean of independent ``differences`` (N,), N >= 1, from -1 to 1, with an interval that always covers.
 
-        See ``Interval.of_fractions``; the p value is one over the capital of the gambler who bets against no difference,
-        so that 1 is common.
+        As ``Interval.of_fractions``, at the level ``confidence``. The p value is one over the capital of a gambler who bets
+        against no difference, so the value 1 is common.
         """
         halves = (1 + differences) / 2
         mean = Interval.of_fractions(halves, confidence)
@@ -128,10 +129,11 @@ class Difference:
 
     @classmethod
     def of_means(cls, differences: FloatArray, confidence: float = 0.95) -> Difference:
-        """Mean of differences (N,), two or more, with the interval and the test of Student's t.
+        """Return the mean of ``differences`` (N,), N >= 2, with Student's t interval at the level ``confidence`` and t test.
 
-        For quantities without bounds, such as errors in m. It covers as it says for normal differences, and for many; of few
-        skewed ones it may cover far less (:doc:`/evidence/intervals`), and nothing that knows no bounds can do better.
+        Use it for unbounded quantities, such as errors in m. The coverage is as stated for normal differences and for many of
+        them. For few skewed differences it may be far lower (:doc:`/evidence/intervals`); no method without bounds can do
+        better.
         """
         from scipy import stats
 
@@ -216,6 +218,6 @@ class WeightSums:
 
 
 def check_confidence(confidence: float) -> None:
-    """Raise :class:`InputError` unless the confidence lies between 0 and 1."""
+    """Raise :class:`InputError` unless the confidence is between 0 and 1."""
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")

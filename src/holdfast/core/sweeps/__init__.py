@@ -1,4 +1,4 @@
-"""Resumable sweeps: jobs in chunks that survive crashes and can run on several machines, without knowledge of robots."""
+"""Resumable sweeps: jobs in chunks that survive crashes and can run on several machines; nothing here is about robots."""
 
 from holdfast.core._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Compute chunks on a Dask cluster; only this process writes."""
+"""Compute chunks on a Dask cluster; only the local process writes files."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from holdfast.core.errors import InputError, StoreError
 from holdfast.core.labels import is_count
 from holdfast.core.sweeps.runner import ChunkResult, ChunkTask, Stop, compute_chunk
 
-_POLL_INTERVAL_S = 0.5  # s between looks at the scheduler
-_SCHEDULER_TIMEOUT_S = 15.0  # s without the scheduler before it counts as gone
-_STOP_GRACE_S = 10.0  # s that chunks in hand get once a stop is asked for
+_POLL_INTERVAL_S = 0.5  # s between queries of the scheduler
+_SCHEDULER_TIMEOUT_S = 15.0  # s without contact after which the scheduler counts as lost
+_STOP_GRACE_S = 10.0  # s that chunks in progress get after a stop request
 _LOCAL_PREFIX = "local:"
 
 
 class Cluster:
-    """Dask cluster given by the address of its scheduler (``tcp://HOST:8786`` or a scheduler file), or a local cluster.
+    """Dask cluster with its scheduler at ``address`` (``tcp://HOST:8786`` or a scheduler file), or a local cluster.
 
-    ``local:4`` starts four worker processes on this machine. Use it in a ``with`` statement.
+    ``local:4`` starts four worker processes on this machine; ``timeout`` limits the connection, s. Use it in ``with``.
 
     Raises:
         InputError: The extra ``cluster`` is not installed, or no scheduler answers.
@@ -35,7 +35,7 @@ class Cluster:
             raise InputError(
                 "a scheduler needs Dask, which is not installed; install it with: pip install 'holdfast-arms[cluster]'"
             ) from error
-        for part in ("client", "core", "comm"):  # its tracebacks; what matters comes back as one sentence
+        for part in ("client", "core", "comm"):  # hide its tracebacks; relevant errors come back as one sentence
             logging.getLogger(f"distributed.{part}").setLevel(logging.CRITICAL)
         self.address = address
         self._own: Any = None
@@ -49,7 +49,7 @@ class Cluster:
         elif "://" not in address and not address.endswith(".json"):
             raise InputError(
                 f"scheduler '{address}' is not known; give its address such as tcp://HOST:8786, its scheduler file (.json), "
-                "or local:4 for worker processes of its own"
+                "or local:4 for local worker processes"
             )
         try:
             if address.endswith(".json"):
@@ -67,7 +67,7 @@ class Cluster:
         return self
 
     def __exit__(self, *_: object) -> None:
-        with suppress(Exception):  # a scheduler that is gone cannot be taken leave of
+        with suppress(Exception):  # a lost scheduler cannot be closed
             self._client.close(timeout=2)
         if self._own is not None:
             with suppress(Exception):
@@ -75,15 +75,15 @@ class Cluster:
 
     @property
     def about(self) -> str:
-        """The address."""
+        """Address of the scheduler."""
         return f"Dask at {self.address}"
 
     def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
-        """See :class:`holdfast.core.sweeps.Runner`."""
+        """Yield the results of ``tasks`` until ``stop()``; see :meth:`holdfast.core.sweeps.Runner.results`."""
         finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
         waiting: dict[str, tuple[Any, ChunkTask]] = {}
         looked, capacity, last_contact = 0.0, 1, time.monotonic()
-        retries: list[ChunkTask] = []  # of which a lost connection took the answer
+        retries: list[ChunkTask] = []  # tasks whose results were lost with the connection
         has_more, polled_at = True, 0.0
         try:
             while True:
@@ -109,7 +109,7 @@ class Cluster:
                 except queue.Empty:
                     if stop():
                         polled_at = polled_at or now
-                        if now - polled_at > _STOP_GRACE_S:  # the workers may be far away and slow: it is given up
+                        if now - polled_at > _STOP_GRACE_S:  # far and slow workers are abandoned
                             return
                     continue
                 _, task = waiting.pop(future.key)
@@ -126,7 +126,7 @@ class Cluster:
 
     def _lost_scheduler_error(self) -> StoreError:
         return StoreError(
-            f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and give the same command "
+            f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and run the same command "
             "again"
         )
 
@@ -137,7 +137,7 @@ class Cluster:
             result: ChunkResult = future.result(timeout=60)
         except KilledWorker as error:
             raise StoreError(
-                f"rows {task.chunk.start + 1} to {task.chunk.stop} of a cell took several workers with them, perhaps for want "
+                f"rows {task.chunk.start + 1} to {task.chunk.stop} of a cell made several workers crash, perhaps for lack "
                 "of memory; give the workers more, or write a study file with a smaller chunk"
             ) from error
         except (TimeoutError, OSError) as error:

@@ -1,4 +1,4 @@
-"""Tools of every results folder: a lock, checksums, and limits of its size."""
+"""Tools of every results folder: a lock, checksums, and limits on its size."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MAX_CHUNKS = 10**7
 
 
 def has_too_many_rows(rows: int, chunk: int) -> bool:
-    """Return whether rows in chunks of this size are more than a program can count in a sensible time."""
+    """Return whether there are too many rows, in chunks of this size, to process in a sensible time."""
     return rows > MAX_ROWS or -(-rows // chunk) > MAX_CHUNKS
 
 
@@ -45,31 +45,29 @@ def own_study_folder(cell_folder: Path) -> Path | None:
 
 
 def relocate_stored_plan(plan: Mapping[str, Any], stored_plan: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a stored plan with the places of the files of the requested plan where their content is the same."""
+    """Return a stored plan with the file locations of the requested plan where the content of the files is the same."""
     content, stored_content = plan_content(plan), plan_content(stored_plan)
     return {key: plan[key] if key in plan and content[key] == stored_content[key] else x for key, x in stored_plan.items()}
 
 
 def plan_content(plan: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of a plan that define its results; an entry with a ``sha256`` counts by that digest, not by the place
-    of its files.
-    """
+    """Return the entries of a plan that define its results; a file counts by its ``sha256``, not by its location."""
     return {key: x["sha256"] if isinstance(x, dict) and "sha256" in x else x for key, x in plan.items()}
 
 
 def describe_difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> str:
     """Return the first entry in which the plan of a folder differs from the requested plan, as text; empty if none."""
     if old.get("index") == new.get("index") and old.get("index_digest") != new.get("index_digest"):
-        return f"the function of its index '{new.get('index')}' has changed since"
+        return f"the function of its index '{new.get('index')}' has changed since the run began"
     for key in sorted({*old, *new}):
         if old.get(key) != new.get(key):
             a, b = (shorten(json.dumps(x.get(key))) for x in (old, new))
-            return f"its {key} is {a}, asked for is {b}"
+            return f"its {key} is {a}, but {b} was requested"
     return ""
 
 
 def shorten(text: str, most: int = 60) -> str:
-    """Return a text, shortened where it is too long for a sentence."""
+    """Return a text, shortened if it is too long for a message."""
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
@@ -78,7 +76,7 @@ def lock_folder(folder: Path, name: str) -> Iterator[None]:
     """Lock a folder through the file ``name`` in it until the block or this program ends.
 
     Raises:
-        StoreError: Another program holds it, or the folder is not writable.
+        StoreError: Another program holds the lock, or the folder is not writable.
     """
     with guard_writing(folder):
         handle = os.open(folder / name, os.O_CREAT | os.O_RDWR, 0o644)

@@ -21,10 +21,10 @@ class Chunk:
     """Rows that are computed and committed together.
 
     Attributes:
-        number: From 0, in its cell.
-        start: Its first row.
-        stop: The row after its last.
-        seed: Of the study.
+        number: Number in its cell, from 0.
+        start: First row.
+        stop: Row after the last.
+        seed: Seed of the study.
     """
 
     number: int
@@ -35,12 +35,12 @@ class Chunk:
 
     @property
     def sequence(self) -> np.random.SeedSequence:
-        """Random source of the chunk, which depends on the study and the number only, so that cells are paired."""
+        """Random source of the chunk. It depends only on the study and the number, so that the samples of cells are paired."""
         return np.random.SeedSequence(self.seed, spawn_key=(self.number,))
 
     @property
     def own_seed(self) -> int:
-        """Integer seed from :attr:`sequence`, for functions that take no more than an integer."""
+        """Integer seed from :attr:`sequence`, for functions that take only an integer."""
         low, high = self.sequence.generate_state(2, np.uint32).tolist()
         return int(low) | int(high & 0x7FFFFFFF) << 32
 
@@ -49,26 +49,26 @@ class Chunk:
 
 
 class SweepJob(Protocol):
-    """Computation of the rows of a cell; it is pickled and sent to workers, so it holds data and nothing compiled.
+    """Computation of the rows of a cell; it is pickled and sent to workers, so it contains data and nothing compiled.
 
-    Its values depend on the job and the chunk alone: not on the thread, the process or what was computed before.
+    Its values depend only on the job and the chunk, not on the thread, the process or earlier chunks.
     """
 
     def prepare(self, alone: bool) -> None:
         """Compile, once per process; ``alone`` means that each chunk has one thread and other chunks run in parallel.
 
         Raises:
-            HoldfastError: The job cannot be done.
+            HoldfastError: The job cannot run.
         """
 
     def columns(self) -> list[Column]:
         """Return the columns of a stored row."""
 
     def run(self, chunk: Chunk) -> Mapping[str, NDArray[Any]]:
-        """Return the columns of a chunk: one row for each of its rows, or one row that sums them up.
+        """Return the columns of ``chunk`` by name: one row for each of its rows, or one row that sums them up.
 
         Raises:
-            HoldfastError: It cannot be done; the study continues with its other cells.
+            HoldfastError: The chunk cannot be computed; the study continues with its other cells.
         """
 
 
@@ -77,13 +77,13 @@ class SweepCell:
     """One cell of a sweep.
 
     Attributes:
-        name: Unique in the study, fit for a folder.
-        job: What computes it.
+        name: Name that is unique in the study and valid for a folder.
+        job: Computation of the rows.
         plan: JSON data that defines its values.
-        rows: How many are computed.
-        chunk: Of them in a chunk.
+        rows: Number of rows.
+        chunk: Number of rows in a chunk.
         summed: A chunk is stored as one row that sums it up.
-        labels: What it is in the sweep, for people: ``arm``, ``index``, ...
+        labels: Position in the sweep, for people: ``arm``, ``index``, ...
     """
 
     name: str
@@ -112,11 +112,11 @@ class SweepCell:
         return sha256(text.encode()).hexdigest()[:16]
 
     def chunk_at(self, number: int, seed: int) -> Chunk:
-        """Return a chunk by its number."""
+        """Return the chunk with this ``number`` (from 0) of a study with this ``seed``."""
         return Chunk(number, number * self.chunk, min((number + 1) * self.chunk, self.rows), seed=seed)
 
     def with_rows(self, rows: int) -> SweepCell:
-        """Return the same cell with fewer rows, to try it."""
+        """Return the same cell with only ``rows`` rows, for a trial."""
         return replace(self, rows=rows, chunk=rows)
 
 
@@ -127,10 +127,10 @@ class CellStatus:
     Attributes:
         name: Name of the cell.
         labels: Position of the cell in the sweep.
-        chunks, rows: Numbers in all.
+        chunks, rows: Total numbers.
         chunks_done, rows_done: Numbers of committed chunks and rows.
-        seconds: Time that these took where they were computed.
-        makers: Numbers of what computed them, of :attr:`holdfast.core.sweeps.Study.makers`.
+        seconds: Computation time of the committed chunks, s.
+        makers: Numbers of the machines that computed the chunks; see :attr:`holdfast.core.sweeps.Study.makers`.
     """
 
     name: str
@@ -150,11 +150,11 @@ class CellStatus:
 
 @dataclass(frozen=True)
 class DamagedChunk:
-    """Committed chunk that differs from what was written.
+    """Committed chunk that differs from the chunk that was written.
 
     Attributes:
-        cell: Name of its cell, None in a folder that is not part of a study.
-        chunk: Number from 0, None for a whole cell that was begun and is missing.
+        cell: Name of its cell; None in a folder that is not part of a study.
+        chunk: Number from 0; None for a whole cell that is missing although it was begun.
         what: Description of the damage.
     """
 

@@ -1,8 +1,8 @@
-"""Journal of finished chunks: lines appended with their own checksums, so that a commit costs the same at any length.
+"""Journal of finished chunks: appended lines with their own checksums, so that a commit takes the same time at any length.
 
-A line that a crash cut short does not count, and is removed before the next line is added. Results folders keep one line for
-each chunk: later lines of a chunk replace earlier ones, and a line with ``-`` states that the chunk is lost. Searches keep the
-values themselves in the lines; see :mod:`holdfast.core.sweeps.memory`.
+A line that a crash cut short does not count and is removed before the next line is added. Results folders keep one line for
+each chunk: a later line of a chunk replaces an earlier one, and a line with ``-`` states that the chunk is lost. Searches keep
+the values themselves in the lines; see :mod:`holdfast.core.sweeps.memory`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class ChecksumLines:
         """Append lines, which are on the disk when this method returns.
 
         Raises:
-            StoreError: The disk refuses; the file is as it was.
+            StoreError: Writing failed; the file is unchanged.
         """
         data = b"".join(text + b" %08x\n" % zlib.crc32(text) for text in texts)
         with guard_writing(self.path, advice=RESUME_ADVICE):
@@ -61,7 +61,7 @@ class ChecksumLines:
                     while unwritten:
                         unwritten = unwritten[os.write(handle, unwritten) :]
                     os.fsync(handle)
-                except OSError:  # after Ctrl-C a whole line counts, and a part of one is cut off by the next call
+                except OSError:  # after Ctrl-C a complete line counts, and the next call removes an incomplete one
                     os.ftruncate(handle, end)
                     raise
             finally:
@@ -73,10 +73,10 @@ class JournalEntry:
     """Journal entry of a finished chunk.
 
     Attributes:
-        digest: Checksum of its values.
-        size: Bytes of its files.
-        seconds: Time it took.
-        maker: Number of the machine and versions that made it.
+        digest: Checksum of the values.
+        size: Size of the files, bytes.
+        seconds: Computation time, s.
+        maker: Number of the machine and versions that computed the chunk.
     """
 
     digest: str
@@ -86,7 +86,7 @@ class JournalEntry:
 
 
 class Journal:
-    """File of the finished chunks."""
+    """File with the finished chunks."""
 
     def __init__(self, path: Path) -> None:
         self._lines = ChecksumLines(path)
@@ -106,7 +106,7 @@ class Journal:
                     entries.pop(int(chunk), None)
                 else:
                     entries[int(chunk)] = JournalEntry(digest, int(size), float(seconds), int(maker))
-            except ValueError:  # a line of something else
+            except ValueError:  # a line of another kind
                 continue
         return entries
 
@@ -114,7 +114,7 @@ class Journal:
         """Append a finished chunk, which is on the disk when this method returns.
 
         Raises:
-            StoreError: The disk refuses; the journal is as it was.
+            StoreError: Writing failed; the journal is unchanged.
         """
         self._lines.append(_entry_line(chunk, entry))
 
@@ -122,7 +122,7 @@ class Journal:
         """Mark chunks as lost.
 
         Raises:
-            StoreError: The disk refuses; the journal is as it was.
+            StoreError: Writing failed; the journal is unchanged.
         """
         self._lines.append(*(_entry_line(chunk, JournalEntry(_LOST_MARK, 0, 0.0, 0)) for chunk in chunks))
 

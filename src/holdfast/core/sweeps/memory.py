@@ -26,19 +26,19 @@ class SearchMemory:
     """Parts of a search by name in a journal of JSON lines; the first line identifies the search and each other line holds a
     part.
 
-    A part is on the disk before the search continues; lines that are cut short or not sound do not count. Numbers come back
-    with the same bits, so a search that was stopped ends with the same result as one that was not.
+    A part is on the disk before the search continues. Incomplete or damaged lines do not count. Numbers are restored bit for
+    bit, so an interrupted search ends with the same result as an uninterrupted one.
     """
 
     def __init__(self, folder: str | Path, plan: dict[str, Any]) -> None:
         """Open the memory of a search in a folder, creating it if necessary.
 
         Args:
-            folder: Where results are kept.
+            folder: Folder for the results.
             plan: JSON data that defines the search.
 
         Raises:
-            StoreError: The folder holds another search or something else, or cannot be written.
+            StoreError: The folder contains another search or other files, or cannot be written.
         """
         place = Path(folder)
         self._lines = ChecksumLines(place / MEMORY_FILE)
@@ -58,7 +58,7 @@ class SearchMemory:
         """Return arrays by name, from the journal or computed now and stored.
 
         Raises:
-            StoreError: The disk refuses; what was remembered before is safe.
+            StoreError: Writing failed; earlier parts are safe.
         """
         if name not in self._parts:
             self.store(name, make())
@@ -72,7 +72,7 @@ class SearchMemory:
         """Store arrays that were computed elsewhere.
 
         Raises:
-            StoreError: The disk refuses; what was remembered before is safe.
+            StoreError: Writing failed; earlier parts are safe.
         """
         self._add_journal_line(
             {"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in arrays.items()}}

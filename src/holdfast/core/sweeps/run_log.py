@@ -16,7 +16,7 @@ _RUN_LOG_FILE = "made.json"
 
 
 class RunLog:
-    """File in a study's folder that records its runs; it is read at every query."""
+    """File in a study's folder that records its runs; it is read again at each query."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -32,10 +32,10 @@ class RunLog:
         return list(self._read_file()["runs"])
 
     def machine_number(self, maker: dict[str, Any]) -> int:
-        """Return the number of versions and a processor, recording new ones first.
+        """Return the number of a combination of versions and processor, recording a new combination first.
 
         Raises:
-            StoreError: The disk refuses, or the file is damaged.
+            StoreError: Writing failed, or the file is damaged.
         """
         data = self._read_file()
         if maker not in data["makers"]:
@@ -44,10 +44,10 @@ class RunLog:
         return int(data["makers"].index(maker))
 
     def add_runs(self, runs: Iterable[dict[str, Any]]) -> None:
-        """Add runs; known runs do not count again.
+        """Add runs; known runs are not added again.
 
         Raises:
-            StoreError: The disk refuses, or the file is damaged.
+            StoreError: Writing failed, or the file is damaged.
         """
         data = self._read_file()
         data["runs"] += [run for run in runs if run not in data["runs"]]
@@ -61,7 +61,8 @@ class RunLog:
             data = read_sealed(file)
             return {"makers": list(data["makers"]), "runs": list(data["runs"])}
         except (OSError, ValueError, InputError, KeyError, TypeError) as error:
-            raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
+            advice = "remove it if you do not need to know which machines computed the rows"
+            raise StoreError(f"'{file}' is damaged ({error}); {advice}") from error
 
     def _write_file(self, data: dict[str, list[Any]]) -> None:
         replace_file(self._folder / _RUN_LOG_FILE, seal_document(data), advice=RESUME_ADVICE)

@@ -24,7 +24,7 @@ _RECORDED_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "llvmlite", "zarr"
 
 @dataclass(frozen=True, slots=True)
 class ChunkTask:
-    """Chunk of the cell with number ``cell``."""
+    """Task to compute the rows of ``chunk`` with ``job``, for the cell with number ``cell`` (from 0)."""
 
     cell: int
     job: SweepJob
@@ -37,10 +37,10 @@ class ChunkResult:
 
     Attributes:
         task: The task.
-        columns: Its values, or None if the job refused.
-        seconds: Processor time of the thread that computed it.
-        made: Versions and processor.
-        problem: Why the job refused.
+        columns: Values by column, or None if the job raised an error.
+        seconds: Processor time of the thread that computed it, s.
+        made: Versions and processor that computed the values.
+        problem: Error of the job, or None.
     """
 
     task: ChunkTask
@@ -59,9 +59,7 @@ class Runner(Protocol):
         """Description of the runner for people."""
 
     def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
-        """Yield results as they finish, with a bounded number of tasks in progress; after ``stop()``, only results of tasks in
-        progress.
-        """
+        """Yield results of ``tasks`` as they finish, a bounded number at once; after ``stop()``, only of those in progress."""
 
 
 def compute_chunk(task: ChunkTask, alone: bool = True) -> ChunkResult:
@@ -70,7 +68,7 @@ def compute_chunk(task: ChunkTask, alone: bool = True) -> ChunkResult:
     try:
         task.job.prepare(alone)
         begin = time.thread_time()
-        with report_work("a chunk", ignore_progress):  # who runs the study tells of it
+        with report_work("a chunk", ignore_progress):  # the study reports the progress
             columns = task.job.run(task.chunk)
     except HoldfastError as error:
         return ChunkResult(task=task, columns=None, seconds=time.thread_time() - begin, made=describe_machine(), problem=error)
@@ -79,7 +77,7 @@ def compute_chunk(task: ChunkTask, alone: bool = True) -> ChunkResult:
 
 @lru_cache(maxsize=1)
 def describe_machine() -> dict[str, Any]:
-    """Return versions and processor of this process; equal ones give equal bits."""
+    """Return versions and processor of this process; equal ones compute equal bits."""
     return {"processor": _processor_name(), "python": platform.python_version(), "versions": versions(*_RECORDED_PACKAGES)}
 
 
@@ -97,8 +95,8 @@ class ThreadRunner:
     """Threads of this process.
 
     Args:
-        count: How many.
-        pool: Threads to use, in place of new ones; not shut down.
+        count: Number of threads.
+        pool: Threads to use instead of new ones; they are not shut down.
     """
 
     def __init__(self, count: int, pool: Executor | None = None) -> None:
@@ -111,7 +109,7 @@ class ThreadRunner:
         return f"{self.count} thread{'' if self.count == 1 else 's'}"
 
     def results(self, tasks: Iterator[ChunkTask], stop: Stop) -> Iterator[ChunkResult]:
-        """See :class:`Runner`."""
+        """Yield the results of ``tasks`` until ``stop()``; see :meth:`Runner.results`."""
         pool = ThreadPoolExecutor(self.count) if self._pool is None else self._pool
         waiting: set[Future[ChunkResult]] = set()
 
@@ -121,7 +119,7 @@ class ThreadRunner:
                 waiting.add(pool.submit(compute_chunk, task, False))
 
         try:
-            for _ in range(self.count + 1):  # one more than at work, so that no thread waits for the disk
+            for _ in range(self.count + 1):  # one more than there are threads, so that no thread waits for the disk
                 submit_next()
             while waiting:
                 done, _ = wait(waiting, return_when=FIRST_COMPLETED)

@@ -33,7 +33,7 @@ class Column:
         name: Name of the variable.
         dtype: NumPy name.
         dims: Names of the further dimensions, with their lengths.
-        units: Text for people, ``1`` if none.
+        units: Unit as text, ``1`` if none.
         about: Meaning of the quantity.
     """
 
@@ -58,13 +58,13 @@ class Column:
 
     @classmethod
     def from_stored(cls, entry: Any) -> Column:
-        """Return the column of an entry of ``run.json``; raise TypeError or ValueError if the entry is damaged."""
+        """Return the column of ``entry``, a list of ``run.json``; raise TypeError or ValueError if the entry is damaged."""
         name, dtype, dims, units, about = entry
         lengths = tuple((dimension, length) for dimension, length in dims)
         is_text = all(isinstance(x, str) for x in (name, dtype, units, about, *(dimension for dimension, _ in lengths)))
         if not is_text or not all(isinstance(length, int) and length >= 0 for _, length in lengths):
             raise TypeError
-        # 'a', bytes, is an alias that numpy warns of
+        # 'a' (bytes) is an alias for which numpy warns
         if dtype.startswith("a") or np.dtype(dtype).kind not in "fiu" or not is_valid_folder_name(name):
             raise ValueError
         return cls(name, dtype, lengths, units=units, about=about)
@@ -87,7 +87,7 @@ class SampleArrays:
         """Create the arrays, with fill values, in place of existing arrays.
 
         Raises:
-            StoreError: The disk refuses.
+            StoreError: Writing failed.
         """
         import zarr
 
@@ -111,7 +111,7 @@ class SampleArrays:
         """Write rows and return them with the types of the arrays.
 
         Raises:
-            OSError: The disk refuses.
+            OSError: Writing failed.
             StoreError: An array is missing or damaged.
         """
         import zarr
@@ -160,9 +160,9 @@ class SampleArrays:
         return data
 
     def measure_chunk(self, chunk: int, flush: bool = False) -> int:
-        """Return the bytes of the files of a chunk, after flushing them to the disk if asked for.
+        """Return the size of the files of a chunk in bytes, after flushing them to the disk if ``flush``.
 
-        Files of nothing but fill values are not written.
+        Files that contain only fill values are not written.
         """
         size = 0
         for column in self._columns:
@@ -180,7 +180,7 @@ class SampleArrays:
         return size
 
     def damage_error(self, error: Exception) -> StoreError:
-        """Return the sentence for arrays that cannot be opened."""
+        """Return the error for arrays that cannot be opened."""
         return StoreError(f"'{self.path}' is damaged ({describe_error(error)}); start the run again in a new folder")
 
 

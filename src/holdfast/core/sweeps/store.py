@@ -2,7 +2,7 @@
 
 Rows have named columns; this module contains nothing about robots. The folder contains ``samples.zarr``, which
 ``xarray.open_zarr`` reads, ``run.json``, which defines the rows, and a journal of the committed chunks with the checksum of
-the values of each. A chunk counts only once the journal contains it, so the next run computes again what a crash leaves behind.
+the values of each. A chunk counts only if the journal contains it, so the next run recomputes a chunk that a crash cut short.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _LOCK_FILE = "run.lock"
 
 
 class Store:
-    """Results folder that is open for writing or reading; see :meth:`create` and :meth:`open`."""
+    """Results folder ``path`` with the content ``run`` of its run.json; see :meth:`create` and :meth:`open`."""
 
     JOURNAL = "done.journal"
 
@@ -67,12 +67,12 @@ class Store:
         Args:
             path: The folder; its parent must exist or be creatable.
             plan: JSON data that defines the results; two runs with equal plans are the same run.
-            columns: What each row holds.
+            columns: Columns of each row.
             rows: Number of rows.
-            chunk: Rows per chunk.
+            chunk: Number of rows in a chunk.
 
         Raises:
-            StoreError: Not writable, not a results folder, or a folder of another plan; the message names the difference.
+            StoreError: The folder is not writable, no results folder, or of another plan; the message states the difference.
         """
         folder = Path(path)
         plan = json.loads(json.dumps(plan))
@@ -80,12 +80,12 @@ class Store:
             store = cls.open(folder)
             old_plan = relocate_stored_plan(plan, store.plan)
             if old_plan != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
-                sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, asked for are {rows} in chunks of {chunk}"
+                sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, but {rows} in chunks of {chunk} were wanted"
                 raise StoreError(
                     f"'{folder}' holds another run: {describe_difference(old_plan, plan) or sizes}; "
                     "give another folder, or the same options to resume it"
                 )
-            if not store.committed_chunks:  # perhaps stopped while it was being made
+            if not store.committed_chunks:  # perhaps stopped during creation
                 store._samples.create(plan, rows, chunk)
             return store
         if reading.path_exists(folder) and not folder.is_dir():
@@ -103,14 +103,14 @@ class Store:
         }
         store = cls(folder, run)
         make_folder(folder)
-        # First, so that a stop before the arrays are there does not make the folder foreign.
+        # Written first, so that a run that stops before the arrays exist still leaves a folder that can be resumed.
         store._write_run_file("choose another folder")
         store._samples.create(plan, rows, chunk)
         return store
 
     @classmethod
     def open(cls, path: str | Path) -> Store:
-        """Open an existing folder.
+        """Open the existing results folder ``path``.
 
         Raises:
             StoreError: There is no run, or ``run.json`` is damaged or of another version.
@@ -153,7 +153,7 @@ class Store:
             self.drop_incomplete_chunks()
             yield
 
-    # ---- what is there ---------------------------------------------------------------------------------------------
+    # ---- content ---------------------------------------------------------------------------------------------
 
     @property
     def plan(self) -> dict[str, Any]:
@@ -169,12 +169,12 @@ class Store:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows of the finished run, and of a chunk."""
+        """Total number of rows, and number of rows in a chunk."""
         return self.rows, int(self._run["chunk"])
 
     @property
     def rows(self) -> int:
-        """Number of rows of the finished run."""
+        """Total number of rows."""
         return int(self._run["rows"])
 
     @property
@@ -188,13 +188,13 @@ class Store:
         return -(-self.rows // int(self._run["chunk"]))
 
     def chunk_span(self, chunk: int) -> tuple[int, int]:
-        """Return the first row of a chunk and the row after its last."""
+        """Return the first row of chunk number ``chunk`` (from 0) and the row after its last."""
         size = int(self._run["chunk"])
         return chunk * size, min((chunk + 1) * size, self.rows)
 
     @property
     def committed_chunks(self) -> list[int]:
-        """Chunks that are committed."""
+        """Numbers of the committed chunks."""
         return sorted(self.entries)
 
     @property
@@ -211,12 +211,12 @@ class Store:
 
     @property
     def missing_chunks(self) -> list[int]:
-        """Chunks that are not computed yet."""
+        """Numbers of the chunks that are not computed yet."""
         return [chunk for chunk in range(self.count) if chunk not in self.entries]
 
     @property
     def is_complete(self) -> bool:
-        """True once every chunk is committed."""
+        """True if every chunk is committed."""
         return not self.missing_chunks
 
     # ---- rows ------------------------------------------------------------------------------------------------------
@@ -225,13 +225,13 @@ class Store:
         """Write all columns of a chunk, then commit it.
 
         Args:
-            chunk: Its number.
-            columns: Its values.
-            seconds: Computation time.
-            maker: Number of the machine and versions that computed it.
+            chunk: Number of the chunk, from 0.
+            columns: Values by column.
+            seconds: Computation time, s.
+            maker: Number of the machine and versions that computed the chunk.
 
         Raises:
-            StoreError: The disk refuses; chunks committed before stay valid.
+            StoreError: Writing failed; chunks committed before stay valid.
         """
         with guard_writing(self.path, f"chunk {chunk + 1} to", RESUME_ADVICE):
             stored = self._samples.write_rows(*self.chunk_span(chunk), columns)
@@ -247,8 +247,8 @@ class Store:
         """Compute the missing chunks and commit each as it finishes; the folder must be locked.
 
         Args:
-            compute: Called with the missing chunks; yields each with its columns.
-            progress: Called with the rows done and the rows in all.
+            compute: Called with the numbers of the missing chunks; yields each number with its columns.
+            progress: Called with the number of rows done and the total number of rows.
 
         Raises:
             StoreError: See :meth:`commit_chunk`.
@@ -265,10 +265,10 @@ class Store:
                 progress(finished, self.rows)
 
     def drop_chunks(self, chunks: Sequence[int]) -> None:
-        """Mark damaged chunks as missing.
+        """Mark the damaged chunks with the numbers ``chunks`` (from 0) as missing.
 
         Raises:
-            StoreError: The disk refuses.
+            StoreError: Writing failed.
         """
         self._journal.drop(chunks)
         for chunk in chunks:
@@ -282,7 +282,7 @@ class Store:
             report: Called after every chunk.
 
         Raises:
-            StoreError: The disk refuses.
+            StoreError: Writing failed.
         """
         damaged = []
         for chunk in self.committed_chunks:
@@ -296,10 +296,10 @@ class Store:
         return damaged
 
     def verify(self, progress: Callable[[int, int, float | None], None] | None = None) -> list[DamagedChunk]:
-        """Read every committed chunk and compare its checksum; damaged chunks count as missing from then on.
+        """Compare all checksums and mark damaged chunks as missing; ``progress`` is called with (chunks read, total, None).
 
         Raises:
-            StoreError: Another program is at work in the folder, it is not writable, or it belongs to a study.
+            StoreError: Another program is working in the folder, it is not writable, or it belongs to a study.
         """
         if study := own_study_folder(self.path):
             raise StoreError(f"'{self.path}' is a cell of a study; give the folder of the study, '{study}'")
@@ -308,20 +308,20 @@ class Store:
             return self.drop_damaged_chunks(report=lambda: None if progress is None else progress(next(position), total, None))
 
     def drop_incomplete_chunks(self) -> None:
-        """Mark chunks as missing whose files are lost or do not have the length that the journal states.
+        """Mark chunks as missing whose files are lost or do not have the size that the journal states.
 
         Raises:
-            StoreError: The disk refuses.
+            StoreError: Writing failed.
         """
         incomplete = [number for number, entry in self.entries.items() if self._samples.measure_chunk(number) != entry.size]
         if incomplete:
             self.drop_chunks(incomplete)
 
     def read_checked(self, chunk: int) -> Rows:
-        """Return all values of a committed chunk after comparing their checksum.
+        """Return all values of the committed chunk number ``chunk`` (from 0) after comparing their checksum.
 
         Raises:
-            StoreError: They cannot be read, or differ from those that were written.
+            StoreError: The values cannot be read, or differ from those that were written.
         """
         try:
             return self._read_sound(chunk)
@@ -336,7 +336,7 @@ class Store:
         except Exception as error:  # zarr raises many kinds for damaged files
             raise StoreError(describe_error(error)) from error
         if digest_columns(columns) != self.entries[chunk].digest:
-            raise StoreError("its values are not those that were written")
+            raise StoreError("its values differ from those that were written")
         return columns
 
     def read_all_checked(self) -> Iterator[Rows]:
@@ -348,12 +348,12 @@ class Store:
         yield from map(self.read_checked, self.committed_chunks)
 
     def add_notes(self, **facts: Any) -> None:
-        """Add facts about how the run went."""
+        """Add ``facts`` about how the run went, by name, to :attr:`notes`."""
         self._run["notes"].update(facts)
         self._write_run_file()
 
     def read_chunk(self, chunk: int, names: Sequence[str]) -> Rows:
-        """Return columns of one chunk without loading anything else.
+        """Return the columns ``names`` of chunk number ``chunk`` (from 0) without loading other columns.
 
         Raises:
             StoreError: An array is missing or damaged.

@@ -33,11 +33,11 @@ _KINDS_BY_KEY = {"name": str, "seed": int, "source": str, "cells": list}
 
 
 class Study(Result):
-    """Folder of a study; see :meth:`create` and :meth:`open`.
+    """Folder of a study with the content ``data`` of its study file; see :meth:`create` and :meth:`open`.
 
     Attributes:
         path: The folder.
-        made: What computed it.
+        made: Log of the runs and of the machines that computed the study.
     """
 
     def __init__(self, path: Path, data: dict[str, Any]) -> None:
@@ -54,13 +54,13 @@ class Study(Result):
 
         Args:
             path: The folder.
-            name: Of the study.
-            seed: Of all its chunks.
-            cells: What is computed.
-            source: The study file, kept for people and for reports.
+            name: Name of the study.
+            seed: Seed of all chunks.
+            cells: Cells to compute.
+            source: Text of the study file, kept for people and for reports.
 
         Raises:
-            StoreError: Not writable, not a study's folder, or that of another study.
+            StoreError: The folder is not writable, not the folder of a study, or belongs to another study.
         """
         folder = Path(path)
         data = study_document(name, seed, cells, source)
@@ -87,10 +87,10 @@ class Study(Result):
 
     @classmethod
     def open(cls, path: str | Path) -> Study:
-        """Open the study in a folder.
+        """Open the study in the folder ``path``.
 
         Raises:
-            StoreError: There is none, or it is damaged or of another version.
+            StoreError: There is no study, or it is damaged or of another version.
         """
         folder = Path(path)
         file = folder / STUDY_FILE
@@ -121,10 +121,10 @@ class Study(Result):
         return cls(folder, data)
 
     def copy(self, path: str | Path) -> Study:
-        """Create a folder of this study without results.
+        """Create the folder ``path`` for this study, without results.
 
         Raises:
-            StoreError: It exists, or cannot be written.
+            StoreError: The folder exists, or cannot be written.
         """
         folder = Path(path)
         with guard_writing(folder):
@@ -138,10 +138,10 @@ class Study(Result):
         self._data = data
 
     def check_same(self, other: Study) -> None:
-        """Reject a folder of another study.
+        """Reject ``other`` if it is the folder of another study.
 
         Raises:
-            StoreError: It is not; the message names the difference.
+            StoreError: It is another study; the message states the difference.
         """
         if other.digest != self.digest:
             raise StoreError(
@@ -151,17 +151,17 @@ class Study(Result):
 
     def _describe_difference(self, other: Mapping[str, Any]) -> str:
         if self.seed != other["seed"]:
-            return f"its seed is {self.seed}, asked for is {other['seed']}"
+            return f"its seed is {self.seed}, but {other['seed']} was requested"
         mine, theirs = ({c["name"]: c for c in d["cells"]} for d in (self._data, other))
         for name in [*mine, *theirs]:
             if name not in theirs or name not in mine:
-                return f"cell '{name}' is {'not asked for' if name not in theirs else 'not in it'}"
+                return f"cell '{name}' is {'not requested' if name not in theirs else 'not in it'}"
             for key in ("rows", "chunk"):
                 if mine[name][key] != theirs[name][key]:
-                    return f"cell '{name}' has {key} {mine[name][key]}, asked for is {theirs[name][key]}"
+                    return f"cell '{name}' has {key} {mine[name][key]}, but {theirs[name][key]} was requested"
         return next(f"cell '{n}' has other settings, or a file that it reads has changed" for n in mine if mine[n] != theirs[n])
 
-    # ---- what is there ---------------------------------------------------------------------------------------------
+    # ---- content ---------------------------------------------------------------------------------------------
 
     @property
     def name(self) -> str:
@@ -189,46 +189,46 @@ class Study(Result):
         return list(self._data["cells"])
 
     def cell_folder(self, cell: int) -> Path:
-        """Return the path of a cell."""
+        """Return the path of cell number ``cell`` (from 0)."""
         return self.path / _CELLS_FOLDER / str(self._data["cells"][cell]["name"])
 
     def cell_store(self, cell: int) -> Store:
-        """Return the stored rows of a cell.
+        """Return the stored rows of cell number ``cell`` (from 0).
 
         Raises:
-            StoreError: None of it is computed, or it is damaged.
+            StoreError: No chunk of the cell is computed, or the cell is damaged.
         """
         if not reading.path_exists(self.cell_folder(cell)):
             raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
         return Store.open(self.cell_folder(cell))
 
     def record_begun(self, cell: int) -> None:
-        """Record that a cell has rows, so that its loss is detected.
+        """Record that cell number ``cell`` (from 0) has rows, so that a loss of the cell is detected.
 
         Raises:
-            StoreError: The disk refuses.
+            StoreError: Writing failed.
         """
         self._begun.add(cell, JournalEntry("begun", 0, 0.0, 0))
 
     @property
     def begun_cells(self) -> frozenset[int]:
-        """Cells that have had rows, from 0; folders of early versions do not record them.
+        """Numbers of the cells that have had rows, from 0; folders of early versions do not record them.
 
         Raises:
-            StoreError: It cannot be read.
+            StoreError: The record cannot be read.
         """
         return frozenset(self._begun.read_entries())
 
     def cell_entries(self, cell: int) -> dict[int, JournalEntry]:
-        """Return the finished chunks of a cell by number.
+        """Return the finished chunks of cell number ``cell`` (from 0) by number.
 
         Raises:
-            StoreError: Its journal cannot be read.
+            StoreError: The journal cannot be read.
         """
         return Journal(self.cell_folder(cell) / Store.JOURNAL).read_entries()
 
     def status(self) -> list[CellStatus]:
-        """Return the progress of each cell, from the journals alone.
+        """Return the progress of each cell, read from the journals.
 
         Raises:
             StoreError: A journal cannot be read.
@@ -260,7 +260,7 @@ class Study(Result):
 
     @property
     def makers(self) -> list[dict[str, Any]]:
-        """Versions and processors that computed it, by their numbers in the journals."""
+        """Versions and processors that computed the study, by their numbers in the journals."""
         return self.made.makers
 
     @property
@@ -280,22 +280,22 @@ class Study(Result):
         stop: Stop = lambda: False,
         part: tuple[int, int] = (1, 1),
     ) -> dict[str, HoldfastError]:
-        """Compute and commit what is missing.
+        """Compute and commit the missing chunks.
 
         Args:
-            cells: Those it was created with.
-            runner: Who computes.
-            progress: Called after every chunk.
-            stop: Asked now and then; once it says True, what is at work is finished and committed, and no more begun.
-            part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see
+            cells: Cells with which the study was created.
+            runner: Threads or cluster that computes the chunks.
+            progress: Called after every chunk with the chunks done, the total, and the remaining seconds.
+            stop: Called now and then; once it returns True, chunks in progress are committed, and no new one is begun.
+            part: ``(1, 3)`` computes only the first of three parts, for machines without a common folder; see
                 :func:`holdfast.core.sweeps.merge_studies`.
 
         Returns:
-            Cells that could not be computed, by name, and why.
+            Errors of the cells that could not be computed, by cell name.
 
         Raises:
-            StoreError: The folder belongs to other cells, another program is at work in it, the disk is full, or the cluster
-                is gone. What was committed is safe.
+            StoreError: The folder belongs to other cells, another program is working in it, the disk is full, or the cluster is
+                lost. Committed chunks are safe.
         """
         if _study_digest(study_document(self.name, self.seed, cells, "")) != self.digest:
             raise StoreError(f"'{self.path}' holds another study; give another folder")
@@ -306,13 +306,12 @@ class Study(Result):
 
     @reports_progress("reading the study")
     def verify(self, progress: Progress | None = None) -> list[DamagedChunk]:
-        """Read every committed chunk and compare its checksum; damaged chunks count as missing and are computed by the next
-        run.
+        """Read every committed chunk and compare its checksum; ``progress`` is called after each, as in :meth:`run`.
 
-        A cell that was begun and of which nothing is left counts too.
+        Damaged chunks count as missing, so that the next run computes them. A lost cell that was begun is reported as well.
 
         Raises:
-            StoreError: Another program is at work in the folder, or it is not writable.
+            StoreError: Another program is working in the folder, or it is not writable.
         """
         damaged: list[DamagedChunk] = []
         with lock_folder(self.path, STUDY_LOCK_FILE):

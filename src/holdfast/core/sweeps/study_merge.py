@@ -25,11 +25,11 @@ class MergeReport(Result):
     """Result of a merge.
 
     Attributes:
-        study: That was merged into.
-        added: Chunks taken over.
-        both: Chunks that were there already, with the same bits.
-        close: Chunks that were there already, alike to 1e-12.
-        apart: Chunks that were there already with other values; those that were there stay.
+        study: Study into which the chunks were merged.
+        added: Number of chunks that were copied.
+        both: Number of chunks that already existed with the same bits.
+        close: Number of chunks that already existed and agree to 1e-12.
+        apart: Cell names and numbers of chunks that already existed with other values; the existing values are kept.
     """
 
     study: Study
@@ -53,12 +53,12 @@ def merge_studies(path: str | Path, folders: Sequence[str | Path], progress: Pro
     which is checked for the chunks that several folders have.
 
     Args:
-        path: The folder to merge into; it is made if it does not exist.
-        folders: Where to take from.
-        progress: Called after every chunk.
+        path: Folder to merge into; it is created if it does not exist.
+        folders: Folders to copy from.
+        progress: Called after every chunk with the chunks done, the total, and None.
 
     Raises:
-        StoreError: A folder of another study, a damaged chunk, or another program at work.
+        StoreError: A folder belongs to another study, a chunk is damaged, or another program is working in a folder.
     """
     others = [Study.open(folder) for folder in folders]
     if not others:

@@ -23,8 +23,8 @@ class StudyVerification(Result):
     """Result of the verification of studies and results folders.
 
     Attributes:
-        studies: Folders that were read, as they are now.
-        damage: Damaged chunks of each.
+        studies: Folders that were read, in their present state.
+        damage: Damaged chunks of each folder.
     """
 
     studies: tuple[Study | Store, ...]
@@ -51,7 +51,7 @@ class StudyVerification(Result):
         """Return the object itself, or raise an error if anything is damaged.
 
         Raises:
-            StoreError: Something is.
+            StoreError: A chunk is damaged.
         """
         count = sum(map(len, self.damage))
         if count:
@@ -67,10 +67,10 @@ def verify_studies(folders: Sequence[str | Path], progress: Progress | None = No
 
     Args:
         folders: Folders of studies, or results folders such as those of :func:`holdfast.assess`.
-        progress: Called after every chunk.
+        progress: Called after every chunk with the chunks read, the total, and None.
 
     Raises:
-        StoreError: A folder is neither, another program is at work in it, or it is not writable.
+        StoreError: A folder is neither, another program is working in it, or it is not writable.
     """
     studies = tuple(map(_open_folder, folders))
     return StudyVerification(studies=studies, damage=tuple(tuple(study.verify(progress)) for study in studies))

@@ -16,7 +16,7 @@ from holdfast.core.sweeps.runner import ChunkResult, ChunkTask, Runner, Stop
 from holdfast.core.sweeps.store import Store
 
 Progress = Callable[[int, int, float | None], None]
-"""Called with the chunks done, the chunks in all, and the seconds that are probably left."""
+"""Function that is called with the chunks done, the total number of chunks, and the estimated remaining seconds."""
 
 
 class _StudyFolder(Protocol):
@@ -48,7 +48,7 @@ class StudyRun:
         self._problems: dict[str, HoldfastError] = {}
 
     def run(self, runner: Runner, stop: Stop, part: tuple[int, int]) -> dict[str, HoldfastError]:
-        """See :meth:`Study.run`."""
+        """Run the study; see :meth:`Study.run`."""
         missing, total = [], 0
         for number, cell in enumerate(self._cells):
             done = self._find_finished_chunks(number)

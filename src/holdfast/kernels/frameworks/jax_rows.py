@@ -15,7 +15,7 @@ JaxArray = Any
 
 
 def wrap_row_function(function: RowFunction) -> Callable[..., JaxArray]:
-    """See :meth:`holdfast.kernels.frameworks.Differentiable.to_jax`."""
+    """Return the function as :meth:`holdfast.kernels.frameworks.Differentiable.to_jax` does."""
     tail = () if function.size is None else (function.size,)
 
     def call_on_processor(
@@ -35,7 +35,7 @@ def wrap_row_function(function: RowFunction) -> Callable[..., JaxArray]:
         return call_on_processor(function.value, [tail], arrays)[0]
 
     def with_tangent(primals: tuple[JaxArray, ...], tangents: tuple[JaxArray, ...]) -> tuple[JaxArray, JaxArray]:
-        # JAX turns this product round for derivatives in reverse.
+        # JAX transposes this product for derivatives in reverse mode.
         gradients = call_on_processor(function.slopes, [(*tail, k) for k in function.sizes], primals)
         along = [(s @ t[..., None])[..., 0] if tail else (s * t).sum(-1) for s, t in zip(gradients, tangents, strict=True)]
         return value(*primals), sum(along[1:], start=along[0])

@@ -1,4 +1,4 @@
-"""Interface between a batch function and a learning framework: rows in, rows out, and the derivatives of each row."""
+"""Interface between a batch function and a learning framework: input rows, output rows, and the derivatives of each row."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class RowFunction:
     """Batch function whose rows are independent of each other.
 
     Attributes:
-        name: For messages.
+        name: Name for messages.
         sizes: Numbers in a row of each input.
-        size: Numbers in a row of the result; None if it is one number, without an axis of its own.
-        value: Inputs (N, size) each to results (N,) or (N, size).
-        slopes: Inputs to the derivatives of a row's results by each input, (N, k) or (N, size, k) each.
-        kernels: ``value`` and ``slopes`` as kernels, the value as the first result: for arrays on a GPU. None: there is no one
-            kernel, and such arrays go through the processor.
-        marked: Whether the kernels leave NaN where they cannot tell: such rows are asked of ``value`` and ``slopes``.
+        size: Numbers in a row of the result; None if the result is one number without its own axis.
+        value: Function from inputs (N, size) each to results (N,) or (N, size).
+        slopes: Function from inputs to the derivatives of a row's results by each input, (N, k) or (N, size, k) each.
+        kernels: ``value`` and ``slopes`` as kernels, with the value as first result, for arrays on a GPU. None: there is no
+            single kernel, and such arrays are computed on the processor.
+        marked: True if the kernels return NaN for rows that they cannot compute; ``value`` and ``slopes`` compute these rows.
     """
 
     name: str
@@ -39,10 +39,10 @@ class RowFunction:
     marked: bool = False
 
     def leading_axes(self, shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
-        """Return the axes before the last one, which all inputs share or are broadcast along.
+        """Return the axes before the last one of inputs with these ``shapes``, which must be equal or broadcastable.
 
         Raises:
-            InputError: An input has another number of columns, or axes that do not fit those of another one.
+            InputError: An input has a wrong number of columns, or axes that do not fit those of another input.
         """
         if len(shapes) == len(self.sizes) and all(s and s[-1] == k for s, k in zip(shapes, self.sizes, strict=True)):
             first, *others = (s[:-1] for s in shapes)
@@ -54,7 +54,7 @@ class RowFunction:
         raise InputError(f"{self.name} takes {expected_shapes}, got {' and '.join(map(str, shapes)) or 'nothing'}")
 
     def call_on_rows(self, function: Callable[..., Any], arrays: list[Any]) -> Sequence[FloatArray]:
-        """Call ``value`` or ``slopes`` with NumPy arrays that share all axes except the last, without needless copies."""
+        """Call ``function`` (``value`` or ``slopes``) with NumPy ``arrays`` that share all axes but the last, uncopied."""
         leading = arrays[0].shape[:-1]
         rows = [np.asarray(a, dtype=np.float64) for a in arrays]
         if len(leading) != 1:
@@ -69,33 +69,34 @@ class Differentiable:
 
     @abstractmethod
     def row_function(self) -> RowFunction:
-        """Return the object as a batch function with its exact first derivatives."""
+        """Return the object as a batch function with exact first derivatives."""
 
     def to_torch(self) -> Callable[..., Any]:
         """Return the object as a function of PyTorch tensors, for ``backward``, ``torch.func.grad``, ``jacrev``, ``jvp`` and
         ``vmap``.
 
-        Inputs are tensors (..., n), and (..., m) for a law's velocity; axes before the last are batches and are broadcast.
-        The result, (...) or (..., n), has their type and device. On the processor double-precision tensors are used where they
-        are, without a copy, as are those on an NVIDIA GPU (``holdfast-arms[gpu]``) by laws, susceptibilities and the indices of
-        determinants, of which nearly singular rows alone go through the processor; of other indices all do. First derivatives
-        are exact, those of ``gradient`` or of the law's graph; there are no second ones. A row with NaN gives NaN.
+        Inputs are tensors (..., n), and (..., m) for the velocity of a law; leading axes are batches and are broadcast. The
+        result, (...) or (..., n), has their type and device. Double-precision tensors on the processor are used without a copy.
+        So are tensors on an NVIDIA GPU (``holdfast-arms[gpu]``) by laws, susceptibilities and indices of determinants, which
+        compute only nearly singular rows on the processor; other indices compute all rows there. First derivatives are exact
+        (``gradient``, or the graph of the law); there are no second derivatives. A row with NaN gives NaN.
 
         Raises:
-            HoldfastError: PyTorch is not installed (``holdfast-arms[torch]``). When called for second derivatives.
-            InputError: When called, a wrong shape.
+            HoldfastError: PyTorch is not installed (``holdfast-arms[torch]``), or, in a call, second derivatives are requested.
+            InputError: An input of a call has a wrong shape.
         """
         return _wrap_for_framework("torch", "PyTorch", self.row_function())
 
     def to_jax(self) -> Callable[..., Any]:
         """Return the object as a function of JAX arrays, for ``grad``, ``jacfwd``, ``jacrev``, ``jit`` and ``vmap``.
 
-        As :meth:`to_torch`; inside ``jit`` it is a call back to this process (``jax.pure_callback``). JAX computes in single
-        precision unless ``jax_enable_x64`` is set: results are then rounded to that.
+        Inputs and results are as in :meth:`to_torch`. Inside ``jit`` the function calls back to this process
+        (``jax.pure_callback``). JAX computes in single precision unless ``jax_enable_x64`` is set; results are then rounded to
+        single precision.
 
         Raises:
             HoldfastError: JAX is not installed (``holdfast-arms[jax]``).
-            InputError: When called, a wrong shape.
+            InputError: An input of a call has a wrong shape.
         """
         return _wrap_for_framework("jax", "JAX", self.row_function())
 

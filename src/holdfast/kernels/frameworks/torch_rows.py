@@ -14,7 +14,7 @@ Tensor = Any
 
 
 def wrap_row_function(function: RowFunction) -> Callable[..., Tensor]:
-    """See :meth:`holdfast.kernels.frameworks.Differentiable.to_torch`."""
+    """Return the function as :meth:`holdfast.kernels.frameworks.Differentiable.to_torch` does."""
 
     def call(*inputs: Tensor) -> Tensor:
         shapes = [tuple(x.shape) for x in inputs]
@@ -43,7 +43,7 @@ def _compute_on_cpu(function: RowFunction, row_call: Callable[..., Any], tensors
 
 
 def _compute_on_gpu(function: RowFunction, row_call: Callable[..., Any], tensors: tuple[Tensor, ...]) -> list[Tensor]:
-    """Return the results of a kernel on the GPU of the tensors; the call waits for them only where rows may be marked."""
+    """Return the results of a kernel on the GPU of the tensors; the call waits for them only if rows may be marked."""
     assert function.kernels is not None
     first = tensors[0]
     rows = [x.detach().to(torch.float64).reshape(-1, k) for x, k in zip(tensors, function.sizes, strict=True)]
@@ -57,7 +57,7 @@ def _compute_on_gpu(function: RowFunction, row_call: Callable[..., Any], tensors
 
 
 def _exchange_with_kernel(kernel: Any, rows: list[Tensor]) -> list[Tensor]:
-    """Exchange the rows with a kernel on PyTorch's stream, in shared memory."""
+    """Pass the rows to a kernel on PyTorch's stream, in shared memory."""
     device = rows[0].device
     outputs = kernel.on(f"cuda:{device.index}").evaluate_device_arrays(
         *rows, stream=torch.cuda.current_stream(device).cuda_stream
@@ -66,8 +66,8 @@ def _exchange_with_kernel(kernel: Any, rows: list[Tensor]) -> list[Tensor]:
 
 
 def _apply_function(kind: Any, function: RowFunction, tensors: tuple[Tensor, ...]) -> Any:
-    # Only a function whose context is set up apart can be transformed (torch.func), but each call reads its signature anew,
-    # which takes several times as long as all else that is done here.
+    # torch.func can transform only a function with its own setup_context. Each call reads its signature again, which takes
+    # several times as long as everything else here.
     return (kind if _transformed() else kind.plain).apply(function, *tensors)
 
 
@@ -128,7 +128,7 @@ class _Slopes(torch.autograd.Function):  # type: ignore[misc]
 
     @staticmethod
     def backward(ctx: Any, *upstream: Tensor) -> None:
-        raise HoldfastError(f"{ctx.function.name} has exact first derivatives in PyTorch, and no second ones")
+        raise HoldfastError(f"{ctx.function.name} has exact first derivatives in PyTorch, but no second derivatives")
 
     @staticmethod
     def vmap(info: Any, axes: tuple[int | None, ...], function: RowFunction, *inputs: Tensor) -> tuple[Any, Any]:

@@ -1,1 +1,1 @@
-"""Kernels on NVIDIA GPUs: PTX by LLVM, loaded and launched by the driver, the only part of CUDA that is needed."""
+"""Kernels on NVIDIA GPUs: LLVM writes PTX, and the driver, the only part of CUDA that is needed, loads and launches it."""

@@ -23,20 +23,20 @@ _CUDA_DEVICE_TYPE = 2  # kDLCUDA
 _CAPSULE_NAME = b"dltensor"
 
 
-# Of a tensor: data, kind and number of the device, axes, code, bits and lanes of the type, shape, strides, offset in bytes.
+# Layout of a tensor: data, device type and number, axes, code, bits and lanes of the type, shape, strides, offset in bytes.
 _TENSOR_LAYOUT = struct.Struct("PiiiBBHPPQ")
-_DEVICE_OFFSET = 8  # bytes before the kind of the device
+_DEVICE_OFFSET = 8  # bytes before the device type
 _DOUBLE_TYPE = [2, 64, 1]  # kDLFloat
 _pointer = ctypes.PYFUNCTYPE(c_void_p, py_object, ctypes.c_char_p)(("PyCapsule_GetPointer", pythonapi))
 
 
 class DeviceArray:
-    """Array on a device whose memory ``torch.from_dlpack(x)``, ``cupy.from_dlpack(x)``, ``jax.dlpack.from_dlpack(x)`` share.
+    """Array on a device; ``torch.from_dlpack``, ``cupy.from_dlpack`` and ``jax.dlpack.from_dlpack`` share its memory.
 
     Attributes:
-        shape: Of the array.
-        strides: Of the array, in elements.
-        pointer: Address of its first element.
+        shape: Shape of the array.
+        strides: Strides of the array, in elements.
+        pointer: Address of the first element.
         stream: Handle of the stream that computes it.
     """
 
@@ -61,7 +61,7 @@ class DeviceArray:
             self._memory.copy_to_device(array[run[0] : run[-1] + 1], self.stream, int(run[0]) * self.strides[0])
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
-        """Copy the array to the host once it is computed."""
+        """Copy the array to the host after waiting for its computation."""
         flat = np.empty(math.prod(self.shape))
         self._memory.copy_to_host(flat, self.stream, self._offset)
         strided = np.lib.stride_tricks.as_strided(flat, self.shape, [8 * s for s in self.strides])
@@ -71,9 +71,9 @@ class DeviceArray:
         return _CUDA_DEVICE_TYPE, self._memory.device.ordinal
 
     def __dlpack__(self, *, stream: int | None = None, **_: Any) -> Any:
-        if stream not in (self.stream, -1):  # another stream must not begin before this one is done
+        if stream not in (self.stream, -1):  # another stream must wait for this one
             self._memory.device.wait_for_stream(self.stream)
-        # NumPy makes the capsule, which keeps the memory, and gives it back whatever becomes of it; it never looks at the data.
+        # NumPy makes the capsule, which keeps the memory alive and releases it at the end; NumPy never reads the data.
         strides = tuple(8 * step for step in self.strides)
         about = {"data": (self.pointer, False), "shape": self.shape, "strides": strides, "typestr": "=f8", "version": 3}
         capsule = np.asarray(SimpleNamespace(__array_interface__=about, memory=self._memory)).__dlpack__()
@@ -84,21 +84,21 @@ class DeviceArray:
 
 
 class BorrowedArray:
-    """Array of doubles on a device that another library owns, as rows.
+    """Array of doubles on a device that another library owns, seen as rows.
 
     Args:
-        array: With ``__dlpack__``.
-        device: Where it must be.
-        stream: Handle of the stream that will read it.
-        dims: Axes of a row.
+        array: Array with ``__dlpack__``.
+        device: Device on which the array must be.
+        stream: Handle of the stream that will read the array.
+        dims: Shape of a row.
 
     Attributes:
         pointer: Address of the first element.
-        rows: Number of them; None without a leading axis.
-        row, column: Distance of two rows and of two numbers of a row, in elements.
+        rows: Number of rows; None without a leading axis.
+        row, column: Distance between two rows and between two numbers of a row, in elements.
 
     Raises:
-        InputError: Not an array of doubles of that shape on that device, or one whose rows are not evenly spaced.
+        InputError: The array does not consist of doubles of this shape on this device, or its rows are not evenly spaced.
     """
 
     def __init__(self, array: Any, device: Device, stream: int, *, dims: tuple[int, ...]) -> None:
@@ -107,7 +107,7 @@ class BorrowedArray:
             raise InputError(
                 f"an input is not an array on GPU {device.ordinal}: {type(array).__name__}, DLPack device {device_pair}"
             )
-        self._capsule = array.__dlpack__(stream=stream)  # its end gives the array back
+        self._capsule = array.__dlpack__(stream=stream)  # its release returns the array
         tensor = ctypes.string_at(_pointer(self._capsule, _CAPSULE_NAME), _TENSOR_LAYOUT.size)
         data, _, _, axes, *kind, address, strides_at, offset = _TENSOR_LAYOUT.unpack(tensor)
         if kind != _DOUBLE_TYPE:

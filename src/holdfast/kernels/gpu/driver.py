@@ -1,4 +1,4 @@
-"""NVIDIA's driver through ``cuda-bindings``: devices, memory, modules, and launches; nothing else of CUDA is needed."""
+"""NVIDIA's driver through ``cuda-bindings``: devices, memory, modules, and launches; no other part of CUDA is needed."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from holdfast.core.errors import KernelError
 
-LEGACY_STREAM = 1  # the stream that waits for all others: the handle of the driver, and the number in DLPack
-_BLOCK_THREADS = 128  # threads: enough blocks for every multiprocessor from some ten thousand rows on
+LEGACY_STREAM = 1  # the stream that waits for all others: its handle for the driver, and its number in DLPack
+_BLOCK_THREADS = 128  # threads; blocks for every multiprocessor from about ten thousand rows
 
 
 @lru_cache(maxsize=1)
@@ -31,7 +31,7 @@ def _driver_functions() -> Any:
         ) from error
     try:
         started = driver.cuInit(0)
-    except Exception as error:  # the bindings look for the driver's library at the first call only
+    except Exception as error:  # the bindings load the driver's library only at the first call
         raise KernelError(f"there is no NVIDIA driver on this machine: {error}") from error
     if int(started[0]):
         raise KernelError(f"the NVIDIA driver does not start ({driver.cuGetErrorName(started[0])[1].decode()}): no GPU here?")
@@ -50,14 +50,14 @@ class Device:
     """GPU with its primary context, which PyTorch, CuPy, JAX, and Warp use too.
 
     Args:
-        ordinal: Its number from 0, as the driver counts.
+        ordinal: Device number from 0, in the order of the driver.
 
     Attributes:
-        ordinal: The same.
-        capability: Compute capability, 90 of 9.0.
+        ordinal: Device number.
+        capability: Compute capability times 10, for example 90 for 9.0.
 
     Raises:
-        KernelError: No bindings, no driver, or no such device.
+        KernelError: The bindings, the driver, or the device is missing.
     """
 
     def __init__(self, ordinal: int) -> None:
@@ -69,15 +69,15 @@ class Device:
         handle = _check_driver_result("be found", driver.cuDeviceGet(ordinal))
         kinds = (f"CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_{part}" for part in ("MAJOR", "MINOR"))
         answers = [driver.cuDeviceGetAttribute(getattr(driver.CUdevice_attribute, kind), handle) for kind in kinds]
-        major, minor = (int(_check_driver_result("tell its capability", answer)) for answer in answers)
+        major, minor = (int(_check_driver_result("report its compute capability", answer)) for answer in answers)
         self.capability = 10 * major + minor
         self._context = _check_driver_result("be used", driver.cuDevicePrimaryCtxRetain(handle))
 
     def call_driver(self, action: str, name: str, *arguments: Any) -> Any:
-        """Call a function of the driver for this device; the error names the failed action.
+        """Call a function of the driver for this device; the error message names the failed action.
 
         Raises:
-            KernelError: It failed, or a kernel before it did.
+            KernelError: The call failed, or an earlier kernel did.
         """
         driver = _driver_functions()
         _check_driver_result("be used", driver.cuCtxPushCurrent(self._context))
@@ -87,7 +87,7 @@ class Device:
             driver.cuCtxPopCurrent()
 
     def load_function(self, ptx: bytes, name: str) -> Any:
-        """Return a kernel of a module; the driver translates it for the device and caches the translation."""
+        """Return a kernel of a module; the driver translates the module for the device and caches the translation."""
         module = self.call_driver("load a kernel", "cuModuleLoadData", ptx + b"\0")
         return self.call_driver("find a kernel", "cuModuleGetFunction", module, name.encode())
 
@@ -95,17 +95,17 @@ class Device:
         """Start a kernel on a stream with one thread per row.
 
         Args:
-            function: See :meth:`load_function`.
-            arguments: ctypes numbers.
-            rows: At least 1.
-            stream: Handle.
+            function: Kernel of :meth:`load_function`.
+            arguments: Arguments of the kernel as ctypes numbers.
+            rows: Number of rows, at least 1.
+            stream: Handle of the stream.
         """
         values_and_types = tuple(a.value for a in arguments), tuple(type(a) for a in arguments)
         grid = -(-rows // _BLOCK_THREADS), 1, 1, _BLOCK_THREADS, 1, 1
         self.call_driver("start a kernel", "cuLaunchKernel", function, *grid, 0, _stream_handle(stream), values_and_types, 0)
 
     def wait_for_stream(self, stream: int) -> None:
-        """Wait until the stream is empty; an error of a kernel is raised here."""
+        """Wait until the stream is empty; errors of its kernels are raised here."""
         self.call_driver("finish", "cuStreamSynchronize", _stream_handle(stream))
 
 
@@ -114,15 +114,15 @@ def _stream_handle(stream: int) -> Any:
 
 
 class DeviceMemory:
-    """Memory for doubles on a device, released when it is no longer used.
+    """Memory for doubles on a device, released when it is no longer referenced.
 
     Args:
-        device: Where.
-        count: How many.
+        device: Device.
+        count: Number of doubles.
 
     Attributes:
-        device: The same.
-        pointer: Address there.
+        device: Device.
+        pointer: Address on the device.
     """
 
     def __init__(self, device: Device, count: int) -> None:
@@ -132,14 +132,14 @@ class DeviceMemory:
         finalizer.atexit = False  # the driver ends before Python does
 
     def copy_to_device(self, array: NDArray[np.float64], stream: int, offset: int = 0) -> None:
-        """Copy a contiguous array to the device, from element ``at`` on."""
+        """Copy a contiguous array to the device, from element ``offset`` on."""
         start = self.pointer + 8 * offset
         self.device.call_driver(
             "take data", "cuMemcpyHtoDAsync", start, array.ctypes.data, array.nbytes, _stream_handle(stream)
         )
 
     def copy_to_host(self, array: NDArray[np.float64], stream: int, offset: int = 0) -> None:
-        """Copy the content from element ``at`` on into a contiguous array and wait for it."""
+        """Copy the content from element ``offset`` on into a contiguous array and wait for it."""
         start = self.pointer + 8 * offset
         self.device.call_driver(
             "give data", "cuMemcpyDtoHAsync", array.ctypes.data, start, array.nbytes, _stream_handle(stream)
@@ -149,5 +149,5 @@ class DeviceMemory:
 
 @lru_cache
 def get_device(ordinal: int) -> Device:
-    """Return the device of a number, opened once."""
+    """Return the device with a number; each device is opened once."""
     return Device(ordinal)

@@ -1,4 +1,4 @@
-"""Run a program on a device: rows in and out, on the host or the device, and steps repeated until each row is finished."""
+"""Run a program on a device: rows from and to the host or the device, and steps repeated until each row is finished."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from holdfast.kernels.gpu.ptx import make_ptx
 from holdfast.kernels.llvm.translation import FUNCTION_NAME
 from holdfast.kernels.program import Program
 
-_MAX_BATCH_BYTES = 1 << 30  # of inputs and results on the device at once, for arrays that come from the host
-_STEPS_PER_LAUNCH = 1000  # steps of a launch: between two of them Ctrl-C is heard and progress told
+_MAX_BATCH_BYTES = 1 << 30  # bytes of inputs and results on the device at once, for arrays of the host
+_STEPS_PER_LAUNCH = 1000  # steps of one launch; Ctrl-C and progress are handled between launches
 
 
 class DeviceProgram:
     """Program on one GPU.
 
     Args:
-        program: What to compute.
-        ordinal: Of the device.
+        program: Program to run.
+        ordinal: Number of the device, from 0.
 
     Raises:
         KernelError: See :class:`holdfast.kernels.gpu.driver.Device` and :func:`holdfast.kernels.gpu.ptx.make_ptx`.
@@ -120,7 +120,7 @@ class DeviceProgram:
     ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.int64]]:
         """Return state, residual, done, and steps of each row as :meth:`holdfast.kernels.Loop.run` does, one thread per row.
 
-        ``ended`` is told how many rows more have ended, and how many of them within the tolerance.
+        ``ended`` is called with the number of newly finished rows, and the number of these within the tolerance.
         """
         count, size = state.shape
         results = np.full((size + 3, count), np.nan)

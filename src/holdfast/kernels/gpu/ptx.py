@@ -1,8 +1,8 @@
 """Translate a program to PTX: the instructions of :mod:`holdfast.kernels.llvm.translation` with one row per thread.
 
-The body is that of the processor's code, so the same bits come out of both where both have fused multiply-add: additions,
-products, quotients, roots and fused products are rounded to nearest on either, and nothing else is used. For tests the same
-text is made for the processor, where a thread's number is an argument.
+The body equals the processor's code, so both compute the same bits if both have fused multiply-add: both round additions,
+products, quotients, roots and fused products to nearest, and no other operation is used. For tests the same text is compiled
+for the processor, where the thread number is an argument.
 
 Sources: LLVM's user guide for NVPTX; the PTX manual for its registers.
 """
@@ -28,9 +28,9 @@ def make_ptx(program: Program, capability: int, *, state: int | None = None) -> 
     """Return the text of a kernel for devices of a compute capability (90 of 9.0), from the cache where possible.
 
     Args:
-        program: What to compute.
-        capability: Of the device.
-        state: None for :class:`DeviceRows`; numbers in a state for :class:`DeviceLoop`.
+        program: Program to translate.
+        capability: Compute capability of the device, times 10.
+        state: None for :class:`DeviceRows`; the size of a state for :class:`DeviceLoop`.
 
     Raises:
         KernelError: The device is older than 7.0, or the program has an operation without translation.
@@ -68,13 +68,13 @@ def _llvm() -> Any:
 class DeviceRows(Emitter):
     """Kernel ``rows(in, row, column, ..., out, row, column, n)`` with three arguments for each input of the program.
 
-    Number k of row i of an input is ``in[i * row + k * column]``, so that arrays of either order are read where they are,
-    and one row serves all with ``row = 0``; the same for the results, one after the other.
+    Number k of row i of an input is ``in[i * row + k * column]``, so arrays of either order are read in place, and ``row = 0``
+    uses one row for all. Results are addressed in the same way, one after the other.
 
     Args:
-        program: What to compute.
-        machine: Whether fused multiply-add is there; every GPU has it.
-        on_device: False: for the processor, the row's number after n as the last argument.
+        program: Program to translate.
+        machine: Target, which states whether fused multiply-add exists; every GPU has it.
+        on_device: False compiles for the processor, with the row number as last argument after n.
     """
 
     def __init__(self, program: Program, machine: TargetMachine | None = None, *, on_device: bool = True) -> None:
@@ -140,14 +140,14 @@ class DeviceRows(Emitter):
 
 
 class DeviceLoop(DeviceRows):
-    """Step kernel repeated until its row is finished, :class:`holdfast.kernels.Loop` with one thread per row.
+    """Step kernel repeated until its row is finished: :class:`holdfast.kernels.Loop` with one thread per row.
 
-    ``rows(state, row, column, parameters, row, column, out, row, column, tolerance, ahead, most, n)``. The results of a row
-    are the state at which the residual was last measured, that residual, 1 if it is within the tolerance, and the steps.
+    ``rows(state, row, column, parameters, row, column, out, row, column, tolerance, ahead, most, n)``. The results of a row are
+    the state at which the residual was last measured, that residual, 1 if it is within the tolerance, and the number of steps.
 
     Args:
-        program: The step, ``(state, parameters) -> (next state, residual)``.
-        state: Numbers in a state.
+        program: Step ``(state, parameters) -> (next state, residual)``.
+        state: Size of a state.
         machine, on_device: See :class:`DeviceRows`.
     """
 
@@ -159,7 +159,7 @@ class DeviceLoop(DeviceRows):
         self._results: dict[int, str] = {}
 
     def module_text(self) -> str:
-        """The whole module."""
+        """Return the whole module."""
         size, load, store = self._state, super()._load, super()._store
         self._emit_row_addresses()
         tolerance = self._insert_into_vector("%tolerance")

@@ -1,1 +1,1 @@
-"""Translate a program to LLVM: arithmetic, functions, translation, and machine code of this processor."""
+"""Translate a program to LLVM: arithmetic, functions, translation, and machine code for this processor."""

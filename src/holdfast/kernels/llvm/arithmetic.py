@@ -1,11 +1,11 @@
-"""Arithmetic as LLVM instructions, with sine and cosine together and without branches.
+"""Arithmetic as LLVM instructions, including sine and cosine together and without branches.
 
-A library's functions switch to another method for very large angles, and a vector library's do so for a whole group of rows
-when one of them is large, infinite or NaN: its neighbours then differ in the last digit. These do the same operations in
-every lane, and give sine and cosine for little more than the price of one (measured: the worst-case index of the 9-joint
-PA10 gains 15 to 20 %).
+A library's functions switch to another method for very large angles, and a vector library switches for a whole group of rows if
+one of them is large, infinite or NaN, so that its neighbours differ in the last digit. The functions here do the same
+operations in every lane, and compute sine and cosine for little more than the cost of one of them (measured: the worst-case
+index of the 9-joint PA10 gains 15 to 20 %).
 
-Source: reduction by pi split in three parts (W. J. Cody, W. Waite 1980), polynomials of fdlibm (``k_sin.c``, ``k_cos.c``)
+Source: reduction by pi in three parts (W. J. Cody, W. Waite 1980), polynomials of fdlibm (``k_sin.c``, ``k_cos.c``)
 at half the angle, then the formulas of the double angle. Largest absolute error 4.5e-16 for ``|x| <= 1e15`` (measured).
 """
 
@@ -14,7 +14,7 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
-# pi in three parts; the first two have zeros at their end, so that products with whole numbers are exact.
+# pi in three parts; the first two end in zeros, so that products with whole numbers are exact.
 _PI_PARTS = (2 * 1.57079632673412561417e00, 2 * 6.07710050630396597660e-11, 2 * 2.02226624879595063154e-21)
 _SINE_COEFFICIENTS = (
     1.58969099521155010221e-10,
@@ -32,17 +32,17 @@ _COSINE_COEFFICIENTS = (
     -1.38888888888741095749e-03,
     4.16666666666666019037e-02,
 )
-ROUNDING_SHIFT = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a whole number
+ROUNDING_SHIFT = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to a whole number
 _LARGEST_ANGLE_RAD = 1e15
 
 
 @dataclass(frozen=True)
 class TargetMachine:
-    """Properties of the processor on which the text depends.
+    """Properties of the processor on which the generated code depends.
 
     Attributes:
-        lanes: Rows handled at once.
-        fused: Whether the machine has fused multiply-add.
+        lanes: Number of rows computed at once.
+        fused: True if the machine has fused multiply-add.
     """
 
     lanes: int
@@ -58,7 +58,7 @@ class Arithmetic:
         self.type = f"<{machine.lanes} x double>"
         self.mask = f"<{machine.lanes} x i1>"
         self.whole_type = f"<{machine.lanes} x i64>"
-        self.declared: set[str] = set()  # functions that are not defined here
+        self.declared: set[str] = set()  # functions that are declared but not defined here
 
     def _add_instruction(self, text: str) -> str:
         name = f"%v{len(self.lines)}"
@@ -66,79 +66,79 @@ class Arithmetic:
         return name
 
     def constant(self, value: float) -> str:
-        """A constant, bit for bit."""
+        """Return a constant, bit for bit."""
         return f"splat (double 0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X})"
 
     def binary(self, operation: str, a: str, b: str) -> str:
-        """``fadd``, ``fsub``, ``fmul`` or ``fdiv``."""
+        """Return the result of ``fadd``, ``fsub``, ``fmul`` or ``fdiv``."""
         return self._add_instruction(f"{operation} {self.type} {a}, {b}")
 
     def add(self, a: str, b: str) -> str:
-        """Sum."""
+        """Return the sum."""
         return self.binary("fadd", a, b)
 
     def sub(self, a: str, b: str) -> str:
-        """Difference."""
+        """Return the difference."""
         return self.binary("fsub", a, b)
 
     def mul(self, a: str, b: str) -> str:
-        """Product."""
+        """Return the product."""
         return self.binary("fmul", a, b)
 
     def negate(self, a: str) -> str:
-        """Negative."""
+        """Return the negative."""
         return self._add_instruction(f"fneg {self.type} {a}")
 
     def fma(self, a: str, b: str, c: str) -> str:
-        """Product of a and b plus c, rounded once where the machine can."""
+        """Return the product of a and b plus c, rounded once if the machine can."""
         if not self.machine.fused:
             return self.add(self.mul(a, b), c)
         return self.intrinsic("fma", a, b, c)
 
     def intrinsic(self, name: str, *arguments: str) -> str:
-        """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``, ``copysign``."""
+        """Return the result of an LLVM intrinsic that all machines round alike: ``fma``, ``sqrt``, ``fabs``, ``copysign``."""
         name = f"@llvm.{name}.v{self.machine.lanes}f64"
         self.declared.add(f"declare {self.type} {name}({', '.join([self.type] * len(arguments))})")
         return self._add_instruction(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
 
     def compare_less(self, a: str, b: str) -> str:
-        """The mask of a < b."""
+        """Return the mask of a < b."""
         return self.compare("olt", a, b)
 
     def compare(self, predicate: str, a: str, b: str) -> str:
-        """A mask."""
+        """Return the mask of a comparison."""
         return self._add_instruction(f"fcmp {predicate} {self.type} {a}, {b}")
 
     def select(self, mask: str, a: str, b: str) -> str:
-        """``mask ? a : b``."""
+        """Return ``mask ? a : b``."""
         return self._add_instruction(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
 
     def mask_and(self, a: str, b: str) -> str:
-        """The mask where both are true."""
+        """Return the mask that is true where both are."""
         return self._add_instruction(f"and {self.mask} {a}, {b}")
 
     def mask_or(self, a: str, b: str) -> str:
-        """The mask where one is true, or both."""
+        """Return the mask that is true where at least one is."""
         return self._add_instruction(f"or {self.mask} {a}, {b}")
 
     def mask_not(self, a: str) -> str:
-        """The mask where this one is false."""
+        """Return the negated mask."""
         return self._add_instruction(f"xor {self.mask} {a}, splat (i1 true)")
 
     def to_bits(self, a: str) -> str:
-        """The 64 bits of a value."""
+        """Return the 64 bits of a value."""
         return self._add_instruction(f"bitcast {self.type} {a} to {self.whole_type}")
 
     def from_bits(self, a: str) -> str:
-        """The value of 64 bits."""
+        """Return the value of 64 bits."""
         return self._add_instruction(f"bitcast {self.whole_type} {a} to {self.type}")
 
     def integer_operation(self, operation: str, a: str, constant: int) -> str:
-        """``add``, ``and``, ``or``, ``shl`` or ``lshr`` of 64 bits and a constant."""
+        """Return ``add``, ``and``, ``or``, ``shl`` or ``lshr`` of 64 bits and a constant."""
         return self._add_instruction(f"{operation} {self.whole_type} {a}, splat (i64 {constant})")
 
     def sign_bit_mask(self, a: str) -> str:
-        """The mask of what has a minus sign, -0 too."""
+        """Return the mask of values with a minus sign, including -0."""
         return self._add_instruction(f"icmp slt {self.whole_type} {self.to_bits(a)}, zeroinitializer")
 
 
@@ -146,7 +146,7 @@ def emit_sine_and_cosine(e: Arithmetic, x: str) -> tuple[str, str]:
     """Return sine and cosine of ``x``, rad; NaN beyond 1e15, where an angle in double precision has no meaning.
 
     Args:
-        e: Where the instructions go.
+        e: Receiver of the instructions.
         x: Name of the angle.
     """
     x = e.select(e.compare_less(e.mul(x, x), e.constant(_LARGEST_ANGLE_RAD**2)), x, e.constant(float("nan")))

@@ -1,13 +1,13 @@
 """Exponential, logarithm, powers, and related functions as LLVM instructions without branches, with the same bits on every
 machine.
 
-Nothing is called: a processor's C library, a graphics processor and every lane of a batch would each round in their own way.
-What is left to the machine is whether it has fused multiply-add. Largest errors, measured against exact values, in units in
-the last place: exp 0.83, log 0.79, pow 0.86, asin 0.65, acos 0.68, atan 0.75, atan2 0.94.
-``tests/kernels/test_kernel_functions.py`` holds limits on them and compares special values.
+No library function is called, because a C library, a graphics processor and the lanes of a batch could round differently. The
+results depend on the machine only by whether it has fused multiply-add. Largest errors, measured against exact values, in units
+in the last place: exp 0.83, log 0.79, pow 0.86, asin 0.65, acos 0.68, atan 0.75, atan2 0.94.
+``tests/kernels/test_kernel_functions.py`` checks limits on these errors and compares special values.
 
 Source: reductions and polynomials of fdlibm (Sun Microsystems 1993, 2004; ``e_exp.c``, ``e_log.c``, ``e_pow.c``, ``s_atan.c``,
-``e_asin.c``), whose branches are choices here; the rounding of a quotient or product is carried along as in
+``e_asin.c``), whose branches are choices here; the rounding error of a quotient or product is carried along as in
 T. J. Dekker, "A floating-point technique for extending the available precision" (1971).
 """
 
@@ -25,10 +25,10 @@ def _read_coefficients(text: str) -> tuple[float, ...]:
 
 
 # Coefficients, highest degree first.
-# _LN2_HIGH and _LN2_LOW: the first ends in zeros: times 2000 it is exact
+# _LN2_HIGH and _LN2_LOW: the first ends in zeros, so that 2000 times it is exact
 _LN2_HIGH = 6.93147180369123816490e-01
 _LN2_LOW = 1.90821492927058770002e-10
-_QUARTER_TURN = 1.57079632679489655800e00, 6.12323399573676603587e-17  # of a turn, in two parts, as of all pairs here
+_QUARTER_TURN = 1.57079632679489655800e00, 6.12323399573676603587e-17  # pi/2 in two parts, as all pairs here
 _ATAN_OF_HALF = 4.63647609000806093515e-01, 2.26987774529616870924e-17
 _EXP_COEFFICIENTS = _read_coefficients(
     "4.1381367970572385e-08 -1.6533902205465252e-06 6.613756321437934e-05 -0.0027777777777015593 0.16666666666666602"
@@ -49,7 +49,7 @@ _ASIN_NUMERATOR = _read_coefficients(
     "0.16666666666666666"
 )
 _ASIN_DENOMINATOR = _read_coefficients("0.07703815055590194 -0.6882839716054533 2.0209457602335057 -2.403394911734414 1.0")
-_RANGE_CENTERS = (  # of the thirds of a range; their logarithms in two parts
+_RANGE_CENTERS = (  # centres of the thirds of a range, with their logarithms in two parts
     (1.5, 0.75, 1.0),
     (0.4054651081081644, -0.2876820724517809, 0.0),
     (-2.8811380259626426e-18, -2.607160616442564e-17, 0.0),
@@ -66,7 +66,7 @@ _BITS_OF_ROOT_HALF = 0x3FE6A09E << 32
 
 
 def _power_of_2(e: Arithmetic, k: str) -> str:
-    """2^k of a whole number, -1022 <= k <= 1023."""
+    """Return 2^k for a whole number k, -1022 <= k <= 1023."""
     return e.from_bits(e.integer_operation("shl", e.to_bits(e.add(k, e.constant(ROUNDING_SHIFT + 1023))), 52))
 
 
@@ -105,7 +105,7 @@ def _split_exponent(e: Arithmetic, x: str) -> tuple[str, str]:
     small = e.compare_less(x, e.constant(2.0**-1022))
     x = e.select(small, e.mul(x, e.constant(2.0**54)), x)
     shifted = e.integer_operation("add", e.to_bits(x), _BITS_OF_ONE - _BITS_OF_ROOT_HALF)
-    # The bits of a small whole number below those of 2^52 are 2^52 plus that number.
+    # The bits of a small whole number below those of 2^52 give 2^52 plus that number.
     k = e.sub(
         e.from_bits(e.integer_operation("or", e.integer_operation("lshr", shifted, 52), 0x433 << 52)),
         e.constant(2.0**52 + 1023),
@@ -115,7 +115,7 @@ def _split_exponent(e: Arithmetic, x: str) -> tuple[str, str]:
 
 
 def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
-    """Return the logarithm of x plus ``rest``."""
+    """Return the logarithm of x plus ``correction``."""
     k, m = _split_exponent(e, x)
     f = e.add(m, e.constant(-1.0))
     s = e.binary("fdiv", f, e.add(f, e.constant(2.0)))
@@ -135,7 +135,7 @@ def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
 
 
 def _fast_sum_and_error(e: Arithmetic, a: str, b: str) -> tuple[str, str]:
-    """Return the sum and its rounding error where a is 0 or not the smaller one."""
+    """Return the sum and its rounding error if a is 0 or not the smaller number."""
     total = e.add(a, b)
     return total, e.sub(b, e.sub(total, a))
 
@@ -163,7 +163,7 @@ def _split_mantissa(e: Arithmetic, a: str) -> tuple[str, str]:
 
 
 def _log_in_two_parts(e: Arithmetic, x: str) -> tuple[str, str]:
-    """Return the logarithm of a positive finite x in two parts, to some 68 bits."""
+    """Return the logarithm of a positive finite x in two parts, to about 68 bits."""
     k, m = _split_exponent(e, x)
     upper, lower = e.compare("ogt", m, e.constant(1.2247448713915890)), e.compare_less(m, e.constant(0.8660254037844386))
     centre, *center_and_log = (
@@ -192,7 +192,7 @@ def _log_in_two_parts(e: Arithmetic, x: str) -> tuple[str, str]:
 def _emit_pow(e: Arithmetic, x: str, y: str) -> str:
     size, power = e.intrinsic("fabs", x), e.intrinsic("fabs", y)
     zero, one, infinite = e.constant(0.0), e.constant(1.0), e.constant(_INFINITY)
-    huge = e.constant(1e21)  # whatever is not 1 overflows or vanishes
+    huge = e.constant(1e21)  # any power except of 1 overflows or vanishes
     high, low = _log_in_two_parts(e, size)
     exponent = e.intrinsic("copysign", e.select(e.compare("ogt", power, huge), huge, power), y)
     p, q = _product_and_error(e, exponent, high)
@@ -209,7 +209,7 @@ def _emit_pow(e: Arithmetic, x: str, y: str) -> str:
 
 
 def _integer_mask(e: Arithmetic, size: str) -> str:
-    """Return the mask of a number that is not negative and is an integer."""
+    """Return the mask of non-negative integers."""
     limit = e.constant(2.0**52)
     return e.mask_or(e.compare("oge", size, limit), e.compare("oeq", e.sub(e.add(size, limit), limit), size))
 
@@ -222,11 +222,11 @@ def _emit_atan2(e: Arithmetic, y: str, x: str) -> str:
     high, wide = e.intrinsic("fabs", y), e.intrinsic("fabs", x)
     steep = e.compare("ogt", high, wide)
     less, more = e.select(steep, wide, high), e.select(steep, high, wide)
-    # Two infinities are as good as equal, and beside one of them everything else is 0; two zeros have the angle 0.
+    # Two infinities count as equal, any number is 0 relative to an infinity, and two zeros have the angle 0.
     both, one_of = e.compare("oeq", less, infinite), e.compare("oeq", more, infinite)
     less = e.select(one_of, e.select(both, one, zero), less)
     more = e.select(e.mask_or(one_of, e.compare("oeq", more, zero)), one, more)
-    # So that neither what is missing in a quotient nor the reciprocal of a divisor has fewer digits.
+    # So that neither the remainder of a quotient nor the reciprocal of a divisor loses digits.
     small, large = e.compare_less(more, e.constant(2.0**300)), e.compare("ogt", more, e.constant(2.0**900))
     scale = e.select(small, e.constant(2.0**600), e.select(large, e.constant(2.0**-200), one))
     less, more = e.mul(less, scale), e.mul(more, scale)
@@ -260,9 +260,7 @@ def _division_remainder(e: Arithmetic, n: str, q: str, d: str) -> str:
 
 
 def _arcsine_parts(e: Arithmetic, x: str) -> tuple[str, str, str, str]:
-    """Return for |x| the mask of values below 1/2, and v, r and c: the arc is ``v + v r + c``, of the sine |x| or of 1/2 of (1
-    - |x|).
-    """
+    """Return for |x| the mask of |x| < 1/2, and v, r, c: the arc ``v + v r + c``, of the sine |x| or of (1 - |x|) / 2."""
     size = e.intrinsic("fabs", x)
     small = e.compare_less(size, e.constant(0.5))
     z = e.select(small, e.mul(size, size), e.mul(e.sub(e.constant(1.0), size), e.constant(0.5)))

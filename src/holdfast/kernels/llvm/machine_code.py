@@ -1,6 +1,6 @@
 """Compile a program to machine code by LLVM for this processor.
 
-Level 0 compiles some 4 times as fast as level 1 and its code takes some 1.8 times as long; both give the same bits
+Level 0 compiles about 4 times as fast as level 1, and its code takes about 1.8 times as long; both compute the same bits
 (:mod:`holdfast.kernels.llvm.translation`).
 """
 
@@ -20,7 +20,7 @@ from holdfast.kernels.llvm.translation import FUNCTION_NAME, emit_llvm_function
 from holdfast.kernels.program import Program
 
 COMPILE_LEVELS = (0, 1)
-# Seconds per operation and level, measured; for telling how long something will take, and which level is worth it.
+# Seconds per operation and level, measured, to predict the duration of a compilation and to decide whether a level pays.
 COMPILE_SECONDS_PER_OPERATION = (11e-6, 43e-6)
 
 
@@ -29,9 +29,9 @@ class HostProcessor:
     """Processor for which code is compiled.
 
     Attributes:
-        cpu: LLVM's name of it.
-        features: LLVM's list of what it has.
-        machine: What the text of a kernel depends on.
+        cpu: LLVM's name of the processor.
+        features: LLVM's list of its features.
+        machine: Properties on which the text of a kernel depends.
     """
 
     cpu: str
@@ -45,7 +45,7 @@ def detect_processor() -> HostProcessor:
     llvm = _llvm()
     features = llvm.get_host_cpu_features()
     lanes_per_register = 8 if features.get("avx512f") else 4 if features.get("avx") else 2
-    has_fma = bool(features.get("fma")) or not any(name in features for name in ("sse2", "avx"))  # all 64-bit ARM has it
+    has_fma = bool(features.get("fma")) or not any(name in features for name in ("sse2", "avx"))  # every 64-bit ARM has it
     return HostProcessor(llvm.get_host_cpu_name(), features.flatten(), TargetMachine(2 * lanes_per_register, has_fma))
 
 
@@ -59,7 +59,7 @@ def _llvm() -> Any:
 
 
 def llvm_lock() -> AbstractContextManager[Any]:
-    """Return the lock of the one thread that uses LLVM, so that no fork happens in the middle of its work."""
+    """Return the lock of the only thread that uses LLVM, so that no fork happens during its work."""
     library = getattr(sys.modules.get("llvmlite.binding.ffi"), "lib", None)
     return nullcontext() if library is None else library._lock
 
@@ -80,16 +80,16 @@ def _target_machine(level: int) -> Any:
 
 
 def compile_program(program: Program, level: int, machine: TargetMachine | None = None) -> bytes:
-    """Object code of the function that :func:`holdfast.kernels.llvm.translation.emit_llvm_function` writes.
+    """Return object code of the function that :func:`holdfast.kernels.llvm.translation.emit_llvm_function` writes.
 
     Raises:
-        KernelError: An operation without translation.
+        KernelError: An operation has no translation.
     """
     return compile_llvm_text(emit_llvm_function(program, machine or detect_processor().machine), level)
 
 
 def compile_llvm_text(text: str, level: int) -> bytes:
-    """Object code of a module in LLVM's language."""
+    """Return object code of a module in LLVM's language."""
     return bytes(_target_machine(level).emit_object(_llvm().parse_assembly(text)))
 
 

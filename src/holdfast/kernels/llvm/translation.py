@@ -1,8 +1,7 @@
-"""Program -> text of an LLVM function: straight-line vector code over the rows of a batch, for any machine.
+"""Translate a program to the text of an LLVM function: straight-line vector code over the rows of a batch, for any machine.
 
-The same graph gives the same bits on every level of optimisation and for every number of lanes: products are contracted with
-sums here, by a rule of our own, and nothing is left to the compiler that could change a rounding. What differs between
-machines is only whether they have fused multiply-add.
+A graph gives the same bits on every optimisation level and for every number of lanes: products are fused with sums here, by our
+own rule, and the compiler may change no rounding. Machines differ only in whether they have fused multiply-add.
 
 Sources: LLVM language reference for the instructions; the contraction is what C calls ``FP_CONTRACT`` (C17, 6.5).
 """
@@ -18,18 +17,18 @@ from holdfast.kernels.llvm.arithmetic import Arithmetic, TargetMachine, emit_sin
 from holdfast.kernels.llvm.functions import EMITTED_FUNCTIONS
 from holdfast.kernels.program import OP_NAMES, Program
 
-FUNCTION_NAME = "rows"  # of the function
+FUNCTION_NAME = "rows"  # name of the generated function
 
 # A comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
 _COMPARISON_NAMES = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
 class UnsupportedOperationError(KernelError):
-    """A program with an operation that has no translation to LLVM."""
+    """Program with an operation that has no translation to LLVM."""
 
 
 def emit_llvm_function(program: Program, machine: TargetMachine) -> str:
-    """The function ``void rows(in, out, stride, n)`` as text.
+    """Return the function ``void rows(in, out, stride, n)`` as text.
 
     Input k of row i is ``in[k * stride + i]``, output k ``out[k * stride + i]``; n is a multiple of the lanes.
 
@@ -40,21 +39,21 @@ def emit_llvm_function(program: Program, machine: TargetMachine) -> str:
 
 
 class Emitter(Arithmetic):
-    """One program on its way."""
+    """Translation of one program in progress."""
 
     def __init__(self, program: Program, machine: TargetMachine) -> None:
         super().__init__(machine)
         self.program = program
         self._angles: dict[str, tuple[str, str]] = {}
-        self._masks: dict[str, str] = {}  # value 0 or 1, or any -> its mask
-        self._nots: dict[str, str] = {}  # mask -> the mask it negates
+        self._masks: dict[str, str] = {}  # value (0, 1 or any) -> its mask
+        self._nots: dict[str, str] = {}  # mask -> the mask that it negates
         self._choices: dict[str, tuple[str, str]] = {}  # "condition ? a : 0" -> mask, a
-        self._products: dict[str, tuple[str, str]] = {}  # products that wait for the sum they go into
+        self._products: dict[str, tuple[str, str]] = {}  # products that wait for a sum
 
     # ---- frame -------------------------------------------------------------------------------------------------
 
     def module_text(self) -> str:
-        """The whole function."""
+        """Return the whole function."""
         guard = self.emit_nan_guard()
         self.emit_body(guard)
         lanes = self.machine.lanes
@@ -87,7 +86,7 @@ ret void
         self.lines.append(f"store {self.type} {value}, ptr {self._element_address('%out', k)}, align 8")
 
     def emit_nan_guard(self) -> str:
-        """Emit zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
+        """Emit zero, or NaN in rows with an input that is not finite, also if the expression ignores that input."""
         total = zero = self.constant(0.0)
         for k in range(self.program.n_in):
             total = self.add(self.mul(self._load(k), zero), total)
@@ -115,7 +114,7 @@ ret void
                 continue
             b = others[0] if others else a
             if k in divisors:
-                # CasADi writes x (1/y) as x / y. One division serves all.
+                # CasADi writes x (1/y) as x / y. One division serves all of them.
                 divisor_result = divisors[k]
                 if divisor_result not in reciprocals:
                     reciprocals[divisor_result] = self.binary("fdiv", self.constant(1.0), b)
@@ -139,7 +138,7 @@ ret void
         return name
 
     def _emit_deferred(self, a: str) -> str:
-        """Return the value of a product that was deferred for a sum which takes another one."""
+        """Return the value of a product that was deferred for a sum, if the sum fuses another product."""
         return self.mul(*self._products[a]) if a in self._products else a
 
     def _emit_sum(self, a: str, b: str) -> str:
@@ -158,7 +157,7 @@ ret void
         return self.sub(a, b)
 
     def _merge_choice(self, a: str, b: str) -> str | None:
-        """CasADi writes ``c ? x : y`` as ``(c ? x : 0) + (!c ? y : 0)``; one select instead of four operations."""
+        """Merge to one select CasADi's form of ``c ? x : y``, which is ``(c ? x : 0) + (!c ? y : 0)`` with four operations."""
         if a not in self._choices or b not in self._choices:
             return None
         (c, x), (d, y) = self._choices[a], self._choices[b]
@@ -211,14 +210,14 @@ ret void
         return self.mask_to_number(mask)
 
     def select_or_zero(self, c: str, a: str) -> str:
-        """``c ? a : 0``."""
+        """Return ``c ? a : 0``."""
         mask = self.number_to_mask(c)
         value = self.select(mask, a, self.constant(0.0))
         self._choices[value] = mask, a
         return value
 
 
-# What takes one instruction or few. CasADi differentiates |x| into sign(x).
+# Operations of one or few instructions. CasADi differentiates |x| into sign(x).
 _EMITTERS_BY_OPERATION: dict[int, Callable[[Emitter, str, str], str]] = {
     ca.OP_ASSIGN: lambda e, a, b: a,
     ca.OP_DIV: lambda e, a, b: e.binary("fdiv", a, b),
@@ -250,7 +249,7 @@ SUPPORTED_OPERATIONS = frozenset(
 
 
 def _find_fusible_products(program: Program) -> set[int]:
-    """Return the instructions whose result goes into one sum or difference and nowhere else."""
+    """Return the instructions whose result is used in exactly one sum or difference and nowhere else."""
     producers: dict[int, int] = {}
     uses: dict[int, int] = {}
     sums: set[int] = set()

@@ -1,4 +1,4 @@
-"""Largest mean of relative manipulability where joints fail at known rates (theorem R5)."""
+"""Largest mean of relative manipulability if joints fail at known rates (theorem R5)."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class AverageBound:
     """Upper bound of the mean relative manipulability of any arm.
 
     Attributes:
-        value: Of the sum of rate times relative manipulability.
-        left: (n,) relative manipulability after the lock of each joint that attains it.
+        value: Upper bound of the sum of rate times relative manipulability, 0 to 1.
+        left: (n,) relative manipulability after the lock of each joint, of a Jacobian that attains the bound.
         null_space: (n, n - m) orthonormal columns whose rows have these lengths.
     """
 
@@ -30,18 +30,18 @@ class AverageBound:
 
 
 def bound_average(rates: ArrayLike, m: int) -> AverageBound:
-    """Return the largest mean of relative manipulability over single failures of n joints whose probabilities follow their
+    """Return the largest mean relative manipulability over single failures of n joints with probabilities proportional to
     rates.
 
-    The squares of what is left sum to n - m and are at most 1: ``min(1, mu rate^2)`` is best (Cauchy and Schwarz), and some
-    Jacobian attains it (Schur and Horn). Equal rates give theorem T1.
+    The squares of the relative manipulabilities sum to n - m and are at most 1. By Cauchy and Schwarz ``min(1, mu rate^2)`` is
+    best, and by Schur and Horn some Jacobian attains it. Equal rates give theorem T1.
 
     Args:
-        rates: (n,) positive; they are divided by their sum.
-        m: Rows of the task, 1 to n - 1.
+        rates: (n,) positive failure rates; they are divided by their sum, so their unit does not matter.
+        m: Number of rows of the task, 1 to n - 1.
 
     Raises:
-        InputError: Rates that are not positive, or m out of range.
+        InputError: A rate is not positive, or m is out of range.
 
     Source: derived here.
     """
@@ -54,7 +54,7 @@ def bound_average(rates: ArrayLike, m: int) -> AverageBound:
     weight = failure_rates / failure_rates.sum()
     order = np.argsort(-weight, kind="stable")
     falling = weight[order] ** 2
-    for full in range(n - m + 1):  # so many of the most probable ones lose nothing
+    for full in range(n - m + 1):  # the number of most probable joints whose lock costs nothing
         scale = (n - m - full) / falling[full:].sum()
         if scale * falling[full] <= 1:
             break
@@ -67,9 +67,7 @@ def bound_average(rates: ArrayLike, m: int) -> AverageBound:
 
 
 def _frame_with_lengths(squares: FloatArray, p: int) -> FloatArray:
-    """Return orthonormal columns (n, p) whose rows have falling squared lengths that sum to p; each rotation of two rows
-    settles one.
-    """
+    """Return orthonormal columns (n, p) whose rows have falling squared lengths that sum to p; each rotation fixes one row."""
     rows = np.eye(len(squares), p)
     long, short = p - 1, p
     while long >= 0 and short < len(squares):
@@ -77,7 +75,7 @@ def _frame_with_lengths(squares: FloatArray, p: int) -> FloatArray:
         part = min(excess, lack)
         if part > _NEGLIGIBLE_EXCESS:
             a, b, g = rows[long] @ rows[long], rows[short] @ rows[short], rows[long] @ rows[short]
-            # Tangent of the angle after which the longer row has lost its part.
+            # Tangent of the angle after which the longer row has the required length.
             aim = a - part
             roots = np.roots([b - aim, -2 * g, a - aim])
             t = float(roots[np.argmin(abs(roots))].real)

@@ -1,4 +1,4 @@
-"""Best known values in roots, recognised from 15 digits; only a theorem proves such a form."""
+"""Closed forms of best known values, recognised from 15 digits; only a theorem proves such a form."""
 
 CLOSED_FORMS = {
     (4, 2, 2): "1/(2 sqrt(2))",

@@ -8,7 +8,7 @@ from holdfast.core.typing import FloatArray
 
 
 def equal_row_frame(n: int, p: int) -> FloatArray:
-    """Return orthonormal columns (n, p) whose n rows are equally long: cosines and sines, and a constant column if p is odd."""
+    """Return orthonormal columns (n, p) with n rows of equal length: cosines, sines, and a constant column if p is odd."""
     i = np.arange(n)
     waves = 2 * np.pi * np.outer(i, np.arange(1, p // 2 + 1)) / n
     columns = [*np.cos(waves).T * np.sqrt(2 / n), *np.sin(waves).T * np.sqrt(2 / n)]
@@ -18,7 +18,7 @@ def equal_row_frame(n: int, p: int) -> FloatArray:
 
 
 def equally_spaced_line_frame(n: int) -> FloatArray:
-    """Return orthonormal columns (n, 2): n lines of a plane with equal angles between neighbours."""
+    """Return orthonormal columns (n, 2): n lines in a plane with equal angles between neighbours."""
     angle = np.pi * np.arange(n) / n
     return np.asarray(np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
@@ -26,24 +26,24 @@ def equally_spaced_line_frame(n: int) -> FloatArray:
 def two_row_task_frame(n: int) -> FloatArray:
     """Return orthonormal columns (n, n - 2) for even n of 6 or more, the best known for two failures under tasks of two rows.
 
-    The columns of the Jacobian are two bundles of h - 1 lines, n = 2 h, at right angles to one another, and between them two
-    single lines, longer ones. After the worst two locks
-    ``rho^2 = (sqrt(4 h^2 - 4 h + 9) - h - 2) / (h - 1)`` is left. Derived here; not proven to be the ceiling.
+    The columns of the Jacobian are two orthogonal bundles of h - 1 lines, n = 2 h, and two longer single lines between them.
+    After the worst two locks ``rho^2 = (sqrt(4 h^2 - 4 h + 9) - h - 2) / (h - 1)`` remains. Derived here; not proved to be the
+    least upper bound.
     """
     h = n // 2
-    square = (2 * h + 1 - np.sqrt(4 * h * h - 4 * h + 9)) / (2 * (h - 1))  # of each line of a bundle
+    square = (2 * h + 1 - np.sqrt(4 * h * h - 4 * h + 9)) / (2 * (h - 1))  # squared length of each line of a bundle
     lengths = np.sqrt(np.repeat([square, 1 - (h - 1) * square] * 2, [h - 1, 1] * 2))
     angle = np.repeat(np.pi / 4 * np.arange(4), [h - 1, 1] * 2)
     return orthogonal_complement((lengths * np.stack([np.cos(angle), np.sin(angle)])).T)
 
 
 def orthogonal_complement(columns: FloatArray) -> FloatArray:
-    """Return orthonormal columns (n, n - p) that are orthogonal to the given (n, p)."""
+    """Return orthonormal columns (n, n - p) that are orthogonal to the given columns (n, p)."""
     return np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
 
 
 def known_null_space(n: int, m: int, k: int) -> FloatArray | None:
-    """Return the null space that attains its bound by theorem T1, T2 or T3, or the best known of a family; else None."""
+    """Return the null space that attains its bound by theorem T1, T2 or T3, or the best known one of a family; else None."""
     p = n - m
     if k == 1 or m == 1:
         return equal_row_frame(n, p)

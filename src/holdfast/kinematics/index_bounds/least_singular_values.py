@@ -1,4 +1,4 @@
-"""Upper bounds of the least singular value after joints lock; it has a unit, so the lengths of the columns count."""
+"""Upper bounds of the least singular value after joint locks; it has a unit, so the lengths of the columns matter."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ _POSE_ROWS = 6
 
 
 class JointGeometry(Protocol):
-    """Joint of an arm."""
+    """Geometry of a joint of an arm."""
 
     @property
     def origin(self) -> FloatArray:
-        """Pose (4, 4) in the frame of the joint before, m."""
+        """Pose (4, 4) in the frame of the previous joint, m."""
 
     @property
     def prismatic(self) -> bool:
@@ -43,31 +43,31 @@ class JointGeometry(Protocol):
 
     @property
     def lower(self) -> float:
-        """Limit, rad or m."""
+        """Lower limit, rad or m."""
 
     @property
     def upper(self) -> float:
-        """Limit, rad or m."""
+        """Upper limit, rad or m."""
 
 
 class JointedArm(ArmSize, Protocol):
-    """Arm whose geometry bounds the levers, such as an index's arm."""
+    """Arm whose geometry bounds the levers, such as the arm of an index."""
 
     @property
     def joints(self) -> Sequence[JointGeometry]:
-        """In order."""
+        """Joints from base to tool."""
 
     @property
     def tool(self) -> FloatArray:
-        """(4, 4) of the tool in the last joint's frame, m."""
+        """Pose (4, 4) of the tool in the frame of the last joint, m."""
 
 
 class TaskGeometry(TaskSize, Protocol):
-    """Task whose rows determine the unit, such as an index's task."""
+    """Task whose rows determine the unit, such as the task of an index."""
 
     @property
     def rows(self) -> FloatArray:
-        """(m, 6) linear columns first."""
+        """Rows (m, 6) of the task, linear columns first."""
 
     @property
     def length(self) -> float:
@@ -79,11 +79,11 @@ class SingularValueProblem(FailureProblem, Protocol):
 
     @property
     def arm(self) -> JointedArm:
-        """Its arm."""
+        """Arm of the problem."""
 
     @property
     def task(self) -> TaskGeometry:
-        """Its task."""
+        """Task of the problem."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,12 +91,12 @@ class SingularValueBound(Result):
     """Upper bound of the worst-case least singular value of n columns in m rows.
 
     Attributes:
-        n, m, k: Joints, rows of the task, joints that lock at once.
-        lever: Root mean square, over the joints, of how far the tool point is from their axes at most: m, or characteristic
-            lengths where rows are mixed; infinite if it may be anything.
-        angular: True where angular rows are among the rows: three linear and three angular ones of a pose, for example.
-        bound: No Jacobian has more, in the unit of ``lever``.
-        bound_by: S0 to S3 of ``docs/theory/upper-bounds-proofs.md``.
+        n, m, k: Number of joints, of rows of the task, and of joints that lock at once.
+        lever: Root mean square, over the joints, of the largest distance of the tool point from each axis, in m, or in
+            characteristic lengths if rows are mixed; infinite if it is unlimited.
+        angular: True if some rows are angular, for example the three angular rows of a pose.
+        bound: Largest possible value for any Jacobian, in the unit of ``lever``.
+        bound_by: Theorem that proves the bound, S0 to S3 of ``docs/theory/upper-bounds-proofs.md``.
     """
 
     n: int
@@ -109,7 +109,7 @@ class SingularValueBound(Result):
 
     @property
     def jacobian(self) -> FloatArray | None:
-        """(m, n) that attains the bound: where one joint locks, rows of one unit; None where none is known."""
+        """Jacobian (m, n) that attains the bound, for one lock and rows of one unit; None if none is known."""
         if self.angular or self.k > 1:
             return None
         return sqrt(self.n / self.m) * self.lever * equal_row_frame(self.n, self.m).T
@@ -119,19 +119,19 @@ def bound_singular_value(*, n: int, m: int, k: int = 1, lever: float = 1.0, angu
     """Return the upper bound of the least singular value that remains after the worst k of n joints lock.
 
     Args:
-        n: Joints.
-        m: Rows of the task.
-        k: Every set of k joints may lock.
-        lever: How far the tool point is from the joints' axes at most, such as the reach of the arm, m; with angular rows in
-            characteristic lengths. The root mean square over the joints will do. Infinite for a pose: any lengths.
-        angular: Angular rows are among the rows, so that columns are longer by their unit.
+        n: Number of joints.
+        m: Number of rows of the task.
+        k: Number of joints that lock; every set of k joints may lock.
+        lever: Largest distance of the tool point from the joint axes, such as the reach of the arm, m; with angular rows in
+            characteristic lengths. The root mean square over the joints is sufficient. Infinite for a pose: any lengths.
+        angular: True if some rows are angular, which makes the columns longer.
 
     Raises:
-        InputError: As :func:`upper_bound`; a lever that is not positive, or infinite where the task is no pose.
+        InputError: As :func:`upper_bound`; a lever that is not positive, or is infinite although the task is not a pose.
 
     Source: derived here (``docs/theory/upper-bounds-proofs.md``, S0 to S3).
     """
-    upper_bound(n=n, m=m, k=k)  # the same sizes have one
+    upper_bound(n=n, m=m, k=k)  # validates the sizes
     is_pose = angular and m == _POSE_ROWS
     if not lever > 0 or not (is_pose or isfinite(lever)):
         raise InputError(f"the lever is {lever:g}; give a positive length in m, infinite for a pose alone")
@@ -152,10 +152,11 @@ def bound_singular_value_of_index(index: SingularValueProblem) -> SingularValueB
     """Return the upper bound for the arm, the task, and the failures of an index; the lengths of the links bound the levers.
 
     Args:
-        index: Of the least singular value, :func:`holdfast.kinematics.indices.minimum_singular_value`.
+        index: Index :func:`holdfast.kinematics.indices.minimum_singular_value`.
 
     Returns:
-        SingularValueBound, or None: Not every set of so many joints is among the failures, or a prismatic joint has no limit.
+        SingularValueBound, or None if a set of this number of joints is missing in the failures, or a prismatic joint has no
+        limit.
 
     Source: derived here.
     """

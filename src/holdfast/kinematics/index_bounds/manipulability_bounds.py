@@ -21,7 +21,7 @@ from holdfast.kinematics.index_bounds.frames import known_null_space, orthogonal
 from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
 from holdfast.kinematics.index_bounds.theorems import ProvedBound, best_proved_bound
 
-_ATTAINED_TOLERANCE = 1e-9  # relative: the bounds by programmes are rounded up in the last digits
+_ATTAINED_TOLERANCE = 1e-9  # relative: the bounds of the programs are rounded up in the last digits
 _ORTHONORMAL_TOLERANCE = 1e-12
 _MAX_JOINTS = 200  # joints
 
@@ -31,7 +31,7 @@ class TaskSize(Protocol):
 
     @property
     def m(self) -> int:
-        """Rows."""
+        """Number of rows."""
 
 
 class ArmSize(Protocol):
@@ -39,7 +39,7 @@ class ArmSize(Protocol):
 
     @property
     def n(self) -> int:
-        """Joints."""
+        """Number of joints."""
 
 
 class FailureProblem(Protocol):
@@ -47,11 +47,11 @@ class FailureProblem(Protocol):
 
     @property
     def arm(self) -> ArmSize:
-        """Its arm."""
+        """Arm of the problem."""
 
     @property
     def task(self) -> TaskSize:
-        """Its task."""
+        """Task of the problem."""
 
     @property
     def failures(self) -> tuple[tuple[int, ...], ...]:
@@ -63,9 +63,9 @@ class UpperBound(Result):
     """Upper bound of relative manipulability after the worst k failures of n joints under a task of m rows.
 
     Attributes:
-        n, m, k: Joints, rows of the task, joints that fail at once.
-        bound: No configuration of any arm has more.
-        bound_by: The theorems that prove it, names of ``docs/theory/upper-bounds-proofs.md``.
+        n, m, k: Number of joints, of rows of the task, and of joints that fail at once.
+        bound: Largest value of any configuration of any arm, 0 to 1.
+        bound_by: Theorems that prove the bound, by their names in ``docs/theory/upper-bounds-proofs.md``.
     """
 
     n: int
@@ -76,37 +76,35 @@ class UpperBound(Result):
 
     @cached_property
     def null_space(self) -> FloatArray | None:
-        """(n, n - m) orthonormal columns, the best null space known; None where nothing is stored and no theorem gives one."""
+        """Best known null space, (n, n - m) orthonormal columns; None if none is stored and no theorem gives one."""
         return _best_null_space(self.n, self.m, self.k)
 
     @cached_property
     def best_known(self) -> float | None:
-        """Largest value that a known Jacobian attains, the worst case of :attr:`null_space`; None where nothing is known."""
+        """Largest value that a known Jacobian attains, the worst case of :attr:`null_space`; None if none is known."""
         if self.null_space is None:
             return None
-        return min(
-            worst_relative_manipulability(self.null_space, self.k), self.bound
-        )  # which it passes by rounding where it attains it
+        return min(worst_relative_manipulability(self.null_space, self.k), self.bound)  # rounding may exceed an attained bound
 
     @property
     def is_attained(self) -> bool:
-        """True where some Jacobian reaches the bound (relative 1e-9): then it is the ceiling itself."""
+        """True if some Jacobian attains the bound (relative 1e-9), so that the bound cannot be lowered."""
         return self.best_known is not None and self.best_known >= self.bound * (1 - _ATTAINED_TOLERANCE)
 
     @property
     def closed_form(self) -> str:
-        """Best known value in roots, where recognised; it is identified by its digits unless a theorem T proves it."""
+        """Closed form of the best known value, if recognised by its digits; only a theorem T proves it."""
         own, complementary = ((self.n, *pair) for pair in ((self.m, self.k), (self.k, self.m)))
         return CLOSED_FORMS.get(own) or (CLOSED_FORMS.get(complementary, "") if self.k == self.n - self.m else "")
 
     @property
     def gap(self) -> float | None:
-        """Fraction by which the bound is above the best known value; 0 where it is attained."""
+        """Fraction by which the bound exceeds the best known value; 0 if it is attained."""
         return None if self.best_known is None else 0.0 if self.is_attained else self.bound / self.best_known - 1
 
     @property
     def gap_phrase(self) -> str:
-        """Phrase with the distance between the best known value and the bound; empty where the bound is attained."""
+        """Phrase with the distance between the best known value and the bound; empty if the bound is attained."""
         if self.is_attained:
             return ""
         if self.best_known is None:
@@ -114,7 +112,7 @@ class UpperBound(Result):
         return f"an upper bound; the best known is {self.best_known:.4f}"
 
     def compare_value(self, value: float) -> str:
-        """Return a value in relation to the bound, as ``69 % of the best known 0.2474; no arm can beat 0.2582``."""
+        """Compare ``value``, 0 to 1, with the bound, as ``69 % of the best known 0.2474; no arm can beat 0.2582``."""
         if self.is_attained or self.best_known is None:
             return f"{format_percent(value / self.bound)} of {self.bound:.4g}, which no arm can beat"
         return (
@@ -123,11 +121,13 @@ class UpperBound(Result):
         )
 
     def verify(self) -> UpperBound:
-        """Recompute the value of the stored null space by singular values and compare it with the bound; return the object
-        itself. ``python -m measurements.upper_bounds.proofs`` in the repository replays the proof of the bound.
+        """Recompute the value of the stored null space by singular values, compare it with the bound, and return the object.
+
+        ``python -m measurements.upper_bounds.proofs`` in the repository replays the proof of the bound.
 
         Raises:
-            InputError: The null space is not orthonormal to 1e-12, or its value beats the bound: one of both is wrong.
+            InputError: The null space is not orthonormal to 1e-12, or its value exceeds the bound, so that one of the two is
+                wrong.
         """
         if self.null_space is None:
             return self
@@ -140,20 +140,20 @@ class UpperBound(Result):
                 f"the null space of {self.n},{self.m},{self.k} is not orthonormal: N'N - I is {orthonormality_error:.1e}"
             )
         if value > self.bound * (1 + 1e-12):
-            raise InputError(f"{value:.12g} beats the proven bound {self.bound:.12g}: one of both is wrong")
+            raise InputError(f"{value:.12g} exceeds the proved bound {self.bound:.12g}: one of the two is wrong")
         return self
 
 
 def upper_bound(*, n: int, m: int, k: int = 1) -> UpperBound:
-    """The ceiling for n joints, a task of m rows and k joints that fail at once.
+    """Return the upper bound for n joints, a task of m rows and k joints that fail at once.
 
     Args:
-        n: Joints, revolute or prismatic.
-        m: Rows of the task.
-        k: Every set of k joints may lock.
+        n: Number of joints, revolute or prismatic.
+        m: Number of rows of the task.
+        k: Number of joints that fail; every set of k joints may lock.
 
     Raises:
-        InputError: Not whole numbers, no redundancy, or fewer joints left than the task has rows.
+        InputError: An argument is not a whole number, there is no redundancy, or too few joints remain for the task.
     """
     for name, value in (("n", n), ("m", m), ("k", k)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
@@ -161,45 +161,43 @@ def upper_bound(*, n: int, m: int, k: int = 1) -> UpperBound:
     if m < 1:
         raise InputError(f"m is {m}; a task has at least 1 row")
     if n > _MAX_JOINTS:
-        raise InputError(f"{n} joints are more than the {_MAX_JOINTS} that ceilings are computed for")
+        raise InputError(f"{n} joints are more than the {_MAX_JOINTS} for which upper bounds are computed")
     if n <= m:
-        raise InputError(f"{n} joints for {count_rows(m)} of the task: there is no redundancy, nothing can be lost")
+        raise InputError(f"{n} joints for {count_rows(m)} of the task: there is no redundancy, so no joint may fail")
     if k < 1:
         raise InputError(f"k is {k}; at least one joint must fail")
     if k > n - m:
         raise InputError(
-            f"after {k} failures the task has {n - k} joints for {count_rows(m)}: the ceiling is 0; give k of at most {n - m}"
+            f"after {k} failures the task has {n - k} joints for {count_rows(m)}: the bound is 0; give k of at most {n - m}"
         )
     bound: ProvedBound = best_proved_bound(int(n), int(m), int(k))
     return UpperBound(n=int(n), m=int(m), k=int(k), bound=bound.value, bound_by=bound.by)
 
 
 def bound_of_index(index: FailureProblem) -> UpperBound | None:
-    """Return the upper bound for the arm, the task, and the failures of an index of relative manipulability.
+    """Return the upper bound for the arm, task, and failures of ``index``, an index of relative manipulability.
 
-    Of failures of several sizes the largest counts: what locks besides only takes more.
+    The largest failure sets decide, because a lock of further joints cannot raise the index.
 
     Returns:
-        UpperBound, or None: Not every set of that many joints is among the failures, and no ceiling of all arms holds for them.
+        UpperBound, or None if a set of that number of joints is not among the failures, so that no bound of all arms holds.
     """
     k = max_simultaneous_failures(index)
     return None if k is None else upper_bound(n=index.arm.n, m=index.task.m, k=k)
 
 
 def max_simultaneous_failures(index: FailureProblem) -> int | None:
-    """Return the largest number of joints for which every set is among the failures; None if the largest sets are
-    incomplete.
-    """
+    """Return the largest number of joints for which every set is among the failures; None if those sets are incomplete."""
     k = max(map(len, index.failures))
     return None if sum(len(s) == k for s in index.failures) < comb(index.arm.n, k) or index.arm.n > _MAX_JOINTS else k
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class UpperBoundTable(Result):
-    """The stored ceilings.
+    """Stored upper bounds.
 
     Attributes:
-        ceilings: By rows, failures and joints.
+        ceilings: Upper bounds, sorted by rows, failures and joints.
     """
 
     ceilings: list[UpperBound]
@@ -209,7 +207,7 @@ def bound_table(m: int | None = None) -> UpperBoundTable:
     """Return the stored upper bounds of two and three failures: up to ten joints, tasks of two to six rows.
 
     Args:
-        m: Those of tasks of m rows alone.
+        m: Number of rows of the task, 2 to 6; default: all.
 
     Raises:
         InputError: Nothing is stored for tasks of m rows.

@@ -1,6 +1,4 @@
-"""Relative manipulability that remains after k failures, from a null-space basis alone, in NumPy and independent of
-any search.
-"""
+"""Relative manipulability after k failures from a null-space basis, in NumPy and independent of any search."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ def worst_relative_manipulability(null_space: FloatArray, k: int) -> float:
 
     Args:
         null_space: (n, p) orthonormal columns.
-        k: Joints that lock at once, 1 to p.
+        k: Number of joints that lock at once, 1 to p.
 
     Returns:
         ``min sqrt(det(N_S N_S'))`` over the sets S of k rows.

@@ -1,6 +1,6 @@
 """Proved upper bounds of relative manipulability after k failures, for every arm of n joints and task of m rows.
 
-A bound is the smallest value that the theorems imply, and it carries the names of the theorems used.
+A bound is the smallest value that the theorems imply, and it carries the names of these theorems.
 ``docs/theory/upper-bounds-proofs.md`` contains the proofs.
 """
 
@@ -23,7 +23,7 @@ THEOREM_TEXTS = {
     "R4": "a geometric program for each class of pseudoline arrangements, certificates replayed in ball arithmetic",
 }
 
-# Upper bounds by ``measurements/upper_bounds/minor_programmes.py``, replayed in balls and rounded up: n -> c(n, 3, 3).
+# Upper bounds by ``measurements/upper_bounds/minor_programmes.py``, verified in ball arithmetic, rounded up: n -> c(n, 3, 3).
 ARRANGEMENT_BOUNDS = {7: 0.08677541905, 8: 0.06087465665, 9: 0.04671897819}
 
 # Bounds that the certificates of ``measurements/upper_bounds/pair_certificates.json`` prove: (n, m) -> c(n, n - m, 2).
@@ -45,9 +45,9 @@ class ProvedBound(NamedTuple):
     """Value that no arm can exceed.
 
     Attributes:
-        value: Of the relative manipulability.
-        by: Theorems it rests on, such as ``"R1 with R2"``.
-        replayed: The certificates it rests on, each by its theorem, joints and redundancy.
+        value: Upper bound of the relative manipulability.
+        by: Theorems that prove it, such as ``"R1 with R2"``.
+        replayed: Certificates that it needs, each by theorem, joints and redundancy.
     """
 
     value: float
@@ -60,9 +60,9 @@ def best_proved_bound(n: int, m: int, k: int) -> ProvedBound:
     """Return the least proved upper bound after the worst k failures.
 
     Args:
-        n: Joints.
-        m: Rows of the task, 1 to n - 1.
-        k: Joints that fail at once, 1 to n - m.
+        n: Number of joints.
+        m: Number of rows of the task, 1 to n - 1.
+        k: Number of joints that fail at once, 1 to n - m.
 
     Source: derived here; Cauchy and Binet for ``CB``.
     """
@@ -75,7 +75,7 @@ def best_proved_bound(n: int, m: int, k: int) -> ProvedBound:
             for b in [*_bounds_of_theorems(n, m, m), *_bounds_by_successive_failures(n, m, m)]
         ]
     smallest = min(bound.value for bound in bounds)
-    return next(bound for bound in bounds if bound.value <= smallest * (1 + 1e-12))  # of equal ones the first, the simplest
+    return next(bound for bound in bounds if bound.value <= smallest * (1 + 1e-12))  # the first of equal bounds is the simplest
 
 
 def _bounds_of_theorems(n: int, p: int, k: int) -> list[ProvedBound]:
@@ -111,7 +111,7 @@ def _bounds_by_successive_failures(n: int, p: int, k: int) -> list[ProvedBound]:
 
 
 def _name_rules(rule: str, *others: str) -> str:
-    """Return the rule and the other rules that it uses and that need a mention."""
+    """Return the name of a rule with the other rules that it uses and that need a mention."""
     words = [w for by in others for w in by.replace(" with ", " and ").split(" and ")]
     used_rules = [w for w in dict.fromkeys(words) if w not in (rule, "T1", "R1", "CB")]
     if rule == "T3" and used_rules in ([], ["T2"]):

@@ -1,7 +1,7 @@
 """Manipulability and relative manipulability after a failure, from the null space of J.
 
 Both are invariant to ``J -> A J``: rho for every invertible A, the manipulability for det A = 1. A task of all six rows
-therefore uses the Jacobian with the most zeros, and the null-space form needs no determinant of a reduced Jacobian: one
+therefore uses the Jacobian with the most zeros. The null-space form needs no determinant of a reduced Jacobian, so one
 factorisation serves every failure.
 """
 
@@ -37,8 +37,8 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, TaskSpec
 from holdfast.model.failure_modes import FailureSpec
 
-_ZERO_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
-_ZERO_RHO = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
+_ZERO_SCORE = 1e-12  # below this square a root is replaced by a straight line, whose slope is finite
+_ZERO_RHO = 1e-12  # below this rho is 0 up to rounding, and its gradient is 0 by convention
 
 
 class RelativeManipulability(Index):
@@ -47,9 +47,10 @@ class RelativeManipulability(Index):
     :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
     task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
 
-    The bound is the least proven one (:mod:`holdfast.kinematics.index_bounds`). That of one failure at a time is attained by
-    some Jacobian of any size; of several at a time ``best_known`` is what some Jacobian attains, ``attained`` whether that is
-    the bound.
+    The bound is the least proved one (:mod:`holdfast.kinematics.index_bounds`). For one failure at a time some Jacobian of any
+    size attains it. For several failures ``best_known`` is attained by some Jacobian, and ``is_attained`` is true if it equals
+    the bound. The arguments ``arm``, ``task``, ``failures`` and ``length``, m, are those of
+    :class:`Index`.
 
     Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma.
     """
@@ -86,15 +87,15 @@ class RelativeManipulability(Index):
         return ca.SX(1)
 
     def _squared_ratios(self, qr: HouseholderQR) -> list[SX]:
-        """rho^2 of every failure."""
+        """Return rho^2 of every failure."""
         rows = qr.null_space_basis()
         return [gram_determinant([rows[joint] for joint in locked]) for locked in self.failures]
 
     def _is_regular(self, qr: HouseholderQR) -> SX:
-        """Return True only where J is certainly not singular, and False also where the factorisation divided by zero.
+        """Return True only if J is certainly not singular, and False also if the factorisation divided by zero.
 
-        The product of the singular values bounds the smallest one from below: by the means inequality
-        ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor covers the change of frame and point.
+        The product of the singular values bounds the smallest one from below, by the inequality of means:
+        ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor accounts for the change of frame and point.
         """
         length = max(self.task.length, 1 / self.task.length)
         reach = sum(float(np.linalg.norm(x.origin[:3, 3])) for x in self.arm.joints) + float(
@@ -121,7 +122,7 @@ class RelativeManipulability(Index):
         q, j, qr = self._symbols
         if all(len(s) == 1 for s in self.failures):
             cotangent = self._jacobian_derivative(qr)
-            # Through the kinematics by reverse differentiation of J alone: fewer operations, and exact.
+            # Reverse differentiation of the kinematics by J alone, which is exact and needs fewer operations.
             seed = ca.SX.sym("seed", self.task.m, self.arm.n)
             pull_back = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
             g = pull_back(q, cotangent)
@@ -129,7 +130,7 @@ class RelativeManipulability(Index):
             smallest_square, scale = select_smallest(self._squared_ratios(qr)), self._scale_of_ratio(qr)
             rho = ca.sqrt(smallest_square)
             derivative = ca.if_else(rho > _ZERO_RHO, 0.5 / rho, 0.0)
-            # Held apart so that no root is differentiated at 0.
+            # Held apart, so that no root is differentiated at 0.
             s, b = ca.SX.sym("scale"), ca.SX.sym("best")
             outer = ca.jtimes(ca.vertcat(scale, smallest_square), q, ca.vertcat(b, s), True)
             g = ca.substitute(ca.vertcat(outer), ca.vertcat(s, b), ca.vertcat(scale * derivative, rho))
@@ -160,7 +161,7 @@ class RelativeManipulability(Index):
         return -ca.vertcat(*a) @ (ca.horzcat(*p) * derivative)
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """``rho^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        """Return ``rho^2`` per failure and its derivatives; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Index.scores`."""
         if any(len(s) != 1 for s in self.failures):
             values = self._squared_ratios(qr)
             return values, directional_derivatives(values, q, directions)
@@ -168,14 +169,14 @@ class RelativeManipulability(Index):
         return values, slopes_by_joint
 
     def value_of_score(self, score: SX) -> SX:
-        """The root of a square, with a finite slope at 0; see :meth:`Index.value_of_score`."""
+        """Return the root of ``score``, a square, with a finite slope at 0; see :meth:`Index.value_of_score`."""
         smallest = _ZERO_SCORE
         return ca.if_else(score > smallest, ca.sqrt(ca.if_else(score > smallest, score, 1.0)), score / smallest**0.5)
 
     def _squares_and_derivatives(
         self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]
     ) -> tuple[list[SX], list[list[SX]], list[SX]]:
-        """``rho_k^2`` and ``d rho_k^2 = -2 a_k' dJ P e_k`` along each direction, and ``tr(J^+ dJ)`` for each direction."""
+        """Return ``rho_k^2``, ``d rho_k^2 = -2 a_k' dJ P e_k`` and ``tr(J^+ dJ)`` along each direction."""
         n, m = self.arm.n, self.task.m
         rows = qr.null_space_basis()
         projector = [[dot_product(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
@@ -233,11 +234,11 @@ class RelativeManipulability(Index):
         return self._build_gradient(marked=False)
 
     def row_function(self) -> RowFunction:
-        """See :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
+        """Return the batch function; see :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
         return replace(super().row_function(), kernels=(self._worst_kernel, self._gradient_kernel), marked=True)
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
+        """Return the worst case, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m; 0 at a singular configuration."""
         rows, single = self._read_configurations(q)
         values, marked = self._worst_kernel.marked_rows(rows)
         value = values[:, 0]
@@ -247,7 +248,7 @@ class RelativeManipulability(Index):
         return value[0] if single else value
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
-        """See :meth:`Index.worst_case`: of these the kernel finds the worst failure itself."""
+        """Return value, worst failure and status at ``q`` (N, n) or (n,), as :meth:`Index.worst_case` does, from one kernel."""
         rows, single = self._read_configurations(q)
         outputs, marked = self._worst_failure_kernel.marked_rows(rows)
         value, status = np.ascontiguousarray(outputs[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
@@ -285,7 +286,7 @@ class RelativeManipulability(Index):
 
 
 class Manipulability(RelativeManipulability):
-    r"""Manipulability :math:`{}^Sr = \sqrt{\det({}^SJ\,{}^SJ^\top)}` left when joints S lock; unit of det of the rows.
+    r"""Manipulability :math:`{}^Sr = \sqrt{\det({}^SJ\,{}^SJ^\top)}` after joints S lock; its unit is that of det of the rows.
 
     Source: Abdi, Maciejewski, Nahavandi 2012, eq. (1) and (2).
     """
@@ -294,17 +295,17 @@ class Manipulability(RelativeManipulability):
     _formula_name = "manipulability"
 
     def _set_scale_and_bound(self) -> None:
-        # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
+        # The invariant Jacobian is not divided by the characteristic length, so the factor is applied here.
         self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
         linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))
-        # For an arm of revolute joints: each linear row brings one length.
+        # For an arm of revolute joints each linear row contributes one length.
         self.unit = "1" if linear == 0 or self.task.length != 1.0 else ("m" if linear == 1 else f"m^{linear}")
 
     def _scale_of_ratio(self, qr: HouseholderQR) -> SX:
         return qr.singular_value_product() * self._rows_scale
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """``kr^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        """Return ``kr^2`` per failure and its derivatives; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Index.scores`."""
         if any(len(locked) != 1 for locked in self.failures):
             volume = self._scale_of_ratio(qr) ** 2
             values = [volume * x for x in self._squared_ratios(qr)]
@@ -332,7 +333,10 @@ class Manipulability(RelativeManipulability):
 def relative_manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> RelativeManipulability:
-    """Worst-case relative manipulability, 0 to 1; Abdi et al. 2012, eq. (3), (4)."""
+    """Worst-case relative manipulability, 0 to 1; Abdi et al. 2012, eq. (3), (4).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return RelativeManipulability(arm, task, failures, length=length)
 
 
@@ -340,5 +344,8 @@ def relative_manipulability(
 def manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> Manipulability:
-    """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2)."""
+    """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return Manipulability(arm, task, failures, length=length)

@@ -1,4 +1,4 @@
-"""Indices defined by one formula of the reduced Jacobian, including a user's own formula."""
+"""Indices defined by one formula of the reduced Jacobian, including user-defined formulas."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ Formula = Callable[..., SX]
 
 
 class FormulaIndex(Index):
-    """The worst case over the failures of one formula of the reduced Jacobian, with its exact gradient: what most indices are.
+    """Worst case, over the failures, of one formula of the reduced Jacobian, with its exact gradient; base of most indices.
 
     Raises:
-        TaskError: When it is first asked, if the formula does not return one scalar.
+        TaskError: At the first evaluation, if the formula does not return one scalar.
     """
 
     @abstractmethod
     def formula(self, j: SX) -> SX:
-        """The value, a scalar, of the reduced task Jacobian (m, n - |S|), linear rows divided by the characteristic length."""
+        """Return the scalar value of a reduced task Jacobian ``j``, ``(m, n - |S|)``, linear rows divided by the length."""
 
     def _evaluate_formula(self, j: SX, q: SX, joints: Sequence[int]) -> SX:
-        """Compute the formula for the joints that still work, whose columns the Jacobian has."""
+        """Compute the formula for the joints that still work, which are the columns of the Jacobian."""
         del q, joints
         return self.formula(j)
 
@@ -71,7 +71,7 @@ class FormulaIndex(Index):
         return Kernel(f"{self.name} gradient", [q], [ca.gradient(worst, q)])
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """The formula for every failure, negated if smaller is better, and its derivatives; see :meth:`Index.scores`."""
+        """Return values, negated if smaller is better; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Index.scores`."""
         symbols, formulas = self._joint_symbols_and_values()
         sign = 1.0 if self.better == "larger" else -1.0
         values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * value for value in formulas]), symbols, q))
@@ -97,20 +97,20 @@ class FormulaIndex(Index):
 
 @check_constructor
 class CustomIndex(FormulaIndex):
-    """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
+    """Worst case, over the failures, of ``formula(reduced Jacobian)``, with its exact gradient.
 
     Args:
-        formula: ``formula(j)`` or ``formula(j, q, joints)``, which returns a scalar CasADi ``SX``: ``j`` is the reduced task
-            Jacobian ``(m, n - |S|)``, ``q`` the configuration ``(n,)``, and ``joints`` the indices from 0 of the joints that
-            still work, one for each column of ``j``. Its parameters decide which of the two it is.
-        arm: The arm.
-        task: As for every index.
-        failures: As for every index.
-        length: As for every index.
-        name: For people and files.
-        unit: Of the value.
-        better: ``"larger"`` or ``"smaller"``.
-        bound: The best value possible, if known.
+        formula: Function ``formula(j)`` or ``formula(j, q, joints)`` that returns a scalar CasADi ``SX``. ``j`` is the reduced
+            task Jacobian ``(m, n - |S|)``, ``q`` the configuration ``(n,)``, and ``joints`` the indices from 0 of the joints
+            that still work, one for each column of ``j``. The parameters of the function decide between the two forms.
+        arm: Arm model.
+        task: Task, as for :class:`Index`.
+        failures: Failure sets, as for :class:`Index`.
+        length: Characteristic length, m, as for :class:`Index`.
+        name: Name for people and files.
+        unit: Unit of the value.
+        better: ``"larger"`` or ``"smaller"``, the better direction.
+        bound: Best possible value in the unit of the index, if known.
 
     Raises:
         TaskError: The formula raises an error, or does not return one scalar.
@@ -136,11 +136,11 @@ class CustomIndex(FormulaIndex):
         self._formula = formula
 
     def formula(self, j: SX) -> SX:
-        """See :meth:`FormulaIndex.formula`."""
+        """Return the user's formula of ``j``; see :meth:`FormulaIndex.formula`."""
         return self._evaluate_formula(j, ca.SX.zeros(0), ())
 
     def with_failures(self, failures: FailureSpec) -> CustomIndex:
-        """See :meth:`Index.with_failures`."""
+        """Return the same index over other ``failures``; see :meth:`Index.with_failures`."""
         return CustomIndex(
             self._formula,
             self.arm,
@@ -158,7 +158,7 @@ class CustomIndex(FormulaIndex):
             return ca.SX(self._formula(*arguments))
         except HoldfastError:
             raise
-        except Exception as error:  # a formula may raise anything, CasADi among it
+        except Exception as error:  # a formula, or CasADi, may raise any error
             reason = str(error).strip().splitlines()[-1] if str(error).strip() else type(error).__name__
             raise TaskError(f"{self.name}: its formula failed for a Jacobian of shape {j.shape}: {reason}") from error
 
@@ -167,7 +167,7 @@ def _takes_joints(formula: Formula) -> bool:
     """Return True for a formula with the required parameters j, q and joints."""
     try:
         parameters = signature(formula).parameters.values()
-    except (TypeError, ValueError):  # functions of C have no signature
+    except (TypeError, ValueError):  # functions written in C have no signature
         return False
     required = [
         parameter

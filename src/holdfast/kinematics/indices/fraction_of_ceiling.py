@@ -17,11 +17,10 @@ _ATTAINED_TOLERANCE = 1e-9  # relative
 
 
 class CeilingFraction(RelativeManipulability):
-    r"""Smallest relative manipulability after any failure, as a fraction of the best value known for the number of locked
-    joints.
+    r"""Smallest relative manipulability after any failure, divided by the best known value for that number of locked joints.
 
     :math:`\min_S \rho_S / c(n, m, |S|)` with the best known :math:`c` (:func:`holdfast.kinematics.index_bounds.upper_bound`),
-    or the least proven bound where nothing is known. One number for failures of one, two and three joints at once.
+    or the least proved bound if none is known. One number combines failures of one, two and three joints at once.
 
     Source: derived here.
     """
@@ -45,7 +44,7 @@ class CeilingFraction(RelativeManipulability):
         return super()._combine_derivative(qr, rho, a, p) / self._attainable[1]
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """Squares of the fractions and their derivatives; see :meth:`Index.scores`."""
+        """Return squared fractions and their derivatives; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Index.scores`."""
         values, derivatives = super().scores(q, j, qr, directions)
         if any(len(s) != 1 for s in self.failures):
             return values, derivatives  # of _squares
@@ -57,5 +56,8 @@ class CeilingFraction(RelativeManipulability):
 def ceiling_fraction(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> CeilingFraction:
-    """Relative manipulability of the best known for so many joints that lock, the least over all failures; derived here."""
+    """Relative manipulability over the best known for the number of locked joints, the least over all failures; derived here.
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return CeilingFraction(arm, task, failures, length=length)

@@ -1,4 +1,4 @@
-"""The base class of all indices."""
+"""Base class of all indices."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ from holdfast.model.failure_modes import FailureSpec, failure_names, failure_set
 from holdfast.model.failure_modes.sets import require_redundant
 
 SINGULAR_RATIO = 1e-12
-"""A Jacobian is singular if its smallest singular value is at most this times its largest: the same everywhere."""
+"""A Jacobian is singular if its smallest singular value is at most this multiple of its largest, everywhere in holdfast."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class IndexEvaluation:
-    """An index at N configurations, or at one (then without the leading N).
+    """Values of an index at N configurations, or at one configuration (without the leading N).
 
     Attributes:
-        value: (N,) the worst case over the failures.
-        by_failure: (N, F) the value for each failure, in the order of ``index.failures``.
-        worst: (N,) position in ``index.failures`` of the failure that attains the worst case; the first one of several.
-        status: (N,) ``OK``, ``SINGULAR`` (value by convention), ``BAD_INPUT``, or ``UNDEFINED`` where the formula of an index
-            of one's own gives NaN.
+        value: (N,) worst case over the failures.
+        by_failure: (N, F) value for each failure, in the order of ``index.failures``.
+        worst: (N,) position in ``index.failures`` of the worst failure; the first one of several.
+        status: (N,) ``OK``, ``SINGULAR`` (value by convention), ``BAD_INPUT``, or ``UNDEFINED`` if the formula of a
+            user-defined index gives NaN.
     """
 
     value: FloatArray
@@ -53,10 +53,10 @@ class IndexEvaluation:
 
 @dataclass(frozen=True)
 class WorstCase:
-    """Part of an :class:`IndexEvaluation` that concerns the worst failure alone.
+    """Worst failure at N configurations, or at one: a part of :class:`IndexEvaluation`.
 
     Attributes:
-        value, worst, status: As there.
+        value, worst, status: (N,) each, as in :class:`IndexEvaluation`.
     """
 
     value: FloatArray
@@ -65,18 +65,23 @@ class WorstCase:
 
 
 class Index(Labelled, Objective):
-    """A number that rates a configuration after any one of a set of failures.
+    """Number that rates a configuration by its worst case after any one of a set of failures.
+
+    Args:
+        name: Name for people and files.
+        arm: Arm model.
+        task: :class:`holdfast.Task`, its name, or row names such as ``["vx", "vy"]``.
+        failures: ``"single"``, ``"pairs"``, a number k (every k joints), or sets of joints by name or index from 0.
+        length: Characteristic length, m, that divides linear rows; default: that of the task, 1 m.
 
     Attributes:
-        name: For people and files.
-        unit: Of the value; ``1`` if it has none.
-        better: ``"larger"`` or ``"smaller"``.
-        arm, task: What it is an index of.
         failures: Sets of joints, indices from 0, that fail together.
+        unit: Unit of the value; ``1`` if it has none.
+        better: ``"larger"`` or ``"smaller"``, the better direction.
         source: Paper and equation.
-        bound: The value no configuration can beat, or None if there is none.
-        bound_note: What is known of how near one can come to it, a phrase; empty where some Jacobian of this size attains it.
-        ceiling: Bound and best known value for all arms of this size, where there are such.
+        bound: Best value of any configuration, or None if it is unlimited.
+        bound_note: Phrase on how closely the bound can be approached; empty if some Jacobian of this size attains it.
+        ceiling: Bound and best known value for all arms of this size, or None.
     """
 
     better: Better = "larger"
@@ -103,48 +108,48 @@ class Index(Labelled, Objective):
 
     @property
     def best_known(self) -> float | None:
-        """Largest value that a Jacobian of this size is known to attain; None where no value is known."""
+        """Largest value that some Jacobian of this size is known to attain; None if no value is known."""
         return None if self.ceiling is None else self.ceiling.best_known
 
     @property
     def is_attained(self) -> bool:
-        """True where the best known value is the bound."""
+        """True if the best known value equals the bound."""
         return self.ceiling is not None and self.ceiling.is_attained
 
-    # ---- what a formula provides -------------------------------------------------------------------------------
+    # ---- methods of a formula -------------------------------------------------------------------------------
 
     @abstractmethod
     def _evaluate_by_failure(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
+        """Return values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
 
     @abstractmethod
     def _evaluate_gradient(self, q: FloatArray) -> FloatArray:
-        """Gradient (N, n) of the worst case, NaN where q (N, n) is not finite."""
+        """Return the gradient (N, n) of the worst case, NaN where q (N, n) is not finite."""
 
-    # ---- what a user asks --------------------------------------------------------------------------------------
+    # ---- evaluation --------------------------------------------------------------------------------------
 
     @property
     def singular_value_by_convention(self) -> float:
-        """The value at a singular configuration: 0, or infinity if smaller is better."""
+        """Value at a singular configuration: 0, or infinity if smaller is better."""
         return 0.0 if self.better == "larger" else np.inf
 
     @cached_property
     def failure_names(self) -> list[str]:
-        """Joint names, joined by ``+`` where several fail together."""
+        """Names of the failed joints, joined by ``+`` if several fail together."""
         return failure_names(self.arm, self.failures)
 
     def evaluate(self, q: ArrayLike) -> IndexEvaluation:
-        """Value, value per failure, worst failure and status in one pass.
+        """Return value, value per failure, worst failure and status in one pass.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Raises:
-            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+            InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = self._read_configurations(q)
         by_failure, singular = self._evaluate_by_failure(rows)
-        # A NaN, if there is any.
+        # NaN if any value is NaN.
         worst_failures = by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)
         worst = worst_failures.astype(np.int64, copy=False)
         value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
@@ -159,10 +164,10 @@ class Index(Labelled, Objective):
         )
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
-        """Value, worst failure and status, without the values of the other failures: for very many configurations.
+        """Return value, worst failure and status without the other failures, for very many configurations.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Raises:
             InputError: As :meth:`evaluate`.
@@ -171,52 +176,52 @@ class Index(Labelled, Objective):
         return WorstCase(evaluation.value, evaluation.worst, evaluation.status)
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
+        """Return the worst case, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m; 0 at a singular configuration."""
         return self.evaluate(q).value
 
     def by_joint(self, q: ArrayLike) -> FloatArray:
-        """The value for each failure, (N, F) or (F,); for single failures one column per joint."""
+        """Return the value for each failure (single failures: each joint), (N, F) or (F,), at ``q`` (N, n) or (n,)."""
         return self.evaluate(q).by_failure
 
     def worst_failure(self, q: ArrayLike) -> IndexArray:
-        """Position in ``failures`` of the worst one, (N,) or a scalar."""
+        """Return the position in ``failures`` of the worst one, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m."""
         return self.evaluate(q).worst
 
     def worst_joint(self, q: ArrayLike) -> IndexArray:
-        """Index from 0 of the joint whose failure is the worst, (N,) or a scalar.
+        """Return the index from 0 of the joint with the worst failure, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m.
 
         Raises:
-            TaskError: Some failures are of several joints; ask for :meth:`worst_failure`.
+            TaskError: Several joints fail together; use :meth:`worst_failure` instead.
         """
         if any(len(failure) != 1 for failure in self.failures):
-            raise TaskError(f"{self.name}: several joints fail together here; ask for worst_failure and failure_names")
+            raise TaskError(f"{self.name}: several joints fail together here; use worst_failure and failure_names")
         return np.array([failure[0] for failure in self.failures], dtype=np.int64)[self.evaluate(q).worst]
 
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Exact gradient of the worst case, (N, n) or (n,), per rad and m.
+        """Return the exact gradient of the worst case at ``q`` (N, n) or (n,), of the same shape, per rad and m.
 
-        Where two failures tie it is that of the first. It is 0 at a singular configuration and where the worst case is 0
-        whatever the joints do (both are kinks or constants), and NaN where q is.
+        If two failures tie, the gradient is that of the first. It is 0 at a singular configuration and where the worst case is
+        constantly 0 (both are kinks or constants), and NaN where q is NaN.
         """
         rows, single = self._read_configurations(q)
         gradient = self._evaluate_gradient(rows)
         return gradient[0] if single else gradient
 
     def singular(self, q: ArrayLike) -> BoolArray:
-        """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
+        """Return True where the task Jacobian of the healthy arm is singular, (N,) or a scalar, at ``q`` (N, n) or (n,)."""
         rows, single = self._read_configurations(q)
         finite: BoolArray = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """Smooth functions of q whose smallest is largest where the index is best, one per failure: for optimisation.
+        """Return for optimisation one smooth function of q per failure; their minimum is largest where the index is best.
 
         Args:
-            q: (n,) symbols.
-            j: The Jacobian that was factored.
-            qr: Its factorisation.
-            directions: (n,) each, a basis of the null space of J.
+            q: (n,) symbols of the configuration.
+            j: Jacobian that was factored.
+            qr: Factorisation of j.
+            directions: (n,) vectors, a basis of the null space of J.
 
         Returns:
             F scores, and their derivatives along each direction, F lists.
@@ -227,15 +232,15 @@ class Index(Labelled, Objective):
         raise TaskError(f"{self.name} cannot be optimised: it has no scores; use one of the built-in indices or a CustomIndex")
 
     def value_of_score(self, score: SX) -> SX:
-        """The value that a score stands for, its negative where smaller is better: an increasing function of the score."""
+        """Return the value (negative if smaller is better) of a ``score``, an increasing function of it."""
         return score
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """The scores, as one part; see :meth:`Objective.parts`."""
+        """Return the scores as one part; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Objective.parts`."""
         return [ObjectivePart(1.0, *self.scores(q, j, qr, directions))]
 
     def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """The values themselves, as one part; see :meth:`Objective.exact_parts`."""
+        """Return the values as one part; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Objective.exact_parts`."""
         scores, derivatives = self.scores(q, j, qr, directions)
         score_symbol = ca.SX.sym("score")
         value = self.value_of_score(score_symbol)
@@ -248,19 +253,19 @@ class Index(Labelled, Objective):
         return [ObjectivePart(1.0, values, exact)]
 
     def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
-        """``SINGULAR`` where the value is a convention; see :meth:`Objective.row_statuses`."""
+        """Return ``SINGULAR`` for rows of ``q`` (N, n) whose value is a convention; see :meth:`Objective.row_statuses`."""
         return self.evaluate(q).status
 
     @property
     def own_task(self) -> Task:
-        """The task of the index."""
+        """Task of the index."""
         return self.task
 
     def with_failures(self, failures: FailureSpec) -> Index:
-        """Build the same index over other failures.
+        """Return the same index over other ``failures``, in any form that the constructor accepts.
 
         Raises:
-            InputError: The index is of a class of one's own.
+            InputError: The index has a user-defined class.
         """
         return by_name(INDEX_REGISTRY.label(self), self.arm, self.task, failures=failures)
 
@@ -273,11 +278,11 @@ class Index(Labelled, Objective):
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])
 
     def task_jacobian(self, q: FloatArray) -> FloatArray:
-        """Task Jacobian (N, m, n) for q (N, n), linear rows divided by the characteristic length."""
+        """Return task Jacobians (N, m, n) at ``q`` (N, n), rad and m, linear rows divided by the characteristic length."""
         return self._task_jacobian.rows(q).reshape(-1, self.task.m, self.arm.n)
 
     def _is_singular(self, q: FloatArray) -> BoolArray:
-        """The definition itself, by singular values of the task Jacobian."""
+        """Return which rows are singular by definition, from singular values of the task Jacobian."""
         if not len(q):
             return np.zeros(0, dtype=bool)
         singular_values = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
@@ -288,11 +293,11 @@ class Index(Labelled, Objective):
 
     @property
     def slug(self) -> str:
-        """The name as used on the command line and in files."""
+        """Name on the command line and in files."""
         return self.name.replace(" ", "-")
 
     def describe(self) -> str:
-        """One phrase for people: what it is, of which task, after which failures."""
+        """Return a phrase with the name of the index, its task and its failures."""
         kinds = {len(s) for s in self.failures}
         failures_text = (
             "any one joint" if kinds == {1} and len(self.failures) == self.arm.n else f"{len(self.failures)} failure sets"
@@ -312,11 +317,13 @@ def by_name(
     failures: FailureSpec = "single",
     length: float | None = None,
 ) -> Index:
-    """A built-in index by its label: ``relative-manipulability``, or ``directional-velocity:0,0,1``.
+    """Return the built-in index with the label ``name``: ``relative-manipulability``, or ``directional-velocity:0,0,1``.
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`Index`.
 
     Raises:
-        TaskError: There is no such index; the message has the nearest, and all.
-        InputError: A setting that the index does not have, or one that is missing.
+        TaskError: There is no such index; the message contains the nearest name and all names.
+        InputError: A setting is missing, or the index does not have it.
     """
     index: Index = INDEX_REGISTRY.make(name, arm, task=task, failures=failures, length=length)
     return index

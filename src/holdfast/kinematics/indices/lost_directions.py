@@ -1,4 +1,4 @@
-"""Loss of end-effector speed by a failure at one configuration, from the Jacobian alone, in plain NumPy."""
+"""Loss of end-effector speed by a failure at one configuration, computed from the Jacobian in plain NumPy."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from holdfast.kinematics.indices.index import SINGULAR_RATIO
 
 @dataclass(frozen=True)
 class Ellipsoid:
-    """Velocities of the tool point for joint rates of norm 1; Yoshikawa 1985.
+    """Ellipsoid of the tool-point velocities for joint rates of norm 1; Yoshikawa 1985.
 
     Attributes:
-        axes: (3, 3) its principal axes as the columns of a rotation, world frame.
-        radii: (3,) m/s for rates of norm 1, in the order of the axes, largest first.
+        axes: (3, 3) principal axes as the columns of a rotation, world frame.
+        radii: (3,) speeds, m/s, for rates of norm 1, in the order of the axes, largest first.
     """
 
     axes: FloatArray
@@ -29,8 +29,8 @@ class DirectionLoss:
     """Direction of the task in which a failure reduces the speed.
 
     Attributes:
-        kept: Share of the healthy arm's speed that is left in this direction, 0 (lost) to 1, at rates of norm 1.
-        direction: (m,) unit vector of the task's rows: what the Jacobian's left vectors are made of.
+        kept: Fraction of the healthy arm's speed that remains in this direction, 0 (lost) to 1, at rates of norm 1.
+        direction: (m,) unit vector in the task's rows, a combination of the Jacobian's left singular vectors.
     """
 
     kept: float
@@ -38,7 +38,7 @@ class DirectionLoss:
 
     @property
     def lost(self) -> bool:
-        """True if no motion that has a part in this direction is possible any more."""
+        """True if no motion with a component in this direction is possible any more."""
         return self.kept <= 1e-6
 
 
@@ -47,7 +47,7 @@ def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellip
 
     Args:
         j: (3, n) linear rows of the Jacobian, world frame.
-        failed: Joints, from 0, that stay still.
+        failed: Indices from 0 of the joints that do not move.
     """
     directions, sigma, _ = np.linalg.svd(zero_failed_columns(j, failed), full_matrices=True)
     radii = np.zeros(3)
@@ -62,12 +62,12 @@ def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLos
 
     With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
     ``u = U S^-1 w`` with w a right singular vector of W, speeds shrink to ``sqrt(1 - sigma(W)^2)``, and across these
-    directions nothing changes. Of one joint k this share is its relative manipulability rho_k (Abdi et al. 2012, eq. (3)).
-    Directions that the healthy arm does not have either are left out.
+    directions nothing changes. For one joint k this fraction is its relative manipulability rho_k (Abdi et al. 2012, eq. (3)).
+    Directions that the healthy arm lacks are left out.
 
     Args:
         j: (m, n) task Jacobian.
-        failed: Joints, from 0, that stay still.
+        failed: Indices from 0 of the joints that do not move.
     """
     if not len(failed):
         return []
@@ -77,7 +77,7 @@ def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLos
         return []
     w = vt[:rank, list(failed)].T  # (failed, rank)
     _, fractions, right = np.linalg.svd(w, full_matrices=False)
-    # cos(asin(x)) loses digits near 1; the null space says the same without: 1 - s^2 = (1 - s)(1 + s).
+    # cos(asin(x)) loses digits near 1; the null space avoids this by 1 - s^2 = (1 - s)(1 + s).
     remaining = np.sqrt(np.clip((1 - fractions) * (1 + fractions), 0.0, 1.0))
     found_losses = []
     for k, direction in zip(remaining, right, strict=True):
@@ -87,17 +87,16 @@ def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLos
 
 
 def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:
-    """Return ``sqrt(det(Jf Jf') / det(J J'))`` of any failed set: the product of the fractions; Abdi et al. 2012, eq. (3)."""
+    """Return ``sqrt(det(Jf Jf') / det(J J'))`` of a failed set: the product of its fractions; Abdi et al. 2012, eq. (3)."""
     return float(np.prod([loss.kept for loss in losses_found]))
 
 
 def null_space_joint_rates(j: FloatArray, failed: Sequence[int]) -> FloatArray:
-    """Return joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0 with failed joints locked;
-    orthonormal.
+    """Return orthonormal joint rates (r, n) that keep the task velocity at 0 with failed joints locked.
 
     Args:
         j: (m, n) task Jacobian.
-        failed: Joints, from 0, that stay still.
+        failed: Indices from 0 of the joints that do not move.
     """
     n = j.shape[1]
     moving = [k for k in range(n) if k not in set(failed)]
@@ -111,7 +110,7 @@ def null_space_joint_rates(j: FloatArray, failed: Sequence[int]) -> FloatArray:
 
 
 def zero_failed_columns(j: FloatArray, failed: Sequence[int]) -> FloatArray:
-    """Return the reduced Jacobian with the columns of failed joints set to 0, so that its shape stays."""
+    """Return the reduced Jacobian with the columns of failed joints set to 0, so that its shape is unchanged."""
     reduced = np.array(j)
     reduced[:, list(failed)] = 0.0
     return reduced

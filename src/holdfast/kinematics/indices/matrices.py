@@ -1,4 +1,4 @@
-"""Matrices and matrix invariants for users' own formulas, as functions of CasADi symbols."""
+"""Matrices and matrix invariants for user-defined formulas, as functions of CasADi symbols."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ def compute_inertia_matrix(arm: ArmData, q: SX) -> SX:
     """Compute the joint-space inertia matrix, payload and armature included.
 
     Args:
-        arm: The arm, with inertial data.
-        q: (n,) symbols, rad and m.
+        arm: Arm model with inertial data.
+        q: (n,) symbols of the configuration, rad and m.
 
     Returns:
-        (n, n) kg m^2 for revolute joints and kg for prismatic joints.
+        (n, n) matrix, kg m^2 for revolute joints and kg for prismatic joints.
 
     Raises:
         ArmError: Inertial data are missing or impossible.
@@ -34,16 +34,16 @@ def compute_inertia_matrix(arm: ArmData, q: SX) -> SX:
 def compute_singular_values(matrix: SX) -> SX:
     """Compute the singular values of a matrix by Jacobi rotations of its rows; the result can be differentiated.
 
-    The eigenvalues of ``matrix @ matrix.T`` are the squares.
+    The eigenvalues of ``matrix @ matrix.T`` are their squares.
 
     Args:
-        matrix: (m, c) with at most six rows and at least as many columns.
+        matrix: (m, c) matrix with at most six rows and at least as many columns.
 
     Returns:
-        (m,) in no particular order.
+        (m,) singular values in no particular order.
 
     Raises:
-        InputError: More than six rows, or fewer columns than rows.
+        InputError: The matrix has more than six rows, or fewer columns than rows.
     """
     m, columns = matrix.shape
     if not 1 <= m <= min(columns, _MAX_ROWS):
@@ -60,13 +60,13 @@ def compute_symmetric_eigenvalues(matrix: SX) -> SX:
     They are the singular values of the matrix plus twice its Frobenius norm on the diagonal, which is positive definite.
 
     Args:
-        matrix: (m, m) with at most six rows, symmetric; not all entries 0.
+        matrix: (m, m) symmetric matrix with at most six rows, not all entries 0.
 
     Returns:
-        (m,) in no particular order, to about 1e-15 of the Frobenius norm.
+        (m,) eigenvalues in no particular order, accurate to about 1e-15 of the Frobenius norm.
 
     Raises:
-        InputError: Not square, or more than six rows.
+        InputError: The matrix is not square, or has more than six rows.
     """
     m, columns = matrix.shape
     if m != columns:

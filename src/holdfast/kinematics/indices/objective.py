@@ -31,9 +31,9 @@ class ObjectivePart:
     """Term ``weight * min(values)`` of the sum that the optimiser maximises.
 
     Attributes:
-        weight: Above 0.
+        weight: Number above 0.
         values: F scalars.
-        slopes: Their derivatives along each null-space direction, F lists.
+        slopes: F lists of their derivatives along each null-space direction.
     """
 
     weight: float
@@ -42,15 +42,15 @@ class ObjectivePart:
 
 
 class Objective(Presentable, Differentiable, ABC):
-    """Number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
+    """Number that :func:`holdfast.optimise` improves: an index, a susceptibility, or a weighted sum of them.
 
     Objectives of one arm can be added, subtracted and multiplied by numbers: ``rho - 1e-4 * torque``.
 
     Attributes:
-        name: For people and files.
-        arm: The arm it belongs to.
-        better: ``"larger"`` or ``"smaller"``.
-        unit: Of the value; ``1`` if it has none.
+        name: Name for people and files.
+        arm: Arm model.
+        better: ``"larger"`` or ``"smaller"``, the better direction.
+        unit: Unit of the value; ``1`` if it has none.
     """
 
     name: str
@@ -65,56 +65,57 @@ class Objective(Presentable, Differentiable, ABC):
 
     @abstractmethod
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """The value at q (N, n) or (n,): (N,), or a scalar."""
+        """Return the value, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m."""
 
     @abstractmethod
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Exact gradient at q (N, n) or (n,), of the same shape, per rad and m; NaN where q is."""
+        """Return the exact gradient at ``q`` (N, n) or (n,), of the same shape, per rad and m; NaN where q is NaN."""
 
     def row_function(self) -> RowFunction:
-        """See :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
+        """Return the batch function; see :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
         return RowFunction(name=self.name, sizes=(self.arm.n,), size=None, value=self, slopes=lambda q: (self.gradient(q),))
 
     @abstractmethod
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return a sum of parts that is largest where the objective is best.
+        """Return terms whose sum is largest where the objective is best.
 
         Args:
-            q: (n,) symbols.
-            j: The Jacobian that was factored.
-            qr: Its factorisation.
-            directions: (n,) each, a basis of the null space of J.
+            q: (n,) symbols of the configuration.
+            j: Jacobian that was factored.
+            qr: Factorisation of j.
+            directions: (n,) vectors, a basis of the null space of J.
 
         Raises:
             TaskError: The objective is not one symbolic program.
         """
 
     def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return parts as :meth:`parts` does, but with a sum equal to the value (or its negative where smaller is better), so
-        that it can be added to others.
+        """Return terms whose sum equals the value (its negative if smaller is better), so that it can be added to others.
+
+        ``q``, ``j``, ``qr`` and ``directions`` are as in :meth:`parts`.
         """
         return self.parts(q, j, qr, directions)
 
     @property
     def measured(self) -> SX | None:
-        """Symbols (k,) in :meth:`parts` for numbers that :meth:`measure` computes; None if all of it is one program."""
+        """Symbols (k,) in :meth:`parts` for numbers that :meth:`measure` computes; None if the objective is one program."""
         return None
 
     def measure(self, q: FloatArray) -> FloatArray:
-        """The numbers (N, k) that ``measured`` stands for, at q (N, n)."""
+        """Return the numbers (N, k) for the symbols :attr:`measured`, at ``q`` (N, n), rad and m."""
         return np.empty((len(q), 0))
 
     def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
-        """Status of each row of q (N, n): ``SINGULAR`` where the value is a convention."""
+        """Return the status of each row of ``q`` (N, n): ``SINGULAR`` where the value is a convention."""
         return np.full(len(q), Status.OK, dtype=np.uint8)
 
     @property
     def own_task(self) -> Task | None:
-        """The task it is defined for; None if any will do."""
+        """Task for which the objective is defined; None if it is defined for every task."""
         return None
 
     def reversed(self) -> Objective:
-        """Return the objective with the opposite better direction, to find the worst configuration or to let it grow."""
+        """Return the objective with the opposite better direction, to find the worst configuration."""
         return NegatedObjective(self)
 
     # ---- arithmetic --------------------------------------------------------------------------------------------
@@ -142,19 +143,19 @@ class Objective(Presentable, Differentiable, ABC):
 class WeightedSum(Objective):
     """Weighted sum of objectives, such as those of English & Maciejewski 1998, section VII, and Abdi et al. 2012.
 
-    All summands must pull the same way: a susceptibility (smaller is better) beside an index (larger is better) needs a
-    weight of the other sign. The sum is better the way its first summand is.
+    All summands must have the same better direction: a susceptibility (smaller is better) in a sum with an index (larger is
+    better) needs a weight of the opposite sign. The better direction of the sum is that of its first summand.
 
     Args:
-        terms: Weights, not 0, and objectives of one arm.
-        name: For people; made of the summands if not given.
+        terms: Pairs of a weight, a number that is not 0, and an objective, all of one arm.
+        name: Name for people; default: composed of the summands.
 
     Attributes:
-        terms: The summands, sums among them taken apart.
+        terms: Weights and summands, with sums expanded.
 
     Raises:
-        InputError: No summand, a weight that is 0 or not finite, or summands of different arms.
-        TaskError: Summands that pull different ways, or that are defined for different tasks.
+        InputError: There is no summand, a weight is 0 or not finite, or the summands have different arms.
+        TaskError: The summands have opposite better directions, or are defined for different tasks.
     """
 
     def __init__(self, terms: Sequence[tuple[float, Objective]], name: str | None = None) -> None:
@@ -202,19 +203,19 @@ class WeightedSum(Objective):
 
     @property
     def own_task(self) -> Task | None:
-        """The task of its summands."""
+        """Task of the summands."""
         return self._task
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """The value at q (N, n) or (n,): (N,), or a scalar."""
+        """Return the value, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m."""
         return np.asarray(sum(w * objective(q) for w, objective in self.terms))
 
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Exact gradient at q (N, n) or (n,), of the same shape."""
+        """Return the exact gradient at ``q`` (N, n) or (n,), of the same shape, per rad and m."""
         return np.asarray(sum(w * objective.gradient(q) for w, objective in self.terms))
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """The parts of its summands."""
+        """Return the parts of the summands; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Objective.parts`."""
         return [
             ObjectivePart(abs(w) * part.weight, part.values, part.slopes)
             for w, objective in self.terms
@@ -228,11 +229,11 @@ class WeightedSum(Objective):
         return ca.vertcat(*symbols) if symbols else None
 
     def measure(self, q: FloatArray) -> FloatArray:
-        """Return the numbers of the summands; see :meth:`Objective.measure`."""
+        """Return the numbers (N, k) of the summands at ``q`` (N, n); see :meth:`Objective.measure`."""
         return np.concatenate([o.measure(q) for _, o in self.terms], axis=1)
 
     def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
-        """The first status of its summands that is not ``OK``."""
+        """Return for each row of ``q`` (N, n) the first status of a summand that is not ``OK``."""
         combined = np.full(len(q), Status.OK, dtype=np.uint8)
         for _, objective in self.terms:
             combined = np.where(combined == Status.OK, objective.row_statuses(q), combined)
@@ -244,17 +245,17 @@ class WeightedSum(Objective):
 
 @check_constructor
 class NegatedObjective(Objective):
-    """Objective with the opposite better direction, for the worst configuration of a pose.
+    """Objective with the opposite better direction, to find the worst configuration of a pose.
 
-    Multiplying by -1 is something else: it turns the number and what is wanted of it, so that the same configuration stays
-    the best one. The worst of an index often lies in a crease, where a failure leaves nothing at all; the optimiser
-    zigzags into it and finds it less surely than the best.
+    Multiplication by -1 differs: it changes the sign and the better direction, so the best configuration remains the best. The
+    worst value of an index often lies in a crease, where a failure removes all manipulability; the optimiser zigzags into the
+    crease and finds it less reliably than the best value.
 
     Args:
-        objective: What to make as bad as it gets.
+        objective: Objective to make as bad as possible.
 
     Attributes:
-        objective: The same.
+        objective: Original objective.
     """
 
     def __init__(self, objective: Objective) -> None:
@@ -263,24 +264,24 @@ class NegatedObjective(Objective):
         self.better = "smaller" if objective.better == "larger" else "larger"
 
     def reversed(self) -> Objective:
-        """The objective itself."""
+        """Return the original objective."""
         return self.objective
 
     @property
     def own_task(self) -> Task | None:
-        """The task of the objective."""
+        """Task of the objective."""
         return self.objective.own_task
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """The value of the objective at q (N, n) or (n,): (N,), or a scalar."""
+        """Return the value of the objective, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m."""
         return self.objective(q)
 
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Return the gradient of the objective."""
+        """Return the gradient of the objective at ``q`` (N, n) or (n,), of the same shape, per rad and m."""
         return self.objective.gradient(q)
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return the negatives of the objective's parts; of the worst of several failures only the first."""
+        """Return negated parts, of several failures the first; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`parts`."""
         opposed = []
         for part in self.objective.exact_parts(q, j, qr, directions):
             derivative, value = select_at_smallest(part.values, [ca.vertcat(*row) for row in part.slopes])
@@ -289,15 +290,15 @@ class NegatedObjective(Objective):
 
     @property
     def measured(self) -> SX | None:
-        """Symbols of the objective."""
+        """Symbols of the objective; see :attr:`Objective.measured`."""
         return self.objective.measured
 
     def measure(self, q: FloatArray) -> FloatArray:
-        """Return the numbers of the objective."""
+        """Return the numbers (N, k) of the objective at ``q`` (N, n); see :meth:`Objective.measure`."""
         return self.objective.measure(q)
 
     def row_statuses(self, q: FloatArray) -> NDArray[np.uint8]:
-        """Return the statuses of the objective."""
+        """Return the status of each row of ``q`` (N, n); see :meth:`Objective.row_statuses`."""
         return self.objective.row_statuses(q)
 
     def __repr__(self) -> str:

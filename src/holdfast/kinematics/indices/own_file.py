@@ -1,4 +1,4 @@
-"""Indices in a user's own file, written as ``module:function``, with a digest of their source."""
+"""Indices in a user's own file, named ``module:function``, with a digest of their source."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class FileIndex(CustomIndex):
     """Index whose formula is a function of a Python file.
 
     Attributes:
-        digest: SHA-256 of the source of the function and of all that it uses of its file.
+        digest: SHA-256 of the source of the function and of all definitions in the file that it uses.
     """
 
     slug = ""
@@ -34,7 +34,7 @@ class FileIndex(CustomIndex):
         self.slug, self.digest = label, digest
 
     def with_failures(self, failures: FailureSpec) -> FileIndex:
-        """See :meth:`Index.with_failures`."""
+        """Return the same index over other failures; see :meth:`Index.with_failures`."""
         return FileIndex(self.slug, self._formula, self.digest, self.arm, self.task, failures=failures)
 
 
@@ -49,7 +49,7 @@ def load_index(
     """Load the index ``module:function`` from the current folder, or else from an installed module.
 
     Raises:
-        InputError: There is no such file or function, or the file cannot be run.
+        InputError: There is no such file or function, or the file raises an error.
     """
     module, _, name = function.partition(":")
     file = _find_module_file(module, function)
@@ -63,7 +63,7 @@ def load_index(
             exec(compile(text, file, "exec"), module_object.__dict__)
         finally:
             sys.path.remove(str(Path.cwd()))
-    except Exception as error:  # a file of somebody's own may raise anything
+    except Exception as error:  # a user's file may raise any error
         raise InputError(f"index '{function}': '{file.name}' cannot be run ({type(error).__name__}: {error})") from error
     formula = getattr(module_object, name, None)
     if not callable(formula):
@@ -77,10 +77,10 @@ def plan_entries(index: Index) -> dict[str, str]:
 
 
 def check_function_digest(index: Index, plan: Mapping[str, Any]) -> None:
-    """Compare the function of an index with that of a stored plan.
+    """Compare the function of an index with the function of a stored plan.
 
     Raises:
-        StoreError: The function is another one.
+        StoreError: The function differs.
     """
     if isinstance(index, FileIndex) and index.digest != plan["index_digest"]:
         raise StoreError(
@@ -105,7 +105,7 @@ def _find_module_file(module: str, label: str) -> Path:
 
 
 def source_digest(text: str, name: str) -> str:
-    """Compute the SHA-256 of a function and of every statement of its file that it uses, directly or not."""
+    """Return the SHA-256 of a function and of every statement of its file that it uses, directly or indirectly."""
     body = ast.parse(text).body
     needed, used_names = {name}, set[int]()
     while True:
@@ -120,7 +120,7 @@ def source_digest(text: str, name: str) -> str:
 
 
 def _concerns_names(node: ast.stmt, needed: set[str]) -> bool:
-    """Return whether a statement concerns one of the names: defines it, imports it, or, if any other statement, has it."""
+    """Return whether a statement defines or imports one of the names or, for any other statement, contains one."""
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return node.name in needed
     if isinstance(node, ast.If) and "__name__" in ast.unparse(node.test):

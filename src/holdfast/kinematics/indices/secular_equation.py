@@ -2,7 +2,7 @@
 
 Rotated into its left singular vectors, ``J J'`` is ``D = diag(d)``, column k is w, and the reduced Jacobian has the Gram
 matrix ``G = D - w w'``. Its eigenvalues are the roots of the secular equation ``sum w_i^2 / (d_i - x) = 1``, one below each
-d_i. Every function here returns a value and its derivative by G; a fixed number of steps finds them, whatever the numbers.
+d_i. Every function here returns a value and its derivative by G, computed in a fixed number of steps.
 
 Source of the secular equation: Golub 1973; of the quadrature: Hale, Higham, Trefethen 2008, method 3.
 """
@@ -21,9 +21,9 @@ from holdfast.kernels.program import SX
 Matrix = list[Vector]
 
 _SECULAR_NEWTON_STEPS = 9
-_ZERO_ENTRY = 1e-10  # of the Frobenius norm: entries of w below it stand for 0, which would divide 0 by 0
+_ZERO_ENTRY = 1e-10  # relative to the Frobenius norm: smaller entries of w are replaced, because they would divide 0 by 0
 _QUADRATURE_NODES = 18
-_QUADRATURE_RANGE = 1e-4  # of the Frobenius norm: smaller singular values count as this far only roughly, in the mean
+_QUADRATURE_RANGE = 1e-4  # relative to the Frobenius norm: smaller singular values enter the mean only approximately
 
 
 def smallest_singular_value(d: Vector, w: Vector) -> tuple[SX, Matrix]:

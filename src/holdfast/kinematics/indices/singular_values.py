@@ -1,7 +1,7 @@
 """Indices of the singular values of the reduced Jacobian: means, smallest value, and condition number.
 
-Singular values come from one-sided Jacobi sweeps on the rows (relative accuracy also for the small ones); one sweep is
-one kernel, and rows of the batch that have converged drop out.
+Singular values come from one-sided Jacobi sweeps on the rows (with relative accuracy also for the small ones); one sweep is
+one kernel, and converged rows leave the batch.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 
 _MAX_SWEEPS = 30
 _CONVERGENCE_TOLERANCE = 1e-14
-_SCORE_SWEEPS = 5  # in one straight-line program, for the scores
-_ROOT_OFFSET = 1e-100  # added to a squared manipulability, so that its root has a slope
+_SCORE_SWEEPS = 5  # sweeps in one straight-line program, for the scores
+_ROOT_OFFSET = 1e-100  # added to a squared manipulability, so that its root has a finite slope
 _ZERO_SCORE = 1e-12
-_BLOCK_ROWS = 1024  # with every failure some thousand small matrices: they stay in the cache
+_BLOCK_ROWS = 1024  # with every failure a few thousand small matrices, which stay in the cache
 
 _SOURCE_EQUATIONS = {
     "mean": ("mean singular value", "Abdi et al. 2012, eq. (7)"),
@@ -74,7 +74,8 @@ class JacobiRotator:
 class SpectralIndex(Index):
     r"""Index of the singular values :math:`{}^S\sigma_1 \ge \dots \ge {}^S\sigma_m` of the reduced Jacobian.
 
-    Linear rows are divided by the task's characteristic length, which every one of these indices depends on.
+    Linear rows are divided by the characteristic length of the task, on which all these indices depend. ``formula`` is one of
+    the names below; ``arm``, ``task``, ``failures`` and ``length``, m, are the arguments of :class:`Index`.
 
     Source: Abdi, Maciejewski, Nahavandi 2012, eq. (7) to (10).
     """
@@ -100,7 +101,7 @@ class SpectralIndex(Index):
 
     @cached_property
     def _rotator(self) -> JacobiRotator:
-        # A locked column set to zero leaves the same singular values as a column left out, so one width serves all.
+        # A locked column set to zero leaves the singular values of the reduced Jacobian, so one width serves all failures.
         return JacobiRotator(self.task.m, self.arm.n)
 
     @cached_property
@@ -144,18 +145,18 @@ class SpectralIndex(Index):
     # ---- symbols -----------------------------------------------------------------------------------------------------
 
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
-        """The index for every failure, or a monotone function of it, and its derivatives; see :meth:`Index.scores`.
+        """Return a monotone function of the index per failure and its derivatives; ``q``, ``j`` as in :meth:`Index.scores`.
 
-        The geometric mean comes from the manipulability, the condition number is scored by its inverse. The others are not
-        invariant to the frame, so they take the task Jacobian whatever ``j`` is: one singular value decomposition of the
-        healthy arm serves all failures.
+        The geometric mean comes from the manipulability, and the condition number is scored by its inverse. The other indices
+        are not invariant to the frame, so they use the task Jacobian for any ``j``: one singular value decomposition of the
+        healthy arm serves all failures. ``qr`` and ``directions`` are as in :meth:`Index.scores`.
 
-        For joints that fail together that program would be too long to compile (44,000 operations for 7 single failures by
-        plain Jacobi sweeps took 39 s): values and gradients are measured and handed in.
+        For joints that fail together the program would take too long to compile (44,000 operations for 7 single failures by
+        plain Jacobi sweeps took 39 s), so values and gradients are computed outside and passed in.
         """
         if self.formula == "geometric mean":
             squares, derivatives = Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
-            # Not the squares themselves: they are of the order of 1e-6 for a pose, which the ascent resolves poorly.
+            # Not the squares, because they are about 1e-6 for a pose, which the ascent resolves poorly.
             geometric_means = [(square + _ROOT_OFFSET) ** (0.5 / self.task.m) for square in squares]
             factors = [
                 g / (2 * self.task.m * (square + _ROOT_OFFSET)) for g, square in zip(geometric_means, squares, strict=True)
@@ -175,7 +176,7 @@ class SpectralIndex(Index):
         vectors = (
             ca.vertcat(*[ca.horzcat(*x) / (square + np.finfo(float).tiny) for x, square in zip(turned, d, strict=True)]) @ j.T
         )
-        changes = []  # of U' J, and of the Gram matrix U' J J' U
+        changes = []  # derivatives of U' J, and of the Gram matrix U' J J' U
         for v in directions:
             change = vectors @ ca.reshape(ca.jtimes(ca.vec(ca.densify(j)), q, v), m, n)
             half_change = change @ ca.vertcat(*[ca.horzcat(*x) for x in turned]).T
@@ -201,12 +202,12 @@ class SpectralIndex(Index):
 
     @property
     def measured(self) -> SX | None:
-        """Scores and their gradients where joints fail together; see :attr:`Objective.measured`."""
+        """Symbols of scores and gradients if joints fail together; see :attr:`Objective.measured`."""
         together = any(len(s) != 1 for s in self.failures) and self.formula != "geometric mean"
         return self._measured_symbols if together else None
 
     def measure(self, q: FloatArray) -> FloatArray:
-        """Scores of all failures, then their gradients; see :meth:`Objective.measure`."""
+        """Return the scores of all failures, then their gradients, at ``q`` (N, n); see :meth:`Objective.measure`."""
         if self.measured is None:
             return super().measure(q)
         outputs = np.empty((len(q), len(self.failures) * (1 + self.arm.n)))
@@ -230,10 +231,10 @@ class SpectralIndex(Index):
         return np.concatenate([score.reshape(len(q), count), gradients.reshape(len(q), count * n)], axis=1)
 
     def value_of_score(self, score: SX) -> SX:
-        """The score itself, of the condition number its negative inverse; see :meth:`Index.value_of_score`."""
+        """Return the ``score``, or its negative inverse for the condition number; see :meth:`Index.value_of_score`."""
         if self.formula != "condition number":
             return score
-        positive = score > _ZERO_SCORE  # below, the inverse is drawn as a straight line, whose slope is finite
+        positive = score > _ZERO_SCORE  # below, the inverse is replaced by a straight line, whose slope is finite
         positive_score = ca.if_else(positive, score, _ZERO_SCORE)
         return -1 / positive_score + ca.if_else(positive, 0, score - _ZERO_SCORE) / _ZERO_SCORE**2
 
@@ -284,7 +285,10 @@ class SpectralIndex(Index):
 def mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
-    """Worst-case arithmetic mean of the singular values; Abdi et al. 2012, eq. (7)."""
+    """Worst-case arithmetic mean of the singular values; Abdi et al. 2012, eq. (7).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return SpectralIndex("mean", arm, task, failures=failures, length=length)
 
 
@@ -295,7 +299,10 @@ def mean_singular_value(
 def geometric_mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
-    """Worst-case geometric mean of the singular values; Abdi et al. 2012, eq. (8)."""
+    """Worst-case geometric mean of the singular values; Abdi et al. 2012, eq. (8).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return SpectralIndex("geometric mean", arm, task, failures=failures, length=length)
 
 
@@ -303,7 +310,10 @@ def geometric_mean_singular_value(
 def minimum_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
-    """Worst-case smallest singular value; Abdi et al. 2012, eq. (9)."""
+    """Worst-case smallest singular value; Abdi et al. 2012, eq. (9).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return SpectralIndex("minimum", arm, task, failures=failures, length=length)
 
 
@@ -311,5 +321,8 @@ def minimum_singular_value(
 def condition_number(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
-    """Worst-case condition number, smaller is better; Abdi et al. 2012, eq. (10)."""
+    """Worst-case condition number, smaller is better; Abdi et al. 2012, eq. (10).
+
+    ``arm``, ``task``, ``failures`` and ``length`` (m) are the arguments of :class:`holdfast.kinematics.indices.Index`.
+    """
     return SpectralIndex("condition number", arm, task, failures=failures, length=length)

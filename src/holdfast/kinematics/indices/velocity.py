@@ -26,20 +26,20 @@ _DEPENDENT_SINE_SQUARED = 1e-24  # square of the sine of an angle that is roundi
 class DirectionalVelocity(FormulaIndex):
     r"""Largest speed along u for joint rates of norm 1, :math:`1/\sqrt{u^\top({}^SJ{}^SJ^\top)^{-1}u}`.
 
-    All other rows of the task are at rest meanwhile; what the task leaves free may move. The characteristic length has no part
-    in it. It is the distance of the row of J along u from the span of the others, and so 0 where the failed arm cannot move
-    along u alone.
+    All other rows of the task are at rest, and components that the task leaves free may move. The characteristic length does
+    not matter. The value is the distance of the row of J along u from the span of the other rows, and therefore 0 if the failed
+    arm cannot move along u alone.
 
     Args:
-        arm: The arm.
-        direction: (3,) in the axes of the task's frame, of any length.
-        task, failures, length: As for every index.
+        arm: Arm model.
+        direction: (3,) vector in the axes of the task's frame, of any length.
+        task, failures, length: Task, failure sets, and characteristic length, m, as for :class:`Index`.
 
     Raises:
-        InputError: A direction that is not three finite numbers, or 0.
-        TaskError: A direction that the task does not prescribe.
+        InputError: The direction does not consist of three finite numbers, or is 0.
+        TaskError: The task does not prescribe the direction.
 
-    Source: Chiu 1988, the velocity transmission ratio, of the reduced Jacobian.
+    Source: Chiu 1988, the velocity transmission ratio, applied to the reduced Jacobian.
     """
 
     slug, unit, source = "directional-velocity", "m/rad", "Chiu 1988"
@@ -70,11 +70,11 @@ class DirectionalVelocity(FormulaIndex):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """See :attr:`Index.settings`."""
+        """Settings with the direction; see :attr:`Index.settings`."""
         return {"direction": self.direction}
 
     def formula(self, j: SX) -> SX:
-        """See :meth:`FormulaIndex.formula`."""
+        """Return the speed for a reduced Jacobian ``j``; see :meth:`FormulaIndex.formula`."""
         size = float(np.linalg.norm(self._along))
         first = self._along / size
         k = int(np.abs(first).argmax())
@@ -90,7 +90,7 @@ class DirectionalVelocity(FormulaIndex):
 
 
 def _orthogonal_part(row: Vector, basis: list[Vector]) -> tuple[Vector, SX]:
-    """Return a row without its parts along orthonormal vectors, and its square; 0 where that is rounding noise."""
+    """Return a row without its parts along orthonormal vectors, and its square; 0 if the rest is rounding noise."""
     squared_length = dot_product(row, row)
     for unit in [*basis, *basis]:  # twice is enough: Giraud et al. 2005
         part = dot_product(row, unit)
@@ -108,7 +108,7 @@ def _is_prescribed(task: Task, direction: FloatArray) -> bool:
 def _prescribed(arm: Arm, task: TaskSpec) -> FloatArray:
     """Return a direction that a task prescribes: an axis if one is prescribed."""
     task_object = as_task(arm, task)
-    # Of all combinations of rows the one that turns least.
+    # The combination of rows with the least rotation.
     translations = task_object.rows.T @ np.linalg.svd(task_object.rows[:, 3:].T)[2][-1]
     candidates: list[FloatArray] = [*np.eye(3), *task_object.rows[:, :3], translations[:3]]
     return next((u for u in candidates if u.any() and _is_prescribed(task_object, u)), candidates[0])
@@ -123,5 +123,9 @@ def directional_velocity(
     failures: FailureSpec = "single",
     length: float | None = None,
 ) -> DirectionalVelocity:
-    """Worst-case largest speed along a direction for joint rates of norm 1, the other rows of the task at rest; Chiu 1988."""
+    """Worst-case largest speed along a direction for joint rates of norm 1, the other rows of the task at rest; Chiu 1988.
+
+    ``direction`` is (3,) in the task's frame; ``arm``, ``task``, ``failures`` and ``length`` (m) are as for
+    :class:`holdfast.kinematics.indices.Index`.
+    """
     return DirectionalVelocity(arm, direction, task, failures=failures, length=length)

@@ -14,9 +14,9 @@ from holdfast.kinematics.interval_search.boxes import Blocked, BoxContractor
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
-_BOX_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: boxes of about this size are joined
-_MAX_JOINED_BOXES = 20_000  # boxes at most
-_MAX_NEIGHBOR_PAIRS = 10_000_000  # of them, all together, at most
+_BOX_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: approximate sizes of the boxes that are joined
+_MAX_JOINED_BOXES = 20_000  # maximum number of boxes
+_MAX_NEIGHBOR_PAIRS = 10_000_000  # maximum number of touching pairs of boxes
 _CONTACT_TOLERANCE = 1e-12
 
 
@@ -34,28 +34,28 @@ def prove_leg_impossible(
     most_boxes: int = 20_000_000,
     blocked: Blocked | None = None,
 ) -> int | None:
-    """Prove that no continuous motion follows a straight leg of a path from end to end, wherever it begins.
+    """Prove that no continuous motion follows a straight leg of a path from end to end, for any start configuration.
 
-    The configurations of all poses of the leg, each with its place on it, are covered by boxes. A motion along the leg, also
-    one that turns back now and then, stays within them, from one that holds the beginning to one that holds the end, through
-    boxes that touch. Where no chain of boxes does that, there is no motion; else those of the chains are halved.
+    Boxes cover the configurations of all poses of the leg, each with its position on the leg. A motion along the leg, also one
+    that temporarily reverses, stays within these boxes and passes through touching boxes from the beginning to the end. If no
+    chain of touching boxes connects both ends, there is no motion; otherwise the boxes of the chains are bisected.
 
     Args:
-        arm: The arm.
-        task: Whose rows are met all the way; the orientation wanted stays the same.
-        pose: (4, 4) of the end effector where the leg begins, world, m.
-        way: (3,) from there to its end, m.
-        limits: (n,) and (n,), finite, rad and m; equal where a joint is locked.
-        tolerance: m and rad by which each row may be missed: the proof is about all these.
-        time_limit: s after which there is no proof.
-        most_boxes: The same, of boxes.
-        blocked: As of :func:`holdfast.all_configurations`.
+        arm: Arm model.
+        task: Task whose rows are met along the whole leg with the same target orientation.
+        pose: (4, 4) pose of the end effector at the beginning of the leg, world, m.
+        way: (3,) vector from the beginning to the end of the leg, m.
+        limits: (n,) lower and (n,) upper limits, finite, rad and m; equal for a locked joint.
+        tolerance: Allowed error of each row, m and rad; the proof covers all poses within it.
+        time_limit: Time limit, s; the search then ends without a proof.
+        most_boxes: Maximum number of boxes; the search then ends without a proof.
+        blocked: Function of boxes as for :func:`holdfast.all_configurations`.
 
     Returns:
-        How many boxes the proof took, up to floating point; None without a proof.
+        Number of boxes that the proof took, up to floating point; None without a proof.
 
     Raises:
-        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
+        TaskError: No bounds exist for the task, or the pose is tilted out of the plane of a planar arm.
 
     Source: derived here; bounds of ``holdfast/kinematics/interval_search/box_bounds.py``.
     """
@@ -91,9 +91,9 @@ def prove_leg_impossible(
 
 
 def _connected_to_both_ends(boxes: FloatArray) -> BoolArray | None:
-    """Return (N,) True for boxes (N, 2, n) in a chain of touching boxes from the last joint at 0 to the last joint at 1.
+    """Return (N,) True for boxes (N, 2, n) in a chain of touching boxes from value 0 to value 1 of the last joint.
 
-    None if too many touch.
+    The result is None if too many boxes touch.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -102,12 +102,12 @@ def _connected_to_both_ends(boxes: FloatArray) -> BoolArray | None:
     if not len(boxes):
         return np.zeros(0, dtype=bool)
     centers, half_widths = boxes[:, 0], boxes[:, 1]
-    widest = half_widths.max(axis=0) + _CONTACT_TOLERANCE  # of each joint on its own: as near as boxes that touch must be
+    widest = half_widths.max(axis=0) + _CONTACT_TOLERANCE  # of each joint: touching boxes are at most this far apart
     tree, neighbor_distance = cKDTree(centers / widest), 2.0
     if tree.count_neighbors(tree, neighbor_distance, p=np.inf) > _MAX_NEIGHBOR_PAIRS:
         return None
     first, second = tree.query_pairs(neighbor_distance, p=np.inf, output_type="ndarray").T
-    for center_values, widths in zip(centers.T, half_widths.T, strict=True):  # joint by joint: there are many pairs
+    for center_values, widths in zip(centers.T, half_widths.T, strict=True):  # joint by joint, because there are many pairs
         touching = np.abs(center_values[first] - center_values[second]) <= widths[first] + widths[second] + _CONTACT_TOLERANCE
         first, second = first[touching], second[touching]
     _, label = connected_components(coo_array((np.ones(len(first)), (first, second)), shape=(len(boxes),) * 2), directed=False)

@@ -1,26 +1,27 @@
-"""Bounds over a box of joints: one kernel for all boxes, poses and failures of an arm and a task.
+"""Bounds over a box of joint values: one kernel for all boxes, poses and failures of an arm and a task.
 
-Over a box with centre c and half widths h the rows of a task are ``e(q) = e(c) + J (q - c) + r`` with ``|r_i| <= b_i``: J is
-exact, and b bounds what the second derivatives and more do over the box: the lesser of a bound of these everywhere, and of
-what they are at c, row by row, and a bound of the third derivatives.
+Over a box with centre c and half widths h the rows of a task are ``e(q) = e(c) + J (q - c) + r`` with ``|r_i| <= b_i``. J is
+exact, and b bounds the terms of second and higher order over the box. It is the smaller of a global bound of these terms, and
+of their values at c, row by row, plus a bound of the third derivatives.
 
-- ``rho_k``, a bound of the distance of the tool from axis k in the box, from the tool inwards, as only the joints beyond k
-  change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. Of a slide it is 1, the length of its column.
-- position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, and with every joint further in one more product with its
-  axis. So of all derivatives of order j with l outermost none is above rho_l, and with ``A_l = sum_{k<=l} h_k`` their part is
-  ``sum_l rho_l (A_l^j - A_{l-1}^j) / j!``; joints that slide count only as the outermost, once.
-- orientation: with the tool's axes ``a_i`` and those wanted ``d_i`` the rows are ``1/2 sum d_i x a_i``, or of the tool's z
-  axis alone its products with the wanted x and y axes. Both are linear in the axes, each derivative is at most 1 in any
-  direction, so that those of order j make ``S^j / j!`` with S the sum of the half widths of joints that turn. The second are
-  ``1/2 (D A' z_k) x z_l - (z_k . z_l) e`` with the columns of A and D the axes. The rows also vanish half a turn away, which
-  no box with ``S`` below the angle that is missed can hold: such boxes are empty.
+- ``rho_k``, a bound of the distance of the tool from axis k in the box, computed from the tool inwards, because only joints
+  beyond k change it: ``min(rho_k of the arm, |J_k(c)| + sum_{l>k} rho_l h_l)``. For a prismatic joint it is 1, its column's
+  norm.
+- position: ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l``, and each further joint adds one product with its axis. So no
+  derivative of order j with l outermost exceeds rho_l, and with ``A_l = sum_{k<=l} h_k`` their contribution is
+  ``sum_l rho_l (A_l^j - A_{l-1}^j) / j!``; prismatic joints count only as the outermost, once.
+- orientation: with the tool's axes ``a_i`` and the target axes ``d_i`` the rows are ``1/2 sum d_i x a_i``, or for the tool's z
+  axis alone its products with the target x and y axes. Both are linear in the axes and each derivative is at most 1 in any
+  direction, so terms of order j are at most ``S^j / j!`` with S the sum of the half widths of revolute joints. The second are
+  ``1/2 (D A' z_k) x z_l - (z_k . z_l) e`` with the axes as columns of A and D. The rows also vanish at half a turn, which no
+  box with ``S`` below the angle error can contain: such boxes are empty.
 
-A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i``; tried are the error's own
-direction and ``v = (J h^2 J' + b^2)^-1 e(c)``, the direction in which it is farthest in units of what the box can make of it.
+A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i``. Two directions are tried:
+the error's own, and ``v = (J h^2 J' + b^2)^-1 e(c)``, in which the error is largest relative to the extent of the box.
 
-For every matrix Y the solutions in a box obey ``q - c = -Y e(c) + (I - Y J)(q - c) - Y r`` (Krawczyk 1969 in this form): the
-right side is a box again, with ``Y = h^2 J' (J h^2 J' + b^2)^-1``. What lies outside it is cut away. If as many joints move as
-there are rows and it lies strictly inside, the box holds a solution (Brouwer).
+For every matrix Y the solutions in a box obey ``q - c = -Y e(c) + (I - Y J)(q - c) - Y r`` (Krawczyk 1969 in this form). The
+right side is a box again, with ``Y = h^2 J' (J h^2 J' + b^2)^-1``, and the part outside of it is cut away. If as many joints
+move as there are rows and the new box lies strictly inside, it contains a solution (Brouwer).
 
 Source: interval Newton methods (Krawczyk 1969; Neumaier 1990); the bounds and the choice of Y and v are ours.
 """
@@ -45,21 +46,20 @@ from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, plane_normal
 
-ROUNDING_M_RAD = 1e-9  # m and rad by which every bound is widened; the kernel's own errors are 1e-13
-_GRAM_REGULARIZATION = 1e-30  # keeps the inverse finite where a box and its remainder are nothing
-_ORIENTATION_WEIGHT_M = 0.35  # m: what 1 rad of a joint counts beside the way of the tool when the joint to halve is chosen
+ROUNDING_M_RAD = 1e-9  # m and rad by which every bound is widened; the rounding errors of the kernel are 1e-13
+_GRAM_REGULARIZATION = 1e-30  # keeps the inverse finite if a box and its remainder vanish
+_ORIENTATION_WEIGHT_M = 0.35  # m: weight of 1 rad of a joint relative to tool travel in the choice of the joint to bisect
 ORIENTATION_ROWS = {"none": 0, "axis": 2, "all": 3, "plane": 1}
 
 
 @dataclass(frozen=True)
 class BoundedTask:
-    """The components of a pose that a task prescribes, as far as bounds are available for them.
+    """Components of a pose that a task prescribes and for which bounds are available.
 
     Attributes:
         linear: (k, 3) rows of the position, world frame.
-        orientation: Of the orientation: ``none``, the tool's z ``axis``, ``all`` of it, or the turn in the ``plane`` of the
-            arm.
-        normal: (3,) of that plane.
+        orientation: ``none``, the tool's z ``axis``, ``all`` of the orientation, or the rotation in the ``plane`` of the arm.
+        normal: (3,) normal vector of that plane.
     """
 
     linear: tuple[tuple[float, ...], ...]
@@ -76,7 +76,7 @@ class BoundedTask:
         """Return the components of a task.
 
         Raises:
-            TaskError: Rows for which no bound is known.
+            TaskError: No bound is known for some rows.
         """
         rows = task.rows
         is_angular = np.abs(rows[:, 3:]).max(axis=1) > 0
@@ -102,15 +102,15 @@ class BoundedTask:
 
 @cached_kernel
 def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = False) -> Kernel:
-    """Build the kernel of an arm and a task's components, of a pose or ``is_along_leg`` a straight leg of a path.
+    """Build the kernel of an arm and a task's components, for a pose or, if ``is_along_leg``, for a straight leg of a path.
 
-    Inputs: centre (n,) and half widths (n,), rad and m; position (3,) and orientation (3, 3) wanted; by how much each row may
-    be missed (m,). Outputs: ``margin``, above 0 for a box that is empty; centre (n,) and half widths (n,) of what it can still
-    hold; ``inside``, below 0 where that is strictly inside of the joints that move; how much of the volume it is; which joint
-    to halve; from the centre to the middle of what it can hold (n,); the rows' error at the centre (m,).
+    Inputs: centre (n,) and half widths (n,), rad and m; target position (3,) and orientation (3, 3); allowed error of each row
+    (m,). Outputs: ``margin``, above 0 for an empty box; centre (n,) and half widths (n,) of the contracted box; ``inside``,
+    below 0 if it lies strictly inside in the joints that move; its fraction of the volume; the joint to bisect; the vector from
+    the old to the new centre (n,); the rows' error at the centre (m,).
 
-    Along a leg the way of the end effector (3,), m, is one more input, and where on it the pose is, 0 to 1, one more joint: the
-    last of all that is (n,).
+    Along a leg the vector (3,), m, of the leg is one more input, and the position on it, 0 to 1, is one more joint: the last of
+    the n joints.
     """
     n, size = arm.n, arm.n + is_along_leg
     centers, half_widths = ca.SX.sym("c", size), ca.SX.sym("h", size)
@@ -157,7 +157,7 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     allowed_angle = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.orientation != "none" else ca.SX(0)
     # The angle whose sine it is at most.
     allowed_angle = ca.if_else(allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi)
-    # A point beside the tool is missed by both.
+    # The tool misses a point beside it in both.
     position_tolerance = tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
     error_bounds = ca.vertcat(*remainder) + ca.vertcat(position_tolerance, tolerance[len(parts.linear) :])
     weighted = task_jacobian @ ca.diag(half_widths * half_widths)
@@ -207,7 +207,7 @@ def _box_measures(half_widths: SX, new_half_widths: SX, reach: SX, widths: list[
 
 
 def is_orienting_joint(arm: Arm, parts: BoundedTask) -> list[bool]:
-    """Return (n,) True for joints that change the orientation components; one along the tool's axis does not turn it."""
+    """Return (n,) True for joints that change the orientation components; a joint along the tool's axis does not."""
     if parts.orientation == "none":
         return [False] * arm.n
     orients = [not joint.prismatic for joint in arm.joints]
@@ -218,17 +218,16 @@ def is_orienting_joint(arm: Arm, parts: BoundedTask) -> list[bool]:
 
 
 def is_last_joint_idle(arm: Arm, parts: BoundedTask) -> bool:
-    """Return True if the last joint changes no component: the tool point lies on its axis and its rotation does not count."""
+    """Return True if the last joint changes no component: the tool point lies on its axis and rotation about it is free."""
     last = arm.joints[-1]
     is_on_axis = np.linalg.norm(np.cross(last.axis, arm.tool[:3, 3])) < 1e-12 * arm.length_unit
     return bool(not last.prismatic and is_on_axis and not is_orienting_joint(arm, parts)[-1])
 
 
 def _nearest_axis_point(arm: Arm) -> FloatArray | None:
-    """Return the point of the last axis nearest to the axis before it, in the last link's frame; None if the last joint is
-    prismatic.
+    """Return the point of the last axis nearest to the previous axis, in the last link's frame; None for a prismatic joint.
 
-    Of a full pose any point of the tool is known; this one is moved by fewer joints than the tool point, and less.
+    A full pose determines every point of the tool; fewer joints move this point than the tool point, and they move it less.
     """
     last = arm.joints[-1]
     if last.prismatic or arm.n < 2:
@@ -243,8 +242,8 @@ def _nearest_axis_point(arm: Arm) -> FloatArray | None:
 
 
 def _axis_distance_bounds(arm: Arm, jacobian: SX, box: tuple[SX, SX], is_revolute: list[bool], point: FloatArray) -> list[SX]:
-    """Return ``rho`` of every joint, for a point given in the last link's frame."""
-    # Slides count as far as the box goes, not the arm's limits: a lock may be outside them.
+    """Return ``rho`` of every joint, for a point in the last link's frame."""
+    # Prismatic joints count within the box, not within the arm's limits, because a lock may be outside of them.
     centers, half_widths = box
     extensions = [ca.fabs(centers[index]) + half_widths[index] for index in range(arm.n)]
     max_distances = bound_axis_distances(arm, ca.SX(float(np.linalg.norm(point))), extensions)
@@ -275,7 +274,7 @@ def _position_remainders(rho: list[SX], half_widths: SX, is_revolute: list[bool]
 def _second_order_terms(
     second_derivative: Callable[[int, int], SX], half_widths: SX, inner: list[bool], outer: list[bool]
 ) -> SX:
-    """Bound the second-order terms at the center: ``second_derivative`` of a joint and one as near the base or farther."""
+    """Bound the second-order terms at the center; ``second_derivative`` takes a joint and one at least as far from the base."""
     total = ca.SX(0)
     for i in range(len(outer)):
         for k in range(i + 1):

@@ -1,4 +1,4 @@
-"""Batches of joint boxes: contracted to the part that can hold solutions, then bisected."""
+"""Batches of joint boxes, which are contracted to the part that can contain solutions and then bisected."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
 Blocked = Callable[[FloatArray, FloatArray], BoolArray]
-"""Which boxes, with centres (N, n) and half widths (N, n), hold nothing that counts."""
+"""Function of centres (N, n) and half widths (N, n) that returns which boxes (N,) contain no relevant configuration."""
 
-_BATCH_ROWS = 4096  # boxes looked at together
-_CONTRACTION_RATIO = 0.6  # of its volume: a box that was cut to less is looked at again before it is halved
-_MAX_TILT = 1e-6  # what it does to the bounds is its square
+_BATCH_ROWS = 4096  # boxes checked together
+_CONTRACTION_RATIO = 0.6  # a box that was contracted below this fraction of its volume is checked again before it is bisected
+_MAX_TILT = 1e-6  # rad; its effect on the bounds is its square
 
 
 @dataclass(frozen=True, eq=False)
 class ContractedBoxes:
-    """Non-empty boxes, contracted to the part that can hold solutions.
+    """Non-empty boxes, contracted to the part that can contain solutions.
 
     Attributes:
         box: (N, 2, n) centres and half widths.
-        original: (N, 2, n) as they were.
-        inside: (N,) True where what a box can hold lies strictly inside of it.
-        volume: (N,) how much of it that is.
-        widest_joint: (N,) joint to be halved.
+        original: (N, 2, n) boxes before the contraction.
+        inside: (N,) True if the contracted box lies strictly inside the original.
+        volume: (N,) remaining fraction of the volume.
+        widest_joint: (N,) joint to be bisected.
     """
 
     box: FloatArray
@@ -50,7 +50,7 @@ class ContractedBoxes:
         )
 
     def bisect(self) -> FloatArray:
-        """Return the boxes (K, 2, n) to check next: contracted ones as they are, the others in two halves."""
+        """Return the boxes (K, 2, n) to check next: strongly contracted ones unchanged, the others in two halves."""
         shrunk = self.volume < _CONTRACTION_RATIO
         upper = self.box[~shrunk]
         row, joint_index = np.arange(len(upper)), self.widest_joint[~shrunk]
@@ -62,25 +62,25 @@ class ContractedBoxes:
 
 
 class BoxContractor:
-    """Contractor of boxes of an arm's joints, for a pose or along a straight leg from it.
+    """Contractor of boxes of an arm's joints, for a pose or along a straight leg that begins there.
 
     Args:
-        arm: The arm.
-        task: Whose rows are to be met.
-        pose: (4, 4) of the end effector, world, m.
-        tolerance: m and rad by which each row may be missed, whatever the frame in which rows are taken.
-        limits: (n,) and (n,) of the joints, rad and m.
-        blocked: Which boxes hold nothing that counts.
-        way: (3,) m; where on it the pose is, 0 to 1, is then the last of all joints.
+        arm: Arm model.
+        task: Task whose rows are to be met.
+        pose: (4, 4) pose of the end effector, world, m.
+        tolerance: Allowed error of each row, m and rad, in any frame of the rows.
+        limits: (n,) lower and (n,) upper joint limits, rad and m.
+        blocked: Function that returns which boxes contain no relevant configuration.
+        way: (3,) vector of the leg, m; the position on the leg, 0 to 1, is then the last joint.
 
     Attributes:
-        parts: The task's rows.
-        kernel, kernel_inputs: What tells of boxes, and what it is given beside them.
-        lower, upper: (n,) of all boxes; a joint that moves no row is in the middle.
-        checked, blocked_count: How many boxes, and how many of them as blocked.
+        parts: Rows of the task.
+        kernel, kernel_inputs: Kernel that contracts boxes, and its inputs in addition to the boxes.
+        lower, upper: (n,) limits of all boxes; a joint that moves no row is in the middle.
+        checked, blocked_count: Number of boxes, and number of blocked ones.
 
     Raises:
-        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
+        TaskError: No bounds exist for the task, or the pose is tilted out of the plane of a planar arm.
     """
 
     def __init__(
@@ -96,16 +96,16 @@ class BoxContractor:
     ) -> None:
         lower, upper = limits[0].copy(), limits[1].copy()
         self.parts = parts = BoundedTask.from_task(arm, task)
-        if parts.normal:  # bounds know a turn in the plane alone; the task's row is met by tilted poses too
+        if parts.normal:  # bounds cover rotation in the plane only, but tilted poses meet the row of the task as well
             tilted_normal = pose[:3, :3] @ arm.forward_kinematics((lower + upper) / 2)[:3, :3].T @ parts.normal
             if np.abs(tilted_normal - parts.normal).max() > _MAX_TILT:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self.kernel: Kernel = box_contraction_kernel(arm, parts, way is not None)
         counts = len(parts.linear), parts.m - len(parts.linear)
-        row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # rows of other frames miss by no more
+        row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # other frames have no larger errors
         self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))
         self._n, self._blocked = arm.n, blocked
-        self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that was not looked at all over, but may block
+        self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that is not searched but may block
         if is_last_joint_idle(arm, parts):
             self._idle_half_width[-1] = (upper[-1] - lower[-1]) / 2
             lower[-1] = upper[-1] = (lower[-1] + upper[-1]) / 2
@@ -124,7 +124,7 @@ class BoxContractor:
         return boxes[-_BATCH_ROWS:]
 
     def contract(self, boxes: FloatArray) -> ContractedBoxes:
-        """Contract boxes (N, 2, n) and leave out those that are empty."""
+        """Contract boxes (N, 2, n) and drop the empty ones."""
         self.checked += len(boxes)
         n = boxes.shape[2]
         outputs = self.kernel.rows(boxes[:, 0], boxes[:, 1], *self.kernel_inputs, first=2 * n + 4)
@@ -139,7 +139,7 @@ class BoxContractor:
         )
 
     def drop_blocked(self, contracted: ContractedBoxes) -> ContractedBoxes:
-        """Leave out the boxes that are blocked."""
+        """Drop the boxes that are blocked."""
         if self._blocked is None or not len(contracted.box):
             return contracted
         is_free = ~self._blocked(contracted.box[:, 0, : self._n], contracted.box[:, 1, : self._n] + self._idle_half_width)

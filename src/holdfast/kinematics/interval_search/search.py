@@ -21,11 +21,11 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, target_pose
 
-MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not halved any more
+MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not bisected any more
 _POLISHING_STEPS = 30
-_ISOLATION_SIZE = 1e-3  # rad and m: half width of a box below which what it provably holds counts as one configuration
-_LOOSE_TOLERANCE = 1e-4  # m and rad: what is met within more fills boxes that are as small as boxes get
-_SOLUTION_TOLERANCE = 1e-5  # rad and m: solutions nearer than this are one
+_ISOLATION_SIZE = 1e-3  # rad and m: a provable solution in a box with smaller half widths counts as one configuration
+_LOOSE_TOLERANCE = 1e-4  # m and rad: an allowed error above this fills boxes of the smallest size
+_SOLUTION_TOLERANCE = 1e-5  # rad and m: closer solutions are the same one
 
 
 class SearchOutcome(SentenceEnum):
@@ -42,17 +42,17 @@ class Configurations(Result):
     """Configurations and outcome of :func:`all_configurations`.
 
     Attributes:
-        arm: The arm.
-        task: Whose rows are met.
-        pose: (4, 4) of the end effector, m.
-        lower, upper: (n,) limits that were looked into, rad and m; equal where a joint is locked.
-        finding: What is known.
+        arm: Arm model.
+        task: Task whose rows are met.
+        pose: (4, 4) pose of the end effector, m.
+        lower, upper: (n,) limits of the search, rad and m; equal for a locked joint.
+        finding: Outcome of the search.
         q: (K, n) configurations found, rad and m.
-        boxes: How many were looked at.
-        blocked: Of these, how many were left out as blocked: what is said to be absent is absent elsewhere.
-        open: How many were left undecided.
-        widest: Of these, the largest half width of a joint, rad or m; 0 if none is left.
-        seconds: Measured.
+        boxes: Number of checked boxes.
+        blocked: Number of boxes left out as blocked; claims of absence do not cover these boxes.
+        open: Number of undecided boxes.
+        widest: Largest half width of a joint in the undecided boxes, rad or m; 0 if none is left.
+        seconds: Measured duration, s.
     """
 
     arm: Arm
@@ -90,27 +90,27 @@ def all_configurations(
 ) -> Configurations:
     """Find every configuration of a pose within limits, or prove that there is none.
 
-    Boxes of joints are cut to what they can hold and halved until none is left but those around configurations. No start, no
-    sample and no closed form is needed: what is said to be absent is absent. If more joints move than the task has rows, the
-    configurations are no points, and one of them ends the search. A last joint that moves no row of the task, as one along a
-    tool that points, is left in the middle of its limits.
+    Boxes of joint values are contracted to the part that can contain solutions and bisected, until only boxes around
+    configurations remain. The search needs no start, sample or closed form, and claims of absence are proofs. If more joints
+    move than the task has rows, the configurations are not isolated, and one of them ends the search. A last joint that moves
+    no row of the task, such as one along a pointing tool, stays in the middle of its limits.
 
     Args:
-        arm: The arm.
-        pose: (4, 4) of the end effector in the world, m; for a task without orientation also its rows of the position.
+        arm: Arm model.
+        pose: (4, 4) pose of the end effector in the world, m; for a task without orientation also the rows of its position.
         task: ``pose``, ``pointing``, ``position``, ``planar``, ``planar-pose``, or position rows in the world frame.
-        limits: (n,) lower and (n,) upper limits, rad and m; equal where a joint is locked, as ``lo`` and ``hi`` of
-            :class:`holdfast.Degraded`. Default: the arm's; joints without limits turn once.
-        tolerance: By which each row may be missed, m and rad, or one number for both: the proof is about all these.
-        time_limit: s after which the answer is ``OPEN``.
-        most_boxes: After which it is.
-        first: One configuration ends the search.
-        blocked: Given boxes, centres (N, n) and half widths (N, n), says of which (N,) nothing counts, as where the arm
-            certainly is within an object: these are left out.
+        limits: (n,) lower and (n,) upper limits, rad and m; equal for a locked joint, as ``lo`` and ``hi`` of
+            :class:`holdfast.Degraded`. Default: the arm's limits; joints without limits cover one turn.
+        tolerance: Allowed error of each row, m and rad, or one number for both; the proof covers all poses within it.
+        time_limit: Time limit, s; the outcome is then ``OPEN``.
+        most_boxes: Maximum number of boxes; the outcome is then ``OPEN``.
+        first: Stop at the first configuration.
+        blocked: Function of boxes, centres (N, n) and half widths (N, n), that returns which of them (N,) contain no relevant
+            configuration, for example because the arm certainly collides; these boxes are left out.
 
     Raises:
-        InputError: A pose, limits or numbers that are invalid.
-        TaskError: A task about which nothing can be proved, or a pose tilted out of the plane of a planar arm.
+        InputError: The pose, the limits or a number is invalid.
+        TaskError: No bounds exist for the task, or the pose is tilted out of the plane of a planar arm.
 
     Source: interval Newton methods (Krawczyk 1969); the bounds are ours, derived in
         ``holdfast/kinematics/interval_search/box_bounds.py``.
@@ -169,7 +169,7 @@ def _read_limits(arm: Arm, limits: tuple[ArrayLike, ArrayLike] | None) -> tuple[
 
 
 class _BoxSearch:
-    """A search over a stack of boxes that checks the last boxes first."""
+    """Search over a stack of boxes that checks the last boxes first."""
 
     def __init__(self, boxes: BoxContractor) -> None:
         self._boxes, self._n = boxes, len(boxes.low)
@@ -178,7 +178,7 @@ class _BoxSearch:
         self._is_redundant = int(self._free.sum()) > boxes.parts.m
         self._has_loose_tolerance = bool(boxes.kernel_inputs[2].max() > _LOOSE_TOLERANCE)
         self._stack = [np.stack([(self._low + self._high) / 2, (self._high - self._low) / 2])[None]]
-        self._small_boxes: list[FloatArray] = []  # boxes that are not halved any more, (K, 2, n)
+        self._small_boxes: list[FloatArray] = []  # boxes of the smallest size, (K, 2, n)
         self.solutions = np.zeros((0, self._n))
 
     @property
@@ -187,7 +187,7 @@ class _BoxSearch:
 
     @property
     def undecided_count(self) -> int:
-        """Number of boxes that are not decided."""
+        """Number of undecided boxes."""
         return len(self._open_boxes)
 
     @property
@@ -207,7 +207,7 @@ class _BoxSearch:
                 if stops_at_first and len(self.solutions):
                     return SearchOutcome.SOME
                 if self._small_boxes and self._has_loose_tolerance:
-                    return SearchOutcome.OPEN  # as it would be in the end, after all boxes of that size
+                    return SearchOutcome.OPEN  # the outcome after all boxes of that size would be the same
         if self._small_boxes:
             return SearchOutcome.OPEN
         return SearchOutcome.ALL if len(self.solutions) else SearchOutcome.NONE

@@ -1,4 +1,4 @@
-"""Path tracking: redundancy resolution, the trajectory, its events, and how slow it must be."""
+"""Path tracking: redundancy resolution, the trajectory and its events, and the slowness that a motion needs."""
 
 from holdfast.core._lazy import offer
 

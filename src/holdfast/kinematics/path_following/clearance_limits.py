@@ -11,13 +11,13 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.objects.one_row import SingleConfigurationClearance
 
-ENFORCED_LIMITS = 2  # that a step keeps: what is nearest, and what was a moment ago
-_NO_LIMIT_RATE = -1e9  # m/s: less than any rate makes of a distance
-_GRADIENT_RANGE = 0.05  # rad and m: so far a slope is taken to hold
-_SIMILARITY_FRACTION = 0.05  # of a slope: nearer ones are of one thing
-_MEMORY_SIZE = 6  # slopes that are remembered
-_DISTANCE_SLACK_M = 2e-5  # m: a step along something round is off by its square, and the next one makes up for it
-_STEP_FRACTIONS = (1.0, 0.5)  # of a step that are tried before none of it
+ENFORCED_LIMITS = 2  # limits that a step respects: the nearest pair now, and one from a moment ago
+_NO_LIMIT_RATE = -1e9  # m/s: less than any rate changes a distance
+_GRADIENT_RANGE = 0.05  # rad and m: distance within which a slope is assumed to hold
+_SIMILARITY_FRACTION = 0.05  # of a slope: closer slopes belong to the same object
+_MEMORY_SIZE = 6  # number of stored slopes
+_DISTANCE_SLACK_M = 2e-5  # m: a step along a round object errs by its square, and the next step corrects this
+_STEP_FRACTIONS = (1.0, 0.5)  # fractions of a step that are tried before a stop
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +25,10 @@ class ClearanceHistory:
     """Distances of a motion to obstacles and links at N instants.
 
     Attributes:
-        margin: (N,) smallest distance beyond what is to be kept, the margin included, m.
-        nearest_pair: (N,) position in ``pair_names`` of the pair that has it.
-        pair_names: Of the pairs, ``joint3 & table``.
-        min_distances: (P,) what is kept of each pair, m.
+        margin: (N,) smallest distance beyond the required distance, m.
+        nearest_pair: (N,) position in ``pair_names`` of the pair with this distance.
+        pair_names: Names of the pairs, ``joint3 & table``.
+        min_distances: (P,) required distance of each pair, m.
     """
 
     margin: FloatArray
@@ -38,15 +38,16 @@ class ClearanceHistory:
 
 
 class ClearanceRateLimit:
-    """The clearance of a motion above the required margin, and how fast it may shrink.
+    """Clearance of a motion above the required margin, and the rate at which it may shrink.
 
-    One pair is the nearest, and its slope jumps where another gets nearer: in a corner the motion would go to and fro between
-    the two. So the slopes of the last moments are remembered, and each is a limit of its own as long as the arm is near by.
+    Only one pair is the nearest, and its slope jumps when another pair becomes the nearest. In a corner the motion would
+    oscillate between the two. Therefore the slopes of the last moments are stored, and each is a limit as long as the arm is
+    nearby.
 
     Args:
-        clearance: What is looked at.
-        margin: Kept beyond its own margins, m.
-        rate: The room may shrink by this share of itself in a second, 1/s.
+        clearance: Clearance model of the arm.
+        margin: Required distance in addition to the model's own margins, m.
+        rate: Fraction of the remaining distance by which it may shrink in a second, 1/s.
     """
 
     def __init__(self, clearance: Clearance, margin: float, rate: float) -> None:
@@ -56,7 +57,7 @@ class ClearanceRateLimit:
         self._samples: list[tuple[FloatArray, float, FloatArray]] = []
 
     def _clearance_and_gradient(self, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
-        """Return the configuration (n,), its clearance and the gradient (n,), and remember them, the latest first."""
+        """Return the configuration (n,), its clearance and the gradient (n,), and store them, the latest first."""
         if self._samples and np.array_equal(self._samples[0][0], q):
             return self._samples[0]
         clearance, gradient = self._nearest(q)
@@ -67,7 +68,7 @@ class ClearanceRateLimit:
         return sample
 
     def is_inactive(self, q: FloatArray, rates: FloatArray) -> bool:
-        """Return True if no remembered pair can be near enough to limit the rates (n,), so that no distance is computed."""
+        """Return True if no stored pair can be near enough to limit the rates (n,), so that no distance is computed."""
         if not self._samples:
             return False
         sample_q, clearance, _ = self._samples[0]
@@ -75,11 +76,10 @@ class ClearanceRateLimit:
         return float(self._gradient_bounds @ np.abs(rates)) < self.rate * smallest_clearance
 
     def rate_limits(self, q: FloatArray) -> FloatArray:
-        """Return the limits (K, n + 1) at a configuration (n,): gradients, and after each the smallest product with the rates,
-        m/s.
+        """Return limits (K, n + 1) at a configuration (n,): gradients, each with the least product with the rates, m/s.
 
-        The first is what is nearest, the second what is nearest of the things that were seen a moment ago; one at least is
-        of something, and slopes of 0 limit nothing.
+        The first limit is the nearest pair, and the second is the nearest of the pairs of a moment ago. At least one belongs to
+        an object; gradients of 0 limit nothing.
         """
         latest = self._clearance_and_gradient(q)
         around = sorted(
@@ -90,7 +90,7 @@ class ClearanceRateLimit:
         return np.array([np.append(gradient, max(-self.rate * clearance, _NO_LIMIT_RATE)) for clearance, gradient in entries])
 
     def allowed_fraction(self, q: FloatArray, step_end: FloatArray) -> float:
-        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless used up on the way."""
+        """Return the fraction of a step between configurations (n,) that the clearance allows: 1 unless it is used up."""
         step_start = self._clearance_and_gradient(q)
         for fraction in _STEP_FRACTIONS:
             if self._clearance_and_gradient(q + fraction * (step_end - q))[1] >= min(step_start[1], -_DISTANCE_SLACK_M):

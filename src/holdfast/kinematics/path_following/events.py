@@ -1,12 +1,12 @@
 """Events of a motion along a path: algorithmic singularities, rate caps, limits.
 
-At a configuration that is best along its self-motion, the slope of the objective there is 0 and its curvature matrix is
-definite. Where the matrix becomes singular although J is not, the extremum ends or splits: an *algorithmic* singularity,
-at which the extended Jacobian loses rank and gradient projection lags behind or jumps.
+At a configuration that is best along its self-motion, the slope of the objective is 0 and its curvature matrix is definite. If
+the matrix becomes singular although J is not, the extremum ends or splits. This is an *algorithmic* singularity, at which the
+extended Jacobian loses rank and gradient projection lags behind or jumps.
 
-If the weights of a susceptibility have as many non-zero eigenvalues as there are degrees of redundancy, a region in which
-the cost is exactly 0 can be entered or left only through such a point: inside, ``W^(1/2) f = 0`` fixes the self-motion,
-and it stops having a solution only where the derivative of ``W^(1/2) f`` along the self-motion is singular.
+If the weights of a susceptibility have as many non-zero eigenvalues as there are degrees of redundancy, a region of cost
+exactly 0 can be entered or left only through such a point. Inside, ``W^(1/2) f = 0`` fixes the self-motion, and it loses its
+solution only where the derivative of ``W^(1/2) f`` along the self-motion is singular.
 
 Source: English and Maciejewski 1998, section VI-B, Figs. 6 to 8.
 """
@@ -31,30 +31,30 @@ from holdfast.kinematics.path_following.trajectory import Event
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.task import Task
 
-NEGATIVE_CURVATURE_FRACTION = 1e-2  # of the median curvature along a path: this much below 0 is not a local best
-# Of the median curvature along a path: where it is less and rates are high, an extremum nearly ends.
+NEGATIVE_CURVATURE_FRACTION = 1e-2  # of the median curvature along a path: a curvature this far below 0 is not a local best
+# Fraction of the median curvature along a path: if it is lower and rates are high, an extremum nearly ends.
 _LOW_CURVATURE_FRACTION = 0.2
-_FAST_RATE_FACTOR = 4.0  # times the median rate: this is high
-ZERO_COST_FRACTION = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
+_FAST_RATE_FACTOR = 4.0  # multiple of the median rate that counts as high
+ZERO_COST_FRACTION = 1e-3  # of the largest cost along a path: less counts as zero, because gradient projection lags a little
 _VALUE_TOLERANCE = 0.01  # of the value, or of its range
 _JUMP_FRACTION = 0.02  # of the range of the values, in one step
-_BRIDGED_FRACTION = 0.01  # of the steps: events less apart are one
+_BRIDGED_FRACTION = 0.01  # of the steps: events that are closer together are joined
 _DIFFERENCE_STEP_RAD = 1e-5  # rad
-_NEARBY_DISTANCE_M = 0.05  # m: a motion without a joint at its limit is slowed by what is so near
-_MARGIN_TOLERANCE_M = 1e-3  # m: less room than this is as good as none
-_LAG_FRACTION = 0.01  # of the way along the path: a step cut short now and then is made up for
-DISTANCE_TOLERANCE_M = 1e-4  # m: less than this below what is to be kept comes of the steps
+_NEARBY_DISTANCE_M = 0.05  # m: objects within this distance slow a motion without a joint at its limit
+_MARGIN_TOLERANCE_M = 1e-3  # m: a smaller remaining distance counts as none
+_LAG_FRACTION = 0.01  # fraction of the way along the path: later steps make up for a step that is shortened now and then
+DISTANCE_TOLERANCE_M = 1e-4  # m: a smaller shortfall below the required distance is due to the step size
 
 
 class Curvature:
     """Gradient and curvature of an objective along the self-motion of a task, in batches.
 
-    The curvature is the central difference of the projected gradient: exact derivatives through the null space take
-    seconds to compile, and 9 digits are enough to say where it vanishes.
+    The curvature is the central difference of the projected gradient. Exact derivatives through the null space take seconds to
+    compile, and 9 digits suffice to find where the curvature vanishes.
 
     Args:
-        objective: Whose slope and curvature.
-        task: That the self-motion leaves alone.
+        objective: Objective with the slope and curvature.
+        task: Task that the self-motion does not affect.
     """
 
     def __init__(self, objective: Objective, task: Task) -> None:
@@ -74,7 +74,7 @@ class Curvature:
         return outputs[:, : self.free], outputs[:, self.free :].reshape(len(q), -1, self.free)
 
     def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the norm of the gradient (N,) and curvature matrices (N, r, r), positive definite at a local best."""
+        """Return at ``q`` (N, n) the gradient norm (N,) and curvature matrices (N, r, r), positive definite at a local best."""
         gradient, null_space = self._gradient_and_basis(q)
         matrices = np.empty((len(q), self.free, self.free))
         for column in range(self.free):
@@ -82,13 +82,13 @@ class Curvature:
             end_gradients = []
             for neighbor in (q + displacement, q - displacement):
                 neighbor_gradient, basis = self._gradient_and_basis(neighbor)
-                # The basis at either end may be turned or reflected: carried back, the slopes can be compared.
+                # The bases at both ends may differ by a rotation or reflection, which is undone to compare the slopes.
                 end_gradients.append(np.einsum("nij,nik,nk->nj", null_space, basis, neighbor_gradient))
             matrices[:, :, column] = (end_gradients[1] - end_gradients[0]) / (2 * _DIFFERENCE_STEP_RAD)
         return np.linalg.norm(gradient, axis=1), (matrices + matrices.transpose(0, 2, 1)) / 2
 
     def smallest(self, q: FloatArray) -> FloatArray:
-        """Smallest eigenvalue (N,) of the curvature matrix; NaN at a singular configuration."""
+        """Return the smallest eigenvalue (N,) of the curvature matrix at ``q`` (N, n), rad and m; NaN where singular."""
         matrices = self(q)[1]
         is_finite = np.isfinite(matrices).all(axis=(1, 2))
         eigenvalues = np.full(len(q), np.nan)
@@ -98,15 +98,15 @@ class Curvature:
 
 @dataclass(frozen=True, eq=False)
 class MotionHistory:
-    """A motion at each step of its computation, N steps.
+    """History of a motion at its N computed steps.
 
     Attributes:
-        time: (N,) s.
-        value: (N,) of the objective.
-        curvature: (N,) see :meth:`Curvature.smallest`.
-        rate_norm: (N,) rad/s.
+        time: (N,) time, s.
+        value: (N,) value of the objective.
+        curvature: (N,) smallest curvature, see :meth:`Curvature.smallest`.
+        rate_norm: (N,) norm of the joint rates, rad/s.
         self_motion, task_share, damping: (N,) see :class:`holdfast.kinematics.path_following.Rates`.
-        at_limit: (N,) by joint name.
+        at_limit: (N,) flags by joint name.
     """
 
     time: FloatArray
@@ -130,12 +130,12 @@ def find_events(
     """Find the events of a motion, in order of time.
 
     Args:
-        objective: What the self-motion served.
+        objective: Objective of the self-motion.
         motion: The motion.
-        follows_extremum: The self-motion was meant to stay at a local best.
-        requested_value: The value that it was meant to keep, if so.
-        cap_phrase: What limited the self-motion, for people.
-        clearance_history: What it kept clear of, if anything.
+        follows_extremum: True if the self-motion should stay at a local best.
+        requested_value: Value that the self-motion should keep, or None.
+        cap_phrase: Phrase for the limit of the self-motion.
+        clearance_history: Distances along the motion, if they were limited.
     """
     events: list[Event] = []
     at_margin = np.zeros(len(motion.time), dtype=bool)
@@ -199,7 +199,7 @@ def find_events(
 
 
 def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHistory, at_margin: BoolArray) -> list[Event]:
-    """Find where a pair has no margin left: as a limit that changed the motion, or closer."""
+    """Find where a pair has no margin left, because it limited the motion or came closer."""
     events = []
     bridge = max(1, round(_BRIDGED_FRACTION * len(at_margin)))
     slowed = 1 - motion.task_share
@@ -213,7 +213,7 @@ def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHi
             if smallest_margin < -DISTANCE_TOLERANCE_M:
                 kind = "too near"
                 text = (
-                    f"{time_phrase}: comes nearer than {min_distance_mm:.3g} mm to {obstacle} with {link}, by up to "
+                    f"{time_phrase}: {link} comes closer to {obstacle} than the required {min_distance_mm:.3g} mm, by up to "
                     f"{-1000 * smallest_margin:.2g} mm"
                 )
             elif slowed[samples].mean() > _LAG_FRACTION:
@@ -224,8 +224,8 @@ def _find_clearance_events(clearance_history: ClearanceHistory, motion: MotionHi
             else:
                 kind = "kept clear"
                 text = (
-                    f"{time_phrase}: the self-motion keeps {link} clear of {obstacle}, by the {min_distance_mm:.3g} mm "
-                    f"that are asked for"
+                    f"{time_phrase}: the self-motion keeps {link} at the required distance of {min_distance_mm:.3g} mm "
+                    f"from {obstacle}"
                 )
             events.append(Event(kind=kind, start=float(motion.time[first]), end=float(motion.time[last]), text=text))
     return events

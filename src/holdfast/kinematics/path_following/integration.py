@@ -19,10 +19,10 @@ from holdfast.kinematics.paths.timed_path import TimedPath
 from holdfast.kinematics.solvers.inverse_kinematics import clip_to_limits, pose_error_for_task
 from holdfast.model.arm import kinematics
 
-_SETTLING_STEPS = 400  # steps before the first
-_CATCH_UP_FACTOR = 3.0  # times the largest twist of the path
-_RATE_TOLERANCE = 1e-9  # m/s: a limit broken by less is kept
-_PROGRESS_STEPS = 500  # steps after which somebody is told of them
+_SETTLING_STEPS = 400  # steps before the first one
+_CATCH_UP_FACTOR = 3.0  # multiple of the largest twist of the path
+_RATE_TOLERANCE = 1e-9  # m/s: a smaller violation of a limit is accepted
+_PROGRESS_STEPS = 500  # steps between two reports of progress
 
 
 def integrate_law(
@@ -38,12 +38,12 @@ def integrate_law(
     """Return joints (N + 1, n), rates (N + 1, n) and fractions (N + 1, 3) at N steps and the end: see
     :class:`holdfast.kinematics.path_following.Rates`.
 
-    In each step the end effector is sent to where the path is at its end, so that errors do not add up.
+    Each step moves the end effector to the pose of the path at the end of the step, so that errors do not add up.
     """
-    # An end effector that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
+    # An end effector that limits held off its path returns at a few times the speed of the path, not within one step.
     max_twist = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
     kernel = _step_kernel(law, step, limits, _CATCH_UP_FACTOR * max_twist * step, rate_limit is not None)
-    if settle:  # what a search left open would be made up for at once, with rates that no motion needs
+    if settle:  # a remaining error of the search would be corrected at once, with rates that no motion needs
         start = _run_steps(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING_STEPS, 4, 4)), step, rate_limit)[0][-1]
     joints, rates, fractions = _run_steps(kernel, start, path.pose(np.arange(1, count + 1) * step), step, rate_limit)
     n = law.arm.n
@@ -68,7 +68,7 @@ def _run_steps(
             for index in range(first, last):
                 columns[n : n + 12] = target_rows[index]
                 if rate_limit is not None:
-                    columns[n + 19 :] = 0.0  # slopes of 0 limit nothing
+                    columns[n + 19 :] = 0.0  # gradients of 0 limit nothing
                 run_kernel()
                 steps[index] = outputs[:, 0]
                 if rate_limit is not None and not rate_limit.is_inactive(columns[:n, 0], steps[index, n : 2 * n]):
@@ -87,14 +87,14 @@ def _run_steps(
 def enforce_limits(run_kernel: Callable[[], None], columns: FloatArray, outputs: FloatArray, limits: FloatArray) -> None:
     """Take the step that respects the first two limits (K, n + 1), or the first pair of limits whose step respects all.
 
-    What is best under two limits and keeps the others is best under all of them. Self-motion of one or two dimensions is
-    bounded by no more than two at a time.
+    A step that is best under two limits and respects the others is best under all. No more than two limits at a time bound a
+    self-motion of one or two dimensions.
 
     Args:
-        run_kernel: Computes ``outputs`` from ``columns``.
-        columns: The inputs of the step; the last rows are two limits.
-        outputs: What it gives: the next configuration, rates (n,), shares.
-        limits: What is to be kept.
+        run_kernel: Function that computes ``outputs`` from ``columns``.
+        columns: Inputs of the step; the last rows are two limits.
+        outputs: Next configuration, rates (n,), and fractions.
+        limits: (K, n + 1) limits to respect.
     """
     n = limits.shape[1] - 1
     first_outputs: FloatArray | None = None
@@ -102,7 +102,7 @@ def enforce_limits(run_kernel: Callable[[], None], columns: FloatArray, outputs:
         columns[-ENFORCED_LIMITS * (n + 1) :] = limits[list(pair)].reshape(-1, 1)
         run_kernel()
         shortfall = limits[:, n] - limits[:, :n] @ outputs[n : 2 * n, 0]
-        # Where the first two themselves cannot be kept the end effector is slowed already, and nothing else is tried.
+        # If the first two limits cannot be respected, the end effector is slowed already and nothing else is tried.
         if shortfall.max() <= _RATE_TOLERANCE or (
             first_outputs is None and not (shortfall[ENFORCED_LIMITS:] > _RATE_TOLERANCE).any()
         ):
@@ -124,17 +124,16 @@ def _shorten_step(step: FloatArray, q: FloatArray, rate_limit: ClearanceRateLimi
 
 @cached_kernel
 def _step_kernel(law: Resolution, step: float, limits: bool, max_error: float, has_clearance: bool) -> Kernel:
-    """Build the kernel from q and a target pose, or a twist if ``twist_given`` is 1, to the next q, the rates, and the
-    fractions.
+    """Build the kernel from q and a target pose (a twist if ``twist_given`` is 1) to the next q, the rates, and the fractions.
 
-    To keep clear of something it takes two slopes (n,), and after each the least that the rates may make of it.
+    For a clearance it takes two gradients (n,), and after each the least product with the rates.
     """
     arm = law.arm
     q, target_position, target_rotation = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     twist, twist_given = ca.SX.sym("twist", 6), ca.SX.sym("given")
     chain = kinematics.kinematic_chain(arm, q)
     error = pose_error_for_task(law.task, chain.position, chain.rotation, target_position, target_rotation)
-    error_norm = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
+    error_norm = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the prescribed rows
     clearance_limits = [ca.SX.sym("around", ENFORCED_LIMITS * (arm.n + 1))] if has_clearance else []
     rows = [(row[:-1], row[-1]) for limits_symbol in clearance_limits for row in ca.vertsplit(limits_symbol, arm.n + 1)]
     outputs = law.expression(

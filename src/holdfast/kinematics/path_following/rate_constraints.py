@@ -10,7 +10,7 @@ from holdfast.kernels.program import SX
 
 Row = tuple[SX, SX]
 
-# Of the square of a row: where less than that of it lies in the self-motion, it is not fully kept by that.
+# Relative to the square of a row: if less of it lies in the self-motion, the self-motion does not fully respect it.
 _MIN_NULL_SPACE_FRACTION = 1e-4
 
 
@@ -20,14 +20,14 @@ def limit_self_motion(
     """Find the self-motion (n,) nearest to the desired one that respects the limits, by a quadratic program of two rows.
 
     Args:
-        rows: One or two ``(g, b)``.
+        rows: One or two limits ``(g, b)``.
         particular: (n,) rates of the task.
-        desired: (n,) self-motion wanted beside it.
-        projected: Of each row g less what the task would feel of it, (n,).
+        desired: (n,) desired self-motion.
+        projected: Projection (n,) of each row g that does not affect the task.
         rate_cap: Largest norm of the rates, rad/s, or None.
 
     Returns:
-        The self-motion, the share of it that the cap lets pass, and whether a row changed it.
+        The self-motion, the fraction of it that the cap allows, and whether a row changed it.
     """
     square, missing = [], []
     for (gradient, bound), projection in zip(rows, projected, strict=True):
@@ -45,14 +45,14 @@ def limit_self_motion(
         determinant = square[0] * square[1] - product * product
         is_independent = determinant > _MIN_NULL_SPACE_FRACTION * square[0] * square[1]
         safe_determinant = ca.if_else(is_independent, determinant, 1)
-        # Where the self-motion cannot keep both, half of what either asks for: the end effector is slowed then.
+        # If the self-motion cannot respect both, it takes half of each; the end effector is then slowed.
         correction = ca.if_else(
             is_independent,
             first_row * ((square[1] * missing[0] - product * missing[1]) / safe_determinant)
             + second_row * ((square[0] * missing[1] - product * missing[0]) / safe_determinant),
             (corrections[0] + corrections[1]) / 2,
         )
-        for index in (1, 0):  # one alone, if that is enough for the other
+        for index in (1, 0):  # one alone, if that satisfies the other
             suffices = ca.dot(projected[1 - index], corrections[index]) >= missing[1 - index] - 1e-12
             correction = ca.if_else(ca.logic_and(missing[index] > 0, suffices), corrections[index], correction)
         correction = ca.if_else(ca.logic_and(missing[0] <= 0, missing[1] <= 0), 0, correction)

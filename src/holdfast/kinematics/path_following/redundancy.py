@@ -1,4 +1,4 @@
-"""The resolution laws, which differ in the self-motion."""
+"""Redundancy resolution laws, which differ in the self-motion."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ from holdfast.model.arm.task import Task
 
 @check_constructor
 class GradientProjection(Resolution):
-    """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
+    """Self-motion down (or up) the gradient of the objective, projected off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
 
-    At each instant these rates make ``dF/dt + w |rates|^2`` as small as the task allows (of an objective that is better when
-    larger, its negative), with ``w = 1 / (2 gain)``: the objective and the joint rates in one weighted sum.
+    At each instant these rates minimise ``dF/dt + w |rates|^2`` under the task (with -F if larger is better), with
+    ``w = 1 / (2 gain)``, so the objective and the joint rates form one weighted sum.
 
     Args:
-        arm: The arm.
-        objective: Made better all the time; which way that is, it knows.
-        gain: Of the gradient, rad/s per unit of the objective and rad.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
+        arm: Arm model.
+        objective: Objective to improve all the time, in its better direction.
+        gain: Gain of the gradient, rad/s per unit of the objective and rad.
+        task: Task, as for :class:`Resolution`.
+        rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
+        period: Control period, s, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Liegeois 1977; English and Maciejewski 1998, section II.
     """
@@ -58,7 +58,7 @@ class GradientProjection(Resolution):
     ) -> None:
         super().__init__(arm, objective, task, rate_cap=rate_cap, period=period, damping=damping)
         if not (np.isfinite(gain) and gain >= 0):
-            raise InputError(f"gain is {gain:g}; it must be 0 or more: the objective knows which way is better")
+            raise InputError(f"gain is {gain:g}; it must be 0 or more, because the objective sets the direction")
         self.gain = gain
 
     def _desired_self_motion(self, q: SX, jacobian: SX, particular: SX) -> SX:
@@ -69,17 +69,17 @@ class GradientProjection(Resolution):
 class ExtendedJacobian(Resolution):
     """Law that holds the objective at an extremum along the self-motion: the null-space part of its gradient stays 0.
 
-    The rows ``d(N' grad)/dq`` are added to J. Where they lose rank although J does not, the extremum that is tracked ends
-    or splits: an algorithmic singularity, at which the rates grow without bound.
+    The rows ``d(N' grad)/dq`` are added to J. If they lose rank although J does not, the tracked extremum ends or splits. This
+    is an algorithmic singularity, at which the rates grow without bound.
 
     Args:
-        arm: The arm.
-        objective: The objective.
-        gain: Of the return to the extremum, 1/s.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
+        arm: Arm model.
+        objective: Objective to keep at an extremum.
+        gain: Gain of the return to the extremum, 1/s.
+        task: Task, as for :class:`Resolution`.
+        rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
+        period: Control period, s, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Baillieul 1985; English and Maciejewski 1998, sections II and VI-B.
     """
@@ -113,17 +113,17 @@ class ExtendedJacobian(Resolution):
 
 @check_constructor
 class AugmentedJacobian(Resolution):
-    """Law that brings the objective to a requested value and holds it there: its gradient is one more row of the task.
+    """Law that brings the objective to a requested value and holds it there; its gradient is one more row of the task.
 
     Args:
-        arm: The arm.
-        objective: The objective.
-        wanted: Its value. The path may make it impossible; then it comes as close as the damping lets it.
-        gain: Of the way there, 1/s.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
+        arm: Arm model.
+        objective: Objective to keep at the value.
+        wanted: Value of the objective, in its unit. If the path makes it impossible, the law comes as close as damping allows.
+        gain: Gain of the approach, 1/s.
+        task: Task, as for :class:`Resolution`.
+        rate_cap: Largest norm of the joint rates, rad/s, as for :class:`Resolution`.
+        period: Control period, s, as for :class:`Resolution`.
+        damping: Damping factor at a singularity, as for :class:`Resolution`.
 
     Source: Egeland 1987; Sciavicco and Siciliano 1988; English and Maciejewski 1998, section II.
     """
@@ -155,7 +155,7 @@ class AugmentedJacobian(Resolution):
         gradient = gradient_to_maximise(self.objective, q, jacobian)
         value = value_to_maximise(self.objective, q, jacobian)
         missing = self.gain * (sign * self.wanted - value) - ca.dot(gradient, particular)
-        # Least norm within the null space; where the objective does not change there, it cannot be helped.
+        # Least norm within the null space; where the objective does not change, the law has no effect on it.
         projected_gradient = gradient - jacobian.T @ ca.vertcat(
             *Cholesky(damped_gram(jacobian, SINGULAR_REGULARIZATION)).solve(ca.vertsplit(ca.densify(jacobian @ gradient)))
         )

@@ -1,21 +1,21 @@
 """Redundancy resolution: the end effector follows its task, and the self-motion serves an objective.
 
-Every law is one straight-line program: joint rates ``d + J_A^+ (v - J d) + s (z - J_A^+ J z)``, where the columns of J that
-belong to joints at a limit are taken out (A) and these joints move at their bound (d), z is what the law wants of the
-self-motion, and s keeps the norm of the rates under a cap. The two parts are orthogonal, so s slows the self-motion and
-leaves the end effector on its path.
+Every law is one straight-line program with joint rates ``d + J_A^+ (v - J d) + s (z - J_A^+ J z)``. The columns of J of joints
+at a limit are removed (A) and these joints move at their bound (d), z is the desired self-motion, and s keeps the norm of the
+rates under a cap. The two parts are orthogonal, so s slows the self-motion and leaves the end effector on its path.
 
-A distance that must not shrink too fast is one more limit, a row ``g' qd >= b``: where the motion would pass it, its
-self-motion is changed along ``(I - J_A^+ J) g``, by as little as that takes. Of two rows both are kept where the
-self-motion can.
+A distance that must not shrink too fast is one more limit, a row ``g' qd >= b``. If the motion would violate it, the
+self-motion is changed along ``(I - J_A^+ J) g`` by the least amount. Two rows are both respected if the self-motion can respect
+both.
 
-Where limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to the
-first is gone as the limits allow. Only if it too passes a bound the end effector is slowed. (Taking out joints is greedy: now
-and then, less than once in 100 crowded configurations, a linear program still finds rates that keep the end effector's speed.)
+If the limits do not allow this, the motion with s = 0 is computed in the same way, and the result is the point between it and
+the first motion that the limits allow. Only if the motion with s = 0 violates a bound as well, the end effector is slowed.
+(Removing joints is greedy: rarely, in less than one of 100 crowded configurations, a linear program still finds rates with full
+speed.)
 
 Sources: Liegeois 1977 for gradient projection; Baillieul 1985 for the extended Jacobian; English and Maciejewski 1998,
-sections II and VI-B, for their use before a free-swinging failure and for the cap (Fig. 8). Joints at limits are taken out
-one at a time, the most violated first, as by Flacco, De Luca and Khatib 2012.
+sections II and VI-B, for their use before a free-swinging failure and for the cap (Fig. 8). Joints at limits are removed one at
+a time, the most violated first, as by Flacco, De Luca and Khatib 2012.
 """
 
 from __future__ import annotations
@@ -46,21 +46,21 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 
 SINGULAR_REGULARIZATION = 1e-12  # keeps a factorisation of a singular matrix finite
-_DAMPED_FRACTION = 0.02  # share of the arm's typical manipulability below which rates are damped
+_DAMPED_FRACTION = 0.02  # fraction of the arm's typical manipulability below which rates are damped
 _VOLUME_SAMPLES = 512
-_NO_LIMIT_RATE = 1e9  # stands for no limit, rad/s
+_NO_LIMIT_RATE = 1e9  # rad/s, means no limit
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rates:
-    """Joint rates at N configurations, or at one (then without the leading N).
+    """Joint rates at N configurations, or at one (without the leading N).
 
     Attributes:
-        rates: (N, n) rad/s and m/s.
-        self_motion: (N,) share of the wanted self-motion that the cap lets pass, 0 to 1.
-        task: (N,) share of the commanded velocity that is carried out, 0 to 1: below 1 where limits leave no other way.
-        damping: (N,) 0 away from singularities; above, the end effector leaves its path a little.
-        status: (N,) ``OK``, ``SLOWED`` where the end effector is, ``SINGULAR`` where rates are damped, or ``BAD_INPUT``.
+        rates: (N, n) joint rates, rad/s and m/s.
+        self_motion: (N,) fraction of the desired self-motion that the cap allows, 0 to 1.
+        task: (N,) fraction of the commanded velocity that is executed, 0 to 1; below 1 only if limits enforce it.
+        damping: (N,) 0 away from singularities; if above 0, the end effector leaves its path slightly.
+        status: (N,) ``OK``, ``SLOWED`` if the end effector is slowed, ``SINGULAR`` if rates are damped, or ``BAD_INPUT``.
     """
 
     rates: FloatArray
@@ -72,19 +72,19 @@ class Rates:
 
 @check_constructor
 class Resolution(Steppable):
-    """A law that turns a velocity of the end effector into joint rates.
+    """Law that converts a velocity of the end effector into joint rates.
 
     Args:
-        arm: The arm.
-        objective: What the self-motion serves.
-        task: Rows of the end effector's velocity that are prescribed. Default: the objective's, or ``pose``.
-        rate_cap: Largest norm of the joint rates, rad/s (and m/s); slows the self-motion only. None: no cap.
-        period: Of control, s: a joint may not pass its limit within one. None: position limits are not looked at.
-        damping: Of the least-squares solution at a singularity; 0 at 2 % of the arm's typical manipulability and above.
+        arm: Arm model.
+        objective: Objective of the self-motion.
+        task: Prescribed rows of the end effector's velocity. Default: the objective's task, or ``pose``.
+        rate_cap: Largest norm of the joint rates, rad/s (and m/s); it slows the self-motion only. None: no cap.
+        period: Control period, s; a joint may not pass its limit within one period. None: position limits are ignored.
+        damping: Damping of the least-squares solution at a singularity; 0 from 2 % of the arm's typical manipulability upwards.
 
     Raises:
-        InputError: Options out of range, or an objective of another arm.
-        TaskError: The task leaves no freedom, or is not the objective's.
+        InputError: An option is out of range, or the objective belongs to another arm.
+        TaskError: The task leaves no redundancy, or differs from the objective's task.
     """
 
     name = ""
@@ -121,10 +121,10 @@ class Resolution(Steppable):
     # ---- symbols -----------------------------------------------------------------------------------------------
 
     def expression(self, q: SX, twist: SX, rows: Sequence[Row] = ()) -> SX:
-        """Return joint rates (n,), the fractions of self-motion and of the task, and the damping, of q (n,) and a twist (6,).
+        """Return joint rates (n,), the fractions of self-motion and task, and the damping, at ``q`` (n,) for a ``twist`` (6,).
 
-        The twist is the tool's, linear (m/s) and angular (rad/s) in the world frame; rows the task leaves free are ignored.
-        A row ``(g, b)``, (n,) and a number, asks for ``g' rates >= b`` as well; there may be two.
+        The twist is that of the tool, linear (m/s) and angular (rad/s) in the world frame; rows that the task leaves free are
+        ignored. ``rows`` are up to two limits ``(g, b)``, (n,) and a number, which require ``g' rates >= b``.
         """
         arm, n = self.arm, self.arm.n
         chain = kinematics.kinematic_chain(arm, q)
@@ -142,8 +142,8 @@ class Resolution(Steppable):
         bounded = self._bounded_joints(low, high)
         if not bounded and not rows:
             return ca.vertcat(rates, motion_fraction, served_fraction, served_damping)
-        # Where the limits leave no room for all of the self-motion that is wanted, as much of it as they do leave: both
-        # motions keep the task, so does every motion between them.
+        # If the limits do not allow the whole desired self-motion, take the fraction that they allow. Both motions meet the
+        # task, and so does every motion between them.
         blend = ca.SX(1)
         limited = [(low[k], task_rates[k], rates[k], high[k]) for k in bounded]
         limited += [(bound_rate, ca.dot(gradient, task_rates), ca.dot(gradient, rates), None) for gradient, bound_rate in rows]
@@ -179,7 +179,8 @@ class Resolution(Steppable):
     ) -> tuple[SX, SX, SX, SX]:
         """Return rates (n,) for the task, with or without the desired self-motion; joints at their bounds are held there.
 
-        Also the share of the self-motion that the cap lets pass, the share of all of it that no bound forbids, and the damping.
+        Further results: the fraction of the self-motion that the cap allows, the fraction that the bounds allow, and the
+        damping.
         """
         n = self.arm.n
         fixed_rates, free = ca.SX(n, 1), ca.SX.ones(n, 1)
@@ -223,7 +224,7 @@ class Resolution(Steppable):
                 newly_fixed = [ca.if_else(worst_joint == k, 1.0, 0.0) if k in bounded else ca.SX(0) for k in range(n)]
                 fixed_rates = ca.vertcat(*[fixed_rates[k] + newly_fixed[k] * worst_bound for k in range(n)])
                 free = ca.vertcat(*[free[k] * (1 - newly_fixed[k]) for k in range(n)])
-        # What is beyond a bound now cannot be avoided like this: everything slows down together.
+        # A bound that is still violated cannot be respected in this way, so all rates are scaled down together.
         task_fraction = ca.SX(1)
         for k in bounded:
             ratio, _ = self._bound_ratio(rates[k], lower[k], upper[k])
@@ -236,7 +237,7 @@ class Resolution(Steppable):
         return rates, fraction, task_fraction, damping - SINGULAR_REGULARIZATION
 
     def _rate_bounds(self, q: SX) -> tuple[list[SX | None], list[SX | None]]:
-        """Return the smallest and largest rate of every joint; None where there is none."""
+        """Return the smallest and largest rate of every joint; None means no bound."""
         lower: list[SX | None] = []
         upper: list[SX | None] = []
         for k, joint in enumerate(self.arm.joints):
@@ -294,8 +295,8 @@ class Resolution(Steppable):
         """Return joint rates for a twist of the end effector.
 
         Args:
-            q: (n,) or (N, n), rad and m.
-            twist: (6,) or (N, 6), linear (m/s) and angular (rad/s), in the world frame.
+            q: (n,) or (N, n) configurations, rad and m.
+            twist: (6,) or (N, 6) twists, linear (m/s) and angular (rad/s), in the world frame.
 
         Raises:
             InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
@@ -335,7 +336,7 @@ def choose_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
 
     Raises:
         InputError: The objective belongs to another arm.
-        TaskError: It is defined for another task, or the task leaves no freedom.
+        TaskError: The objective is defined for another task, or the task leaves no redundancy.
     """
     if objective.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the objective belongs to '{objective.arm.name}', not to '{arm.name}'; make it with the same arm")
@@ -360,7 +361,7 @@ def choose_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
 
 
 def value_to_maximise(objective: Objective, q: SX, jacobian: SX) -> SX:
-    """Return the objective, negated where smaller is better."""
+    """Return the objective, negated if smaller is better."""
     return sum(
         part.weight * select_at_smallest(part.values, part.values)[0]
         for part in objective.exact_parts(q, jacobian, factor_householder(jacobian), _unit_vectors(q))
@@ -368,7 +369,7 @@ def value_to_maximise(objective: Objective, q: SX, jacobian: SX) -> SX:
 
 
 def gradient_to_maximise(objective: Objective, q: SX, jacobian: SX) -> SX:
-    """Return the gradient (n,) of :func:`value_to_maximise`; of the worst of several failures that of the first."""
+    """Return the gradient (n,) of :func:`value_to_maximise`; for the worst of several failures, the first one's."""
     total = ca.SX(int(q.numel()), 1)
     for part in objective.exact_parts(q, jacobian, factor_householder(jacobian), _unit_vectors(q)):
         rows = [ca.vertcat(*row) for row in part.slopes]

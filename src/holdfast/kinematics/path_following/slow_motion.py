@@ -21,11 +21,11 @@ class SlowMotion:
     """Time scale at which a motion is slow enough.
 
     Attributes:
-        time_scale: The smallest factor k such that a motion that takes k times as long, or longer still, meets the bound;
-            0 if it meets the bound at any speed.
-        worst_joint: Index from 0 of the joint that asks for it.
-        worst_time_index: Index from 0 of the sample at which it does.
-        satisfied: ``time_scale <= 1``: the motion is slow as it is.
+        time_scale: Smallest factor k such that the motion meets the bound if it takes k times as long, or longer; 0 if it meets
+            the bound at any speed.
+        worst_joint: Index from 0 of the joint that determines the time scale.
+        worst_time_index: Index from 0 of the sample that determines it.
+        satisfied: True if ``time_scale <= 1``, so that the motion is slow enough as it is.
     """
 
     time_scale: float
@@ -36,24 +36,24 @@ class SlowMotion:
 
 @check_arguments
 def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, *, qdd: ArrayLike, bound: ArrayLike) -> SlowMotion:
-    """Compute by how much a motion must be stretched in time for its torques to stay close to the torques at rest.
+    """Compute the factor by which a motion must be stretched in time for its torques to stay close to the torques at rest.
 
-    When a motion takes k times as long, its rates are divided by k and its accelerations by k^2, so what its torques add to
-    gravity's is ``b / k + a / k^2`` with the friction b and the inertial torque a of the original motion. The largest k at
-    which that meets the bound is a root of a quadratic, one for each joint and sample. Where friction and inertia oppose
-    each other a faster motion may meet the bound again; that is not counted.
+    If a motion takes k times as long, its rates are divided by k and its accelerations by k^2. Its torques then exceed
+    gravity's by ``b / k + a / k^2``, with the friction b and the inertial torque a of the original motion. The largest k at
+    which this meets the bound is a root of a quadratic, one for each joint and sample. If friction and inertia oppose each
+    other, a faster motion may meet the bound again; this case does not count.
 
     Args:
-        arm: The arm.
+        arm: Arm model with inertial data.
         q: (T, n) configurations of the motion, rad and m.
-        qd: (T, n) their rates, rad/s and m/s.
-        qdd: (T, n) their accelerations, rad/s^2 and m/s^2.
-        bound: Of ``|torque - gravity torque|``, N m and N: a number or (n,), above 0. It may be 0 for a joint on which
-            neither friction nor inertia acts.
+        qd: (T, n) joint rates, rad/s and m/s.
+        qdd: (T, n) joint accelerations, rad/s^2 and m/s^2.
+        bound: Bound of ``|torque - gravity torque|``, N m and N: a number or (n,), above 0. It may be 0 for a joint without
+            friction and inertia.
 
     Raises:
-        ArmError: A link of which nothing is known, or whose inertia no body has.
-        InputError: Shapes that do not fit, no samples, NaN or infinity, or a bound that no slowness meets.
+        ArmError: The mass or inertia of a link is unknown, or impossible for a body.
+        InputError: Shapes do not fit, there are no samples, a number is not finite, or no slowness meets the bound.
 
     Source: English and Maciejewski 1998, eq. (5), (6).
     """
@@ -73,7 +73,7 @@ def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, *, qdd: ArrayLike, bound:
                 f"the bound of joint '{joint.name}' is 0, but friction or inertia acts on it, so no motion is slow enough; "
                 "give a bound above 0"
             )
-    joint_bound = np.where(loaded, limit, 1.0)  # of the others every bound is kept
+    joint_bound = np.where(loaded, limit, 1.0)  # the others meet every bound
     scales = _required_time_stretch(viscous / joint_bound, inertial / joint_bound)
     sample, joint_index = np.unravel_index(int(scales.argmax()), scales.shape)
     scale = float(scales.max())
@@ -95,12 +95,12 @@ def _read_bounds(arm: Arm, bound: ArrayLike) -> FloatArray:
 def _required_time_stretch(b: FloatArray, a: FloatArray) -> FloatArray:
     """Return the largest time scale k at which ``|b / k + a / k^2| = 1``; 0 if b and a are 0.
 
-    With signs turned so that b is positive: ``k^2 - b k - a = 0`` for +1 and ``k^2 + b k + a = 0`` for -1.
+    Signs are chosen so that b is positive: ``k^2 - b k - a = 0`` for +1 and ``k^2 + b k + a = 0`` for -1.
     """
     a, b = np.where(b < 0, -a, a), np.abs(b)
     root = np.sqrt(b**2 + 4 * np.abs(a))
     aligned_root = (b + root) / 2
-    # Opposed: inertia leads when fast, friction when slow. Written so that nothing cancels.
+    # If opposed, inertia dominates in fast motion and friction in slow motion. This form avoids cancellation.
     inertia_root = 2 * np.abs(a) / np.where(b + root > 0, b + root, 1.0)
     discriminant = b**2 - 4 * np.abs(a)
     friction_root = np.where(discriminant > 0, (b + np.sqrt(np.maximum(discriminant, 0))) / 2, 0.0)

@@ -30,15 +30,15 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
-OPTIMUM_METHODS = ("gradient-projection", "extended-jacobian")  # these stay at a local best
+OPTIMUM_METHODS = ("gradient-projection", "extended-jacobian")  # methods that stay at a local best
 METHOD_NAMES = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
-_MIN_CONTROL_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
-_SETTLING_STEPS = 10  # steps: time constant of the gain that is chosen if none is given
+_MIN_CONTROL_STEPS = 20_000  # minimum number of control steps, because the end effector errs by the square of a step
+_SETTLING_STEPS = 10  # steps: time constant of the default gain
 _MAX_SELF_MOTION_STEP = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
 _GAIN_PROBES = 64
 _LIMIT_TOLERANCE = 1e-6  # rad and m from a limit
-_APPROACH_STEPS = 100  # steps: time constant with which the room to what is near may shrink
+_APPROACH_STEPS = 100  # steps: time constant with which the distance to a nearby object may shrink
 _TRACED_POSES = 101  # poses whose whole manifold is traced
 
 
@@ -70,42 +70,42 @@ def follow(
     """Compute the joint motion along a timed path of the end effector, with redundancy resolution.
 
     Args:
-        arm: The arm.
-        path: Where the end effector is to be, and when.
-        minimise: What the self-motion makes small, for example a susceptibility; either this or ``maximise``.
-        maximise: What it makes large.
+        arm: Arm model.
+        path: Timed path of the end effector.
+        minimise: Objective that the self-motion minimises, for example a susceptibility; give either this or ``maximise``.
+        maximise: Objective that the self-motion maximises.
         method: ``gradient-projection`` follows the gradient, ``extended-jacobian`` stays at an extremum, ``augmented-jacobian``
-            keeps the value ``wanted``, ``none`` moves as little as possible (least-norm rates) and only reports.
-        q: (n,) where to start, on the first pose. Default: the best configuration of the first pose.
-        gain: Of the law; for gradient projection rad/s per unit of the objective and rad, otherwise 1/s. Default: chosen so
-            that the self-motion settles within about 0.05 % of the duration, from the curvature of the objective on the path:
-            it hardly lags, and shows the rates that staying at the best takes.
-        wanted: Value that the augmented Jacobian keeps. Default: that of the start.
-        rate_cap: Largest norm of the joint rates, rad/s; slows the self-motion only. Without it that is still kept to what
-            20,000 steps resolve: 0.02 rad each.
-        task: Rows of the poses to keep. Default: the objective's, or ``position`` for a path of positions, or ``pose``.
+            keeps the value ``wanted``, ``none`` uses least-norm rates and only reports the objective.
+        q: (n,) start configuration on the first pose, rad and m. Default: the best configuration of the first pose.
+        gain: Gain of the law; for gradient projection rad/s per unit of the objective and rad, otherwise 1/s. Default: chosen
+            from the curvature of the objective on the path so that the self-motion settles within about 0.05 % of the duration.
+            It then hardly lags, and its rates show what staying at the best requires.
+        wanted: Value that the augmented Jacobian keeps, in the unit of the objective. Default: the value at the start.
+        rate_cap: Largest norm of the joint rates, rad/s; it slows the self-motion only. Default: the rate that
+            20,000 steps of 0.02 rad resolve.
+        task: Rows of the poses to keep. Default: the objective's task, or ``position`` for a path of positions, or ``pose``.
         samples: Number of samples, evenly spaced in time.
         limits: Keep the joints within their position and velocity limits.
-        damping: Near singularities; see :class:`holdfast.kinematics.path_following.Resolution`.
-        seed: Of the search for a start and of the manifolds.
-        best: Also find the best value of each pose over its whole self-motion manifold, and the best continuous motion
-            through these, by dynamic programming; for one or two degrees of redundancy. How fast it may move from one
-            manifold to the next is the velocity limits of the joints, and the rate cap for each of them, if all have one.
-        spacing: Of the points on these manifolds, rad.
-        torque_bound: If given, N m and N, the result says how slow the motion must be for its torques to stay this close to
-            gravity's; see :meth:`Trajectory.slowness`.
-        clearance: Keep the links of the arm apart by self-motion; not looked at if not given. True: capsules of an assumed
-            radius.
-        cell: Objects around the arm, or their file, to keep clear of in the same way; the links are then kept apart as well,
-            but for an arm that moves in a plane and with ``clearance=False``.
-        margin: Smallest clearance, m; from an object beyond what the cell keeps from it. The room beyond it shrinks no faster
-            than to 1/e within 0.5 % of the duration: a limit as those of the joints, of whatever is nearest. Where the
-            self-motion leaves no way to keep it the end effector is slowed, and stops.
+        damping: Damping factor near singularities; see :class:`holdfast.kinematics.path_following.Resolution`.
+        seed: Seed of the search for a start and of the manifolds.
+        best: Also find the best value of each pose over its whole self-motion manifold, and the best continuous motion through
+            these manifolds, by dynamic programming; for one or two degrees of redundancy. The velocity limits of the joints, if
+            all have one, and the rate cap for each joint limit the motion from one manifold to the next.
+        spacing: Distance of the points on these manifolds, rad.
+        torque_bound: Bound in N m and N; the result then reports how slow the motion must be for its torques to stay this close
+            to gravity's; see :meth:`Trajectory.slowness`.
+        clearance: Collision model; self-motion then keeps the links apart. True: capsules with an assumed radius. Default: not
+            checked.
+        cell: Environment, or its file, to avoid by self-motion. The links are then kept apart as well, except for a planar arm
+            and with ``clearance=False``.
+        margin: Smallest clearance, m, in addition to the distances that the cell requires. The remaining distance to the
+            nearest pair may shrink at most to 1/e within 0.5 % of the duration. If no self-motion can respect this limit, the
+            end effector is slowed, and stops.
 
     Raises:
-        ArmError: A torque_bound for an arm without inertial data.
-        InputError: Not exactly one objective, a start that is not on the first pose or not clear, options out of range.
-        TaskError: No redundancy, or an objective of another task.
+        ArmError: A torque_bound is given for an arm without inertial data.
+        InputError: Not exactly one objective; a start that is not on the first pose or collides; an option out of range.
+        TaskError: There is no redundancy, or the objective has another task.
         HoldfastError: No configuration of the first pose was found.
 
     Source: English and Maciejewski 1998, sections II and VI.
@@ -122,7 +122,7 @@ def follow(
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     resolved_clearance = chosen_clearance(arm, clearance, cell, looks=False)
     if resolved_clearance is None and margin:
-        raise InputError("margin has nothing to keep: no clearance is looked at; give a cell, or a clearance")
+        raise InputError("margin has no effect, because no clearance is checked; give a cell, or a clearance")
     time = np.linspace(0.0, path.duration, samples)
     poses = path.pose(time)
     start = _find_start(arm, objective, resolved_task, poses[0], q, seed, resolved_clearance, margin)
@@ -148,7 +148,7 @@ def follow(
     else:
         law = GradientProjection(arm, objective, gain, task=resolved_task, rate_cap=cap, period=period, damping=damping)
     if wanted is not None and target_value is None:
-        raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
+        raise InputError(f"wanted is for the augmented Jacobian, not for {method}; leave it out")
     settle = q is None and method in OPTIMUM_METHODS
     rate_limit = (
         None if resolved_clearance is None else ClearanceRateLimit(resolved_clearance, margin, 1 / (_APPROACH_STEPS * step))
@@ -201,7 +201,7 @@ def follow(
         _plain=None if method == "none" else partial(follow, arm, path, method="none", **plain_options),
     )
     if torque_bound is not None:
-        trajectory.slowness(torque_bound)  # it may be refused
+        trajectory.slowness(torque_bound)  # raises an error for invalid bounds
     return trajectory
 
 
@@ -309,14 +309,14 @@ def _find_best_motion(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the best value of each pose and the best continuous motion, interpolated from a coarser grid of poses.
 
-    Of configurations that are clear, if that is asked for.
+    If a clearance is given, only collision-free configurations count.
     """
     sign = -1.0 if objective.better == "larger" else 1.0
     grid_index = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _TRACED_POSES)).astype(int))
     velocity_limits = np.array([joint.velocity for joint in arm.joints])
     if rate_cap is not None:
         velocity_limits = np.minimum(velocity_limits, rate_cap)
-    # Where a joint has no limit, the path's own default says what counts as continuous.
+    # If a joint has no limit, the default of the path search defines continuity.
     rate_limit = velocity_limits * float(np.diff(time[grid_index]).max()) if np.isfinite(velocity_limits).all() else None
 
     def evaluate_cost(q: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The result of tracking a path: joints over time, errors, objective values, and events."""
+"""Result of tracking a path: joints over time, errors, objective values, and events."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Event:
     Attributes:
         kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
             ``value jump``, ``rate cap``, ``joint limit``, ``end effector slowed``, ``near a singularity``, ``kept clear`` (of
-            an object, or of the arm itself, by self-motion) or ``too near`` (closer than asked for).
-        start, end: From when to when, s.
+            an object, or of the arm itself, by self-motion) or ``too near`` (closer than required).
+        start, end: Begin and end of the event, s.
         text: One sentence for people.
     """
 
@@ -45,34 +45,34 @@ class Event:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Trajectory(Result):
-    """Joints along a path of the end effector, T samples.
+    """Joint motion along a path of the end effector, T samples.
 
     Attributes:
-        arm, task, objective: What moved, which rows of the end effector were prescribed, and what the self-motion served.
-        method: The law, for people.
-        gain: Of the law; see :func:`holdfast.follow`.
-        seed: Of the search for a start.
-        rate_cap: Largest norm of the joint rates that was asked for, rad/s, or None.
-        time: (T,) s.
-        q, qd, qdd: (T, n) rad and m, and their rates per s and s^2.
-        poses: (T, 4, 4) wanted poses of the end effector in the world.
-        position_error: (T,) m, of the task's rows.
-        rotation_error: (T,) rad.
-        value: (T,) of the objective.
-        curvature: (T,) smallest curvature of the objective along the self-motion, larger than 0 at a proper local best; its
-            unit is that of the objective per rad^2.
-        self_motion: (T,) share of the self-motion that the rate cap let pass.
-        task_share: (T,) share of the commanded velocity that was carried out.
+        arm, task, objective: Arm model, prescribed rows of the end effector, and objective of the self-motion.
+        method: Name of the law, for people.
+        gain: Gain of the law, with the unit that :func:`holdfast.follow` states.
+        seed: Seed of the search for a start.
+        rate_cap: Requested largest norm of the joint rates, rad/s, or None.
+        time: (T,) time, s.
+        q, qd, qdd: (T, n) joint values, rad and m, and their rates per s and s^2.
+        poses: (T, 4, 4) target poses of the end effector in the world, m.
+        position_error: (T,) position error in the task's rows, m.
+        rotation_error: (T,) orientation error, rad.
+        value: (T,) value of the objective.
+        curvature: (T,) smallest curvature of the objective along the self-motion, above 0 at a proper local best; its unit is
+            that of the objective per rad^2.
+        self_motion: (T,) fraction of the self-motion that the rate cap allowed.
+        task_share: (T,) fraction of the commanded velocity that was executed.
         damping: (T,) above 0 where rates were damped near a singularity.
-        steps: Of control that were computed.
+        steps: Number of computed control steps.
         peak_rate: Largest norm of the joint rates, also between the samples, rad/s.
-        peak_time: When that was, s.
-        events: What happened, in order.
-        best_value: (T,) the best value over the whole self-motion manifold of each pose, or None if it was not asked for.
-        best_path: (T, n) the best continuous motion through these manifolds, NaN where there is none; or None.
-        torque_bound: By which the report and :meth:`to_dict` judge whether the motion is slow enough, N m and N; or None.
-        clear_of: What the motion was to keep clear of, itself and its cell, or None.
-        margin: How far at least, beyond what the cell keeps, m.
+        peak_time: Time of this peak, s.
+        events: Events in order of time.
+        best_value: (T,) best value over the whole self-motion manifold of each pose, or None if it was not requested.
+        best_path: (T, n) best continuous motion through these manifolds, NaN where there is none; or None.
+        torque_bound: Bound by which the report and :meth:`to_dict` rate the slowness of the motion, N m and N; or None.
+        clear_of: Collision model of the arm and its cell that the motion respects, or None.
+        margin: Required distance beyond that of the cell, m.
     """
 
     arm: Arm
@@ -125,7 +125,7 @@ class Trajectory(Result):
 
     @cached_property
     def without_objective(self) -> Trajectory | None:
-        """The same path from the same start with least-norm rates; None if this motion has no objective."""
+        """Motion along the same path from the same start with least-norm rates; None if this motion has no objective."""
         return None if self._plain is None else self._plain()
 
     @property
@@ -172,13 +172,13 @@ class Trajectory(Result):
         return {measure.slug: measure.by_joint(self.q) for measure in find_susceptibilities(self.objective)}
 
     def torques(self, time_scale: float = 1.0) -> FloatArray:
-        """Compute torques (T, n) of the whole dynamics with viscous friction, N m and N, with time stretched by a factor.
+        """Compute torques (T, n) of the whole dynamics with viscous friction, N m and N, with time stretched by ``time_scale``.
 
         Source: English and Maciejewski 1998, eq. (5).
 
         Raises:
             ArmError: The arm has no inertial data.
-            InputError: A factor that is not above 0.
+            InputError: The factor is not above 0.
         """
         if not (np.isfinite(time_scale) and time_scale > 0):
             raise InputError(f"time_scale is {time_scale:g}; it must be above 0 (2: half as fast)")
@@ -206,7 +206,7 @@ class Trajectory(Result):
         return table
 
     def to_csv(self, path: str | Path) -> Path:
-        """Write the table, a row for each sample; the unit is in the name of each column.
+        """Write the table to the CSV file ``path``, a row for each sample; the name of each column contains its unit.
 
         Raises:
             StoreError: The file cannot be written.
@@ -216,7 +216,7 @@ class Trajectory(Result):
         return write_rows(path, table, zip(*columns, strict=True), "motion")
 
     def to_parquet(self, path: str | Path) -> Path:
-        """Write the same table as Parquet.
+        """Write the table of :meth:`to_csv` to the Parquet file ``path``.
 
         Raises:
             StoreError: The file cannot be written, or pyarrow is not installed.
@@ -232,11 +232,10 @@ class Trajectory(Result):
         return Path(path)
 
     def slowness(self, bound: float) -> list[SlowMotion]:
-        """Check for each of the n joints how slow the motion must be: see
-        :func:`holdfast.kinematics.path_following.slow_enough`.
+        """Return for each joint how slow the motion must be; see :func:`holdfast.kinematics.path_following.slow_enough`.
 
         Args:
-            bound: Of ``|torque - gravity torque|``, N m and N, of every joint.
+            bound: Bound of ``|torque - gravity torque|`` of every joint, N m and N.
 
         Source: English and Maciejewski 1998, eq. (6).
         """
@@ -245,7 +244,7 @@ class Trajectory(Result):
 
 
 def find_susceptibilities(objective: Objective) -> list[Susceptibility]:
-    """Find the susceptibilities that an objective contains; of two of one kind the first."""
+    """Return the susceptibilities in an objective; only the first of each kind."""
     if isinstance(objective, NegatedObjective):
         return find_susceptibilities(objective.objective)
     parts = [term for _, term in objective.terms] if isinstance(objective, WeightedSum) else [objective]

@@ -10,12 +10,12 @@ from holdfast.model.arm.model import Arm
 
 
 def joint_columns(arm: Arm) -> list[str]:
-    """Return the names of the joints' columns."""
+    """Return the column names of the joints."""
     return [f"{joint.name}_{joint.unit}" for joint in arm.joints]
 
 
 def motion_column_names(arm: Arm) -> tuple[list[str], list[str], list[str]]:
-    """Return the names of the columns of joints, their rates, and their accelerations."""
+    """Return the column names of the joints, their rates, and their accelerations."""
     rates = [f"{joint.name}_rate_{joint.unit}_per_s" for joint in arm.joints]
     return joint_columns(arm), rates, [f"{joint.name}_acceleration_{joint.unit}_per_s2" for joint in arm.joints]
 
@@ -24,13 +24,13 @@ def read_joint_table(arm: Arm, file: Path, content_name: str, leading_column: st
     """Read a table that has a column for each joint of an arm.
 
     Args:
-        arm: The arm.
-        file: CSV.
-        content_name: It should hold, for messages.
-        leading_column: Name of a column that may precede the joints', for messages.
+        arm: Arm model.
+        file: CSV file.
+        content_name: Name of the content, for messages.
+        leading_column: Name of a column that may precede the joint columns, for messages.
 
     Raises:
-        InputError: Unreadable, or a joint's column is missing or given twice.
+        InputError: The file cannot be read, or the column of a joint is missing or given twice.
     """
     table = read_csv_table(file, f"{content_name} '{file}'")
     required = joint_columns(arm)

@@ -18,26 +18,26 @@ from holdfast.kinematics.paths.timing import Trapezoid
 from holdfast.model.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
 
 _MAX_COORDINATE = 1e12  # m; beyond, squares overflow
-_EQUAL_POSE_TOLERANCE = 1e-12  # m and rad: poses closer than this are one pose
-_CORNER_TOLERANCE = 1e-9  # relative jump of the twist below which a corner is none
+_EQUAL_POSE_TOLERANCE = 1e-12  # m and rad: closer poses are equal
+_CORNER_TOLERANCE = 1e-9  # relative jump of the twist below which there is no corner
 
 
 @dataclass(frozen=True, eq=False)
 class Path(Presentable):
     """Path of the end effector, ``s`` from 0 to 1, that consists of L legs. Use :func:`line`, :func:`arc`, or :func:`sequence`.
 
-    On a leg, with u from 0 to 1, the position is ``center + exp(u sweep) (p0 - center) + u shift`` and the orientation
-    ``exp(u turn) R0``: both at constant speed, about axes that stay still in the world. The speed is the same on all
-    legs: ``s`` is the share of :attr:`length`.
+    On a leg, with u from 0 to 1, the position is ``center + exp(u sweep) (p0 - center) + u shift`` and the orientation ``exp(u
+    turn) R0``, both at constant speed about axes that are fixed in the world. All legs have the same speed, because ``s`` is
+    the fraction of :attr:`length`.
 
     Attributes:
-        starts: (L, 4, 4) pose at which each leg begins, world frame, m.
+        starts: (L, 4, 4) pose at the beginning of each leg, world frame, m.
         shift: (L, 3) straight motion of the end effector, m.
-        center: (L, 3) point about which the end effector's position turns, m.
-        sweep: (L, 3) rotation vector of that turn, rad; 0 for a straight leg.
-        turn: (L, 3) rotation vector of the change of orientation, rad.
-        oriented: False if only positions were given; the orientation is then the identity and a task ``position`` is meant.
-        name: For reports.
+        center: (L, 3) point about which the position rotates, m.
+        sweep: (L, 3) rotation vector of the position, rad; 0 for a straight leg.
+        turn: (L, 3) rotation vector of the orientation, rad.
+        oriented: False if only positions were given; the orientation is then the identity, for a task ``position``.
+        name: Name for reports.
     """
 
     starts: FloatArray
@@ -81,11 +81,11 @@ class Path(Presentable):
         )
 
     def pose(self, s: ArrayLike) -> FloatArray:
-        """Return the pose of the end effector in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is
+        """Return the pose (4, 4) of the end effector in the world at ``s`` from 0 to 1, or (N, 4, 4) for (N,); NaN where s is
         NaN.
 
         Raises:
-            InputError: An s outside 0 to 1.
+            InputError: An s is outside 0 to 1.
         """
         parameters = _check_path_parameters(s)
         leg, fractions = self._locate(np.atleast_1d(parameters))
@@ -94,38 +94,37 @@ class Path(Presentable):
         poses = np.zeros((fractions.size, 4, 4))
         poses[:, :3, :3] = rotations_of_vectors(fractions[:, None] * self.turn[leg]) @ start_pose[:, :3, :3]
         rotated = _rotate_points(fractions[:, None] * self.sweep[leg], radius_vectors)
-        # The way from the start, so that a straight leg does not meet the rounding of a turn by 0.
+        # The displacement from the start, so that a straight leg has no rounding error from a rotation by 0.
         poses[:, :3, 3] = start_pose[:, :3, 3] + (rotated - radius_vectors) + fractions[:, None] * self.shift[leg]
         poses[:, 3, 3] = 1.0
         poses[np.isnan(fractions)] = np.nan
         return poses.reshape((*parameters.shape, 4, 4))
 
     def twist(self, s: ArrayLike) -> FloatArray:
-        """Return the exact derivative of the pose by s, (6,) or (N, 6): linear (m), then angular (rad), both in the world
+        """Return the exact derivative of the pose by ``s``, (6,) or (N, 6) for (N,): linear (m), then angular (rad), world
         frame.
 
-        It jumps at the :attr:`corners`, where it is that of the leg which begins there.
+        It jumps at the :attr:`corners`, where it is the derivative of the leg that begins there.
 
         Raises:
-            InputError: An s outside 0 to 1.
+            InputError: An s is outside 0 to 1.
         """
         parameters = _check_path_parameters(s)
         flat_parameters = np.atleast_1d(parameters)
         return self._leg_twist(flat_parameters, self._locate(flat_parameters)[0]).reshape((*parameters.shape, 6))
 
     def twist_slope(self, s: ArrayLike) -> FloatArray:
-        """Return the derivative of :meth:`twist` by s, (6,) or (N, 6), which is 0 except on arcs and ignores the jumps at
-        corners.
+        """Return the derivative of :meth:`twist` by ``s``, (6,) or (N, 6) for (N,): 0 except on arcs, without jumps at corners.
 
         Raises:
-            InputError: An s outside 0 to 1.
+            InputError: An s is outside 0 to 1.
         """
         parameters = _check_path_parameters(s)
         flat_parameters = np.atleast_1d(parameters)
         leg = self._locate(flat_parameters)[0]
         leg_fractions = np.diff(self.bounds)[leg, None]
         derivative = np.zeros((flat_parameters.size, 6))
-        # Of the linear part, shift stays as it is and the part that turns about the centre turns.
+        # In the linear part, shift is constant and the part that rotates about the centre rotates.
         linear = self._leg_twist(flat_parameters, leg)[:, :3] * leg_fractions - self.shift[leg]
         derivative[:, :3] = np.cross(self.sweep[leg], linear) / leg_fractions**2
         derivative[np.isnan(flat_parameters)] = np.nan
@@ -140,17 +139,17 @@ class Path(Presentable):
             kind = "arc" if is_arc.all() else "straight" if not is_arc.any() else "arcs and lines"
             parts.append(f"{travel:.4g} m ({kind})")
         if angle > _EQUAL_POSE_TOLERANCE:
-            parts.append(f"a turn of {np.rad2deg(angle):.4g} deg")
+            parts.append(f"a rotation of {np.rad2deg(angle):.4g} deg")
         corners = f", {self.corners.size} corner{'s' * (self.corners.size != 1)}" if self.corners.size else ""
         return f"{' and '.join(parts)}{corners}{'' if self.oriented else '; positions only'}"
 
     @classmethod
     @check_arguments
     def load(cls, file: str | pathlib.Path) -> Path:
-        """Return a path from a YAML file; the format is in :mod:`holdfast.kinematics.paths.path_file`.
+        """Return the path in the YAML ``file``; its format is in :mod:`holdfast.kinematics.paths.path_file`.
 
         Raises:
-            InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+            InputError: The file cannot be read, or a key is unknown, missing or wrong; the message names it.
         """
         return load_path_file(file)[0]
 
@@ -172,34 +171,33 @@ class Path(Presentable):
 
 @check_arguments
 def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
-    """Return a straight line of the end effector; the orientation rotates at constant speed about one axis, by the smaller
-    angle.
+    """Return a straight line of the end effector; the orientation rotates at constant speed about one axis, the short way.
 
     Args:
         start: (4, 4) pose in the world, or (3,) position, m.
-        end: The same. Where only one has an orientation, it is kept; where none has, it is the identity.
-        name: For reports.
+        end: (4, 4) pose or (3,) position, m. If only one end has an orientation, it is kept; if none has, it is the identity.
+        name: Name for reports.
 
     Raises:
-        InputError: Not poses or positions, or start and end are the same.
+        InputError: An end is not a pose or position, or start and end are equal.
     """
     return sequence([start, end], name)
 
 
 @check_arguments
 def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> Path:
-    """Return straight lines from pose to pose, without stops and without blends: the twist jumps at the corners.
+    """Return straight lines from pose to pose, without stops and without blends, so that the twist jumps at the corners.
 
-    A real arm cannot do that at full speed; :class:`holdfast.kinematics.paths.TimedPath` with ``stop=True`` stops at each
+    A real arm cannot follow a jump at full speed; :class:`holdfast.kinematics.paths.TimedPath` with ``stop=True`` stops at each
     corner.
 
     Args:
-        poses: (N, 4, 4) poses, (N, 3) positions, m, or a list that mixes both; at least 2. A position takes the
-            orientation of the pose before it (the first ones: of the first pose behind them).
-        name: For reports.
+        poses: (N, 4, 4) poses, (N, 3) positions, m, or a list of both kinds; at least 2. A position takes the orientation of
+            the previous pose, or of the first pose if there is none before.
+        name: Name for reports.
 
     Raises:
-        InputError: Not poses or positions, too few, or two that follow each other are the same.
+        InputError: An entry is not a pose or position, there are too few, or two consecutive entries are equal.
     """
     matrices, oriented = _read_poses(poses)
     if len(matrices) < 2:
@@ -230,17 +228,17 @@ def arc(
 
     Args:
         start: (4, 4) pose in the world, or (3,) position, m.
-        via: A pose or position on the way; with ``end``. The orientation turns from start to via and on to end, in
-            proportion to the way.
-        end: Where the arc ends.
-        center: (3,) a point on the axis, m; with ``axis`` and ``angle``.
+        via: (4, 4) pose or (3,) position, m, on the arc; with ``end``. The orientation rotates from start to via and on to end,
+            in proportion to the arc length.
+        end: (4, 4) pose or (3,) position, m, at the end of the arc.
+        center: (3,) point on the axis, m; with ``axis`` and ``angle``.
         axis: (3,) direction of the axis in the world.
-        angle: Angle of the arc, rad, right-handed about the axis; may be more than a full turn.
-        turning: With ``center``: the end effector turns with the arc, as a door does; else its orientation stays.
-        name: For reports.
+        angle: Angle of the arc, rad, right-handed about the axis; it may exceed a full turn.
+        turning: With ``center``: rotate the end effector with the arc, as a door handle does; otherwise keep its orientation.
+        name: Name for reports.
 
     Raises:
-        InputError: Neither of the two forms, points on a line or the same, an axis or angle of 0, or a start on the axis.
+        InputError: Neither form is given, points are collinear or equal, an axis or angle is 0, or the start is on the axis.
     """
     point_arguments, axis_arguments = (via, end), (center, axis, angle)
     if (
@@ -364,10 +362,10 @@ def _check_path_parameters(s: ArrayLike) -> FloatArray:
 
 
 def load_path_file(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
-    """Return the path in a file, its timing if it has one, and whether to stop at corners.
+    """Return the path in a file, its timing or None, and whether to stop at corners.
 
     Raises:
-        InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+        InputError: The file cannot be read, or a key is unknown, missing or wrong; the message names it.
     """
     from holdfast.kinematics.paths.path_file import parse_path_file
 

@@ -20,7 +20,7 @@ Other paths::
     poses: [{xyz: [0, 0, 1]}, {xyz: [0.5, 0, 1]}, {xyz: [0.5, 0.5, 1]}]    # straight lines between them
     poses: poses.csv          # next to this file; first line x,y,z or x,y,z,qx,qy,qz,qw
 
-Where no pose has an orientation, none is asked for (task ``position``). A pose without one takes that of the pose before.
+If no pose has an orientation, none is prescribed (task ``position``). A pose without orientation takes the previous one's.
 """
 
 from __future__ import annotations
@@ -44,11 +44,10 @@ QUATERNION_COLUMNS = ("qx", "qy", "qz", "qw")
 
 
 def parse_path_file(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str, float] | None, bool]:
-    """Return the shape of the path in a file and its arguments, those of its timing if it has one, and whether to stop at
-    corners.
+    """Return the shape of the path in a file, its arguments, those of its timing or None, and whether to stop at corners.
 
     Raises:
-        InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+        InputError: The file cannot be read, or a key is unknown, missing or wrong; the message names it.
     """
     try:
         model = _PathFile.model_validate(read_mapping(path, "holdfast.kinematics.paths.path_file", "line, arc or poses"))
@@ -155,7 +154,7 @@ def _assemble_pose(xyz: list[float] | FloatArray, rotation: FloatArray) -> Float
 
 def _rotation_matrix(quaternion: FloatArray, location: str) -> FloatArray:
     norm = float(np.linalg.norm(quaternion))
-    if not abs(norm - 1) < 1e-2:  # files may round
+    if not abs(norm - 1) < 1e-2:  # files may contain rounded numbers
         raise InputError(f"{location}: the quaternion (x, y, z, w) has length {norm:g}; it must be 1")
     return rotations_of_quaternions(quaternion)
 
@@ -164,14 +163,14 @@ def read_pose_table(file: pathlib.Path, option: str = "poses") -> list[FloatArra
     """Return the poses of a CSV file, one per line below the names of the columns.
 
     Args:
-        file: The first line is ``x,y,z`` or ``x,y,z,qx,qy,qz,qw``, in any order; m, world.
-        option: Where the file was named, for messages.
+        file: File whose first line is ``x,y,z`` or ``x,y,z,qx,qy,qz,qw``, in any order; m, world.
+        option: Name of the option with the file, for messages.
 
     Returns:
-        (4, 4) each, or (3,) where the file has no orientations.
+        Poses (4, 4), or positions (3,) if the file has no orientations.
 
     Raises:
-        InputError: What is wrong with which row.
+        InputError: A row is wrong; the message names the row and the problem.
     """
     table = read_csv_table(file, f"{option}: '{file.name}'")
     names = (*POSITION_COLUMNS, *QUATERNION_COLUMNS)[: 3 if len(table.header) == 3 else 7]

@@ -72,10 +72,10 @@ class TimedPath(Presentable):
     """Path with its timing, for a controller to follow.
 
     Attributes:
-        path: The path.
+        path: Geometry of the path.
         timing: :class:`Trapezoid`, :class:`Constant`, or any object with the members of :class:`Timing`.
-        stop: Use the timing's own beginning and end at each corner of the path (with a trapezoid: to rest). The parts
-            share the duration in proportion to their lengths.
+        stop: Apply the timing to each part between corners (a trapezoid then stops there). The parts share the duration in
+            proportion to their lengths.
     """
 
     path: Path
@@ -94,16 +94,16 @@ class TimedPath(Presentable):
         return float(self.timing.duration)
 
     def pose(self, t: ArrayLike) -> FloatArray:
-        """Return the tool pose at time t, s, in the world: (4, 4), or (N, 4, 4) for t (N,), constant outside the path."""
+        """Return the tool pose in the world at time ``t``, s: (4, 4), or (N, 4, 4) for (N,), constant outside the path."""
         return self.path.pose(self._path_parameters(_check_times(t)))
 
     def twist(self, t: ArrayLike) -> FloatArray:
-        """Return the twist (6,) or (N, 6): linear, m/s, then angular, rad/s, both in the world; 0 outside the path."""
+        """Return the twist at time ``t``, s, (6,) or (N, 6): linear, m/s, then angular, rad/s, in the world; 0 outside."""
         times = _check_times(t)
         return self.path.twist(self._path_parameters(times)) * self._evaluate_column(self._timing_with_stops.rate, times)
 
     def twist_rate(self, t: ArrayLike) -> FloatArray:
-        """Return the derivative of the twist (6,) or (N, 6), m/s^2 and rad/s^2, without the jumps at corners."""
+        """Return the derivative of the twist at time ``t``, s, (6,) or (N, 6), m/s^2 and rad/s^2, without jumps at corners."""
         times = _check_times(t)
         parameters = self._path_parameters(times)
         rate = self._evaluate_column(self._timing_with_stops.rate, times)
@@ -114,7 +114,7 @@ class TimedPath(Presentable):
         """Return the same motion ``factor`` times as long: twists are divided by the factor, their rates by its square.
 
         Raises:
-            InputError: A factor that is not above 0.
+            InputError: The factor is not above 0.
         """
         if not (np.isfinite(factor) and factor > 0):
             raise InputError(f"factor is {factor:g}; it must be above 0 (2: half as fast)")
@@ -130,11 +130,11 @@ class TimedPath(Presentable):
         """Return a path with its timing from a YAML file; the format is in :mod:`holdfast.kinematics.paths.path_file`.
 
         Args:
-            file: The file.
-            duration: s, in place of the file's.
+            file: Path file.
+            duration: Duration, s; default: that of the file.
 
         Raises:
-            InputError: Unreadable, without timing, or a key that is unknown, missing or wrong; the message names it.
+            InputError: The file cannot be read, has no timing, or a key is unknown, missing or wrong; the message names it.
         """
         path, timing, stop = load_path_file(file)
         if duration is not None:

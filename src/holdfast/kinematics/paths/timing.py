@@ -16,7 +16,7 @@ from holdfast.core.validation import check_constructor
 class Timing(Protocol):
     """Progress of s from 0 to 1. Any object with these members is accepted; each method takes t (N,), s, and returns (N,).
 
-    At t below 0 or above the duration the end effector is at the start or the end.
+    For t below 0 or above the duration the end effector is at the start or at the end.
     """
 
     @property
@@ -25,28 +25,27 @@ class Timing(Protocol):
         ...
 
     def s(self, t: FloatArray) -> FloatArray:
-        """Return the fraction of the path, 0 to 1."""
+        """Return the fraction of the path (N,), 0 to 1, at times ``t`` (N,), s."""
         ...
 
     def rate(self, t: FloatArray) -> FloatArray:
-        """Return ds/dt, 1/s."""
+        """Return ds/dt (N,), 1/s, at times ``t`` (N,), s."""
         ...
 
     def acceleration(self, t: FloatArray) -> FloatArray:
-        """Return d2s/dt2, 1/s^2; at a jump, the value after it."""
+        """Return d2s/dt2 (N,), 1/s^2, at times ``t`` (N,), s; at a jump, the value after it."""
         ...
 
 
 @check_constructor
 @dataclass(frozen=True)
 class Trapezoid:
-    """Motion from rest to rest: the speed rises linearly, stays constant, and falls linearly, by default for 20 %, 60 %, and 20
-    % of the time.
+    """Motion from rest to rest: the speed rises linearly, is constant, and falls linearly, by default for 20, 60, and 20 %.
 
     Attributes:
-        duration: s, above 0.
-        accelerate: Share of the time in which the speed rises, 0 to 1.
-        decelerate: Share of the time in which it falls; both together at most 1.
+        duration: Duration, s, above 0.
+        accelerate: Fraction of the duration in which the speed rises, 0 to 1.
+        decelerate: Fraction of the duration in which the speed falls; both together at most 1.
 
     Source: English and Maciejewski 1998, the experiments with the hardware.
     """
@@ -61,7 +60,7 @@ class Trapezoid:
         rise_fraction, fall_fraction = self.accelerate, self.decelerate
         if not (rise_fraction >= 0 and fall_fraction >= 0 and rise_fraction + fall_fraction <= 1 + 1e-12):
             raise InputError(
-                f"timing: accelerate is {rise_fraction:g} and decelerate {fall_fraction:g}; they are shares of the time, "
+                f"timing: accelerate is {rise_fraction:g} and decelerate {fall_fraction:g}; they are fractions of time, "
                 f"together 0 to 1"
             )
 
@@ -71,16 +70,16 @@ class Trapezoid:
         return 1 / (self.duration * (1 - (self.accelerate + self.decelerate) / 2))
 
     def s(self, t: FloatArray) -> FloatArray:
-        """Return the fraction of the path (N,) at t (N,)."""
+        """Return the fraction of the path (N,) at times ``t`` (N,), s."""
         rise, fall_start, fall = self._phase_times()
-        # The area of the full rectangle, less what the two ramps lack of it.
+        # The area of the full rectangle without the parts that the two ramps lack.
         elapsed = np.clip(t, 0.0, self.duration)
         rise_time, fall_time = np.minimum(elapsed, rise), np.maximum(elapsed - fall_start, 0.0)
         deficit = (rise_time - rise_time**2 / (2 * rise) if rise else 0.0) + (fall_time**2 / (2 * fall) if fall else 0.0)
         return np.where(t >= self.duration, 1.0, self.peak * (elapsed - deficit))
 
     def rate(self, t: FloatArray) -> FloatArray:
-        """Return ds/dt (N,), 1/s."""
+        """Return ds/dt (N,), 1/s, at times ``t`` (N,), s."""
         rise, _, fall = self._phase_times()
         rising = t / rise if rise else 1.0
         falling = (self.duration - t) / fall if fall else 1.0
@@ -88,7 +87,7 @@ class Trapezoid:
         return _keep_nan(t, self.peak * np.where(inside, np.minimum(1.0, np.minimum(rising, falling)), 0.0))
 
     def acceleration(self, t: FloatArray) -> FloatArray:
-        """Return d2s/dt2 (N,), 1/s^2."""
+        """Return d2s/dt2 (N,), 1/s^2, at times ``t`` (N,), s."""
         rise, fall_start, fall = self._phase_times()
         rising = np.where((t >= 0) & (t < rise), 1 / rise if rise else 0.0, 0.0)
         falling = np.where((t >= fall_start) & (t < self.duration), 1 / fall if fall else 0.0, 0.0)
@@ -103,10 +102,10 @@ class Trapezoid:
 @check_constructor
 @dataclass(frozen=True)
 class Constant(Trapezoid):
-    """Motion at constant speed from start to end.
+    """Motion at constant speed from start to end; ``accelerate`` and ``decelerate`` are 0.
 
     Attributes:
-        duration: s, above 0.
+        duration: Duration, s, above 0.
     """
 
     accelerate: float = field(default=0.0, init=False)

@@ -23,7 +23,7 @@ class PoseList:
 
     Attributes:
         rows: (N, 7) position, m, and quaternion x y z w, in the world.
-        weights: (N,) 0 or more, or None if all count alike.
+        weights: (N,) weights of 0 or more, or None for equal weights.
     """
 
     rows: FloatArray
@@ -52,10 +52,10 @@ class PoseList:
 
     @classmethod
     def from_matrices(cls, poses: ArrayLike, weights: ArrayLike | None = None) -> PoseList:
-        """Return the list of poses (N, 4, 4) in the world, m.
+        """Return the list of poses (N, 4, 4) in the world, m, with optional weights (N,).
 
         Raises:
-            InputError: Not transforms, not finite, none at all, or weights that are not one finite number >= 0 per pose.
+            InputError: Poses are not transforms, not finite, or none, or the weights are not one finite number >= 0 per pose.
         """
         from scipy.spatial.transform import Rotation
 
@@ -125,7 +125,7 @@ class PoseList:
         """Read a CSV table with the header x, y, z, qx, qy, qz, qw and an optional weight, in any order; m, quaternion x y z w.
 
         Raises:
-            InputError: Unreadable, or a column or number that is missing, unknown or wrong; the message names it.
+            InputError: The file cannot be read, or a column or number is missing, unknown or wrong; the message names it.
         """
         table = read_csv_table(path, f"poses '{path}'")
         columns = f"{', '.join(POSE_COLUMNS)} and perhaps weight"
@@ -143,7 +143,7 @@ class PoseList:
             raise InputError(f"{table.title}: {error}") from error
 
     def to_csv(self) -> str:
-        """Return the CSV text that :meth:`read_csv` reads, with every digit."""
+        """Return the CSV text that :meth:`read_csv` reads, with all digits."""
         weights = [] if self.weights is None else [self.weights[:, None]]
         rows = np.concatenate([self.rows, *weights], axis=1).tolist()
         header = ",".join([*POSE_COLUMNS, *(["weight"] if weights else [])])

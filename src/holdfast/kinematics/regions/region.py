@@ -1,4 +1,4 @@
-"""Regions: which poses count in an assessment, and how often they are sampled."""
+"""Regions: distributions of the poses that count in an assessment."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ _CONFIGURATIONS_PER_BLOCK = 16384
 
 
 def rotation_from_rpy(rpy: ArrayLike) -> FloatArray:
-    """Return rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+    """Return rotation matrices (..., 3, 3) from ``rpy`` (..., 3), roll, pitch, yaw, rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
 
-    This is the order of the paper's toolbox, *not* the one of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``: the two swap
-    the names of the first and the last angle. Convert at the edge by reversing the three numbers.
+    This is the order of the paper's toolbox, *not* the order of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``. The two swap the
+    names of the first and the last angle, so reverse the three numbers to convert.
 
     Source: Abdi et al. 2012, section V.B; see ``docs/conventions``.
     """
@@ -43,11 +43,11 @@ def rotation_from_rpy(rpy: ArrayLike) -> FloatArray:
 
 
 def rpy_from_rotation(rotation: ArrayLike) -> FloatArray:
-    """Return one (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
+    """Return one (roll, pitch, yaw), rad, of the matrix ``rotation`` (3, 3) in that order; pitch within +-90 degrees."""
     from scipy.spatial.transform import Rotation
 
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # at pitch +-90 degrees any one of the triples is fine
+        warnings.simplefilter("ignore", UserWarning)  # at pitch +-90 degrees any of the triples is valid
         return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
 
 
@@ -55,15 +55,15 @@ def rotations_in_cone(axis: FloatArray, samples: FloatArray) -> FloatArray:
     """Return rotations (N, 3, 3) whose z axes are on a spherical cap.
 
     Args:
-        axis: (3,) unit vector in the middle of the cap.
-        samples: (N, 3) cosine of the angle from the axis, direction about the axis, rad, and turn about the z axis, rad.
-            Uniform numbers make directions that are uniform on the sphere, because the area of a cap is linear in its height.
+        axis: (3,) unit vector at the centre of the cap.
+        samples: (N, 3) cosine of the angle from the axis, direction about the axis, rad, and rotation about the z axis, rad.
+            Uniform numbers give uniform directions on the sphere, because the area of a cap is linear in its height.
     """
     from scipy.spatial.transform import Rotation
 
     angle = np.arccos(np.clip(samples[:, 0], -1.0, 1.0))
     tilted = Rotation.from_euler("ZYZ", np.column_stack([samples[:, 1], angle, samples[:, 2] - samples[:, 1]]))
-    if axis[2] < -1 + 1e-12:  # half a turn about x: the formula below has no direction
+    if axis[2] < -1 + 1e-12:  # half a turn about x, because the formula below has no direction
         z_to_axis = Rotation.from_quat([1.0, 0.0, 0.0, 0.0])
     else:
         z_to_axis = Rotation.from_quat([-axis[1], axis[0], 0.0, 1 + axis[2]])
@@ -74,20 +74,21 @@ def rotations_in_cone(axis: FloatArray, samples: FloatArray) -> FloatArray:
 class Region(Presentable):
     """Distribution of poses (a box, a cone, a list, a function) or of configurations (a box in joint space).
 
-    Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its
-    own seed, so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have
-    weights where the robot works more; statistics are then of the weights.
+    Use :meth:`box`, :meth:`cone`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks with their own
+    seeds, so the k-th sample of a seed never depends on other computations. Samples may have weights, for example where the
+    robot works more often; statistics are then weighted.
 
     Attributes:
         kind: ``box``, ``cone``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
-        center, size: Of the box: (6,) position then the angles a, b, c of ``Rz(a) Ry(b) Rx(c)``; of the cone: (6,) position,
-            cosine of the angle from its axis, direction about the axis, turn of the tool about its own z axis; or (n,) joints.
-            m and rad. Empty for the other kinds.
-        name: For reports.
-        weight: Of the samples (N, 6) of a box, or None if all count alike.
-        listed: The poses of a list.
-        draw: The function of a sampler, and whether it gives weights.
-        axis: (3,) unit vector in the middle of the cone; empty for the other kinds.
+        center, size: Centre and size of the box: (6,) position, then the angles a, b, c of ``Rz(a) Ry(b) Rx(c)``. Of the cone:
+            (6,) position, cosine of the angle from its axis, direction about the axis, rotation of the tool about its own z
+            axis.
+            Of a region of joints: (n,) joint values. m and rad. Empty for the other kinds.
+        name: Name for reports.
+        weight: Weight function of samples (N, 6) of a box, or None for equal weights.
+        listed: Poses of a list.
+        draw: Function of a sampler, and whether it returns weights.
+        axis: (3,) unit vector at the centre of the cone; empty for the other kinds.
     """
 
     kind: Literal["box", "cone", "joints", "poses", "sampler"]
@@ -116,21 +117,21 @@ class Region(Presentable):
         """Return a region of poses uniform in a box of positions and, independently, a box of angles, with optional weights.
 
         Args:
-            center: (3,) middle in the world, m.
+            center: (3,) centre in the world, m.
             size: (3,) full edge lengths, m; a scalar is a cube.
-            rpy_center: (3,) middle of (roll, pitch, yaw), rad; as in URDF ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
-            rpy_size: (3,) full ranges, rad, or a scalar; angles are drawn about the centre by addition, so the pitch may
-                leave +-90 degrees.
-            name: For reports.
-            weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, then the
-                angles about z, y, and x (yaw, pitch, roll) in m and rad, that gives (N,); a results folder cannot hold it. Or
-                points by coordinate, which it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant
-                beyond them; several coordinates are multiplied.
+            rpy_center: (3,) centre of (roll, pitch, yaw), rad; as in URDF ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+            rpy_size: (3,) full ranges, rad, or a scalar; sampled offsets are added to the centre, so the pitch may leave +-90
+                degrees.
+            name: Name for reports.
+            weight: Weight of a pose, 0 or more; only ratios matter. Either a function of samples (N, 6), x, y, z, then the
+                angles about z, y, and x (yaw, pitch, roll) in m and rad, that returns (N,); a results folder cannot store it.
+                Or points by coordinate, which it can store: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and
+                constant beyond them; several coordinates are multiplied.
             order: Convention of roll, pitch, yaw: ``urdf``, or ``abdi`` for ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of
                 Abdi et al. 2012, which swaps the names of the first and the last angle.
 
         Raises:
-            InputError: Not three finite numbers, a negative size, an unknown order, or weights of neither kind.
+            InputError: An argument is not three finite numbers, a size is negative, or the order or the weight is not valid.
         """
         if order not in ("urdf", "abdi"):
             raise InputError(f"region: order is {order!r}; use urdf or abdi")
@@ -173,18 +174,19 @@ class Region(Presentable):
         weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
     ) -> Region:
         """Return a region of poses uniform in a box of positions, with the tool's z axis uniform on a spherical cap and any
-        rotation about it.
+        roll.
 
         Args:
-            center: (3,) middle of the positions in the world, m.
+            center: (3,) centre of the positions in the world, m.
             size: (3,) full edge lengths, m; a scalar is a cube.
-            axis: (3,) direction in the middle of the cap, in the world, of any length but 0.
+            axis: (3,) direction at the centre of the cap, in the world, of any length except 0.
             within: Largest angle between the tool's z axis and ``axis``, rad, 0 to pi.
-            name: For reports.
-            weight: As for :meth:`box`; points by coordinate of x, y, and z only.
+            name: Name for reports.
+            weight: Weight as for :meth:`box`; points by coordinate only for x, y, and z.
 
         Raises:
-            InputError: Not three finite numbers, an axis of length 0, an angle out of range, or weights of neither kind.
+            InputError: An argument is not three finite numbers, the axis is 0, the angle is out of range, or the weight is not
+                valid.
         """
         box = cls.box(center, size, name=name, weight=weight)
         try:
@@ -214,32 +216,32 @@ class Region(Presentable):
     def from_poses(cls, poses: ArrayLike, weights: ArrayLike | None = None, name: str = "list of poses") -> Region:
         """Return the region of a list of poses, for example a recorded job or waypoints.
 
-        An assessment of as many poses as the list has (which is what it does if not told how many) uses each once, in
-        order and with its weight. Any other number is drawn from the list at random, with replacement and in proportion to
-        the weights; the poses drawn then count alike.
+        An assessment with the number of poses in the list (the default) uses each pose once, in order and with its weight. Any
+        other number is sampled from the list with replacement, in proportion to the weights; the sampled poses then have equal
+        weights.
 
         Args:
-            poses: (N, 4, 4) in the world, m.
-            weights: (N,) how much each counts, 0 or more; all alike if not given.
-            name: For reports.
+            poses: (N, 4, 4) poses in the world, m.
+            weights: (N,) weights, 0 or more; default: equal weights.
+            name: Name for reports.
 
         Raises:
-            InputError: Poses that are not transforms, not finite or none, or weights that are not one per pose.
+            InputError: Poses are not transforms, not finite or none, or there is not one weight per pose.
         """
         return cls("poses", (), (), name=name, listed=PoseList.from_matrices(poses, weights))
 
     @classmethod
     def sampler(cls, draw: Draw, name: str = "own sampler") -> Region:
-        """Return a region of poses that a custom function samples; a results folder cannot hold it.
+        """Return a region of poses that a user-defined function samples; a results folder cannot store it.
 
         Args:
-            draw: ``draw(generator, count)`` gives poses (count, 4, 4) in the world, m, or a pair of poses and weights
-                (count,), 0 or more. It must take all that is random from the ``numpy.random.Generator`` and keep nothing
-                from call to call: then the same seed gives the same poses.
-            name: For reports.
+            draw: Function ``draw(generator, count)`` that returns poses (count, 4, 4) in the world, m, or a pair of poses and
+                weights (count,), 0 or more. It must take all randomness from the ``numpy.random.Generator`` and keep no state
+                between calls, so that a seed always gives the same poses.
+            name: Name for reports.
 
         Raises:
-            InputError: What it draws (two poses, to try) is not that.
+            InputError: The function does not return such arrays (two poses are sampled as a test).
         """
         if not callable(draw):
             raise InputError("region: a sampler must be a function draw(generator, count)")
@@ -251,11 +253,13 @@ class Region(Presentable):
     @classmethod
     @check_arguments
     def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
-        """Return a region of configurations uniform between (n,) lower and upper joint values, rad and m, without inverse
+        """Return a region of configurations uniform between ``lower`` and ``upper`` (n,), rad and m, without inverse
         kinematics.
 
+        ``name`` is the name for reports.
+
         Raises:
-            InputError: Limits that are infinite, reversed or of different length.
+            InputError: Limits are infinite, reversed or of different length.
         """
         try:
             lower_values, upper_values = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
@@ -279,12 +283,12 @@ class Region(Presentable):
     @classmethod
     @check_arguments
     def around_tool(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
-        """Return the default region: a cube about the tool at ``q``, with edges that are the fraction ``share`` of the arm's
+        """Return the default region of ``arm``: a cube about the tool at ``q`` (n,), rad and m, with edges of ``share`` of its
         reach.
 
-        Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
-        the angle is free. ``q``, if not given, is the configuration farthest from a singularity of 256 in the middle halves
-        of the joint ranges: around the middle itself many arms are stretched, and half of the cube is out of reach.
+        Angles range over 90 degrees about the pose at ``q``; for a planar arm positions stay in its plane and the angle is
+        free. The default of ``q`` is the configuration farthest from a singularity among 256 in the middle halves of the joint
+        ranges, because in the middle of the ranges many arms are stretched, and half of the cube would be out of reach.
         """
         from holdfast.model.arm.task import plane_normal
 
@@ -308,11 +312,11 @@ class Region(Presentable):
 
     @property
     def block(self) -> int:
-        """Number of samples per block, the unit that has its own seed."""
+        """Number of samples per block, which has its own seed."""
         return _CONFIGURATIONS_PER_BLOCK if self.kind == "joints" else _POSES_PER_BLOCK
 
     def has_weights(self, count: int) -> bool:
-        """Return whether ``count`` samples carry weights; samples drawn from a list in proportion to its weights carry none."""
+        """Return whether ``count`` samples have weights; samples drawn from a list in proportion to its weights have none."""
         if self.listed is not None:
             return self.listed.weights is not None and count == len(self.listed)
         return self.weight is not None or (self.draw is not None and self.draw[1])
@@ -320,14 +324,14 @@ class Region(Presentable):
     def blocks(self, first: int, seed: int, sampling: Sampling = "random", *, count: int | None = None) -> Iterator[FloatArray]:
         """Yield blocks of samples, in order, from block number ``first`` on.
 
-        A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
+        A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), and of a sampler the first
         three rows of the pose and its weight (13,).
 
         Args:
-            first: Number of the first block.
-            seed: Of the run.
+            first: Number of the first block, from 0.
+            seed: Seed of the run.
             sampling: ``random`` or ``sobol`` (scrambled low-discrepancy points; use a power of two of them).
-            count: Samples asked for in all; matters for a list only, see :meth:`from_poses`.
+            count: Total number of samples; it matters only for a list, see :meth:`from_poses`.
         """
         if self.draw is not None:
             yield from self._sampler_blocks(first, seed)
@@ -344,22 +348,19 @@ class Region(Presentable):
     def samples(
         self, start: int, stop: int, block: int, *, seed: int, sampling: Sampling, count: int, out: FloatArray | None = None
     ) -> FloatArray:
-        """Return samples ``start`` up to ``stop`` of ``count``, at most one block of them, from the random numbers of one
-        block.
+        """Return samples ``start`` up to ``stop`` of ``count``, at most one block, from the random numbers of one block.
 
-        Of a box also more of them, from those of the blocks after it.
-
-        Those of :meth:`blocks` if ``start`` is where that block begins. ``sobol`` points and poses of a list that has
-        ``count`` go by their number alone.
+        For a box also more samples, from the following blocks. The samples equal those of :meth:`blocks` if ``start`` begins
+        the block. ``sobol`` points, and poses of a list with ``count`` entries, depend only on their number.
 
         Args:
             start: First sample.
             stop: Sample after the last.
             block: Number of the block whose seed is used.
-            seed: Of the run.
+            seed: Seed of the run.
             sampling: ``random`` or ``sobol``.
-            count: Samples in all.
-            out: Where those of a box are written, contiguous; None: a new array.
+            count: Total number of samples.
+            out: Contiguous array (N, 6) or (N, n) for the samples of a box; None: a new array.
         """
         if self.listed is not None and count == len(self.listed):
             return np.arange(start, stop, dtype=np.float64)[:, None]
@@ -385,9 +386,9 @@ class Region(Presentable):
         return out
 
     def _scale_to_box(self, unit: FloatArray) -> FloatArray:
-        """Return samples of a box from points (N, w) of the unit cube, which they overwrite if it is contiguous."""
+        """Return samples of a box from points (N, w) of the unit cube, which are overwritten if they are contiguous."""
         size, lower = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
-        # Many samples side by side: numpy is half as fast on rows of a few numbers.
+        # Samples as columns, because numpy is half as fast on rows of a few numbers.
         group = math.gcd(len(unit), 64)
         grouped = unit.reshape(-1, group * unit.shape[1])
         grouped *= np.tile(size, group)
@@ -438,11 +439,11 @@ class Region(Presentable):
         except (InputError, TypeError, ValueError) as error:
             raise InputError(f"{label}: {error}") from error
         if matrices.shape[0] != count or not np.isfinite(matrices).all():
-            raise InputError(f"{label} gave {len(matrices)} poses, asked were {count} of finite numbers")
+            raise InputError(f"{label} returned {len(matrices)} poses; it must return {count} poses of finite numbers")
         return np.concatenate([matrices[:, :3].reshape(count, 12), check_weights(weights, count, label)[:, None]], axis=1)
 
     def poses(self, samples: FloatArray) -> FloatArray:
-        """Return the poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list, or (N, 13) of a sampler."""
+        """Return the poses (N, 4, 4), world, m, of ``samples``: (N, 6) of a box, (N, 1) of a list, or (N, 13) of a sampler."""
         if self.listed is not None:
             return self.listed.pose_matrices(samples[:, 0].astype(np.int64))
         matrices = np.zeros((len(samples), 4, 4))
@@ -458,7 +459,7 @@ class Region(Presentable):
         return matrices
 
     def weights(self, samples: FloatArray) -> FloatArray:
-        """Return the weights (N,) of samples, 1 where none are given."""
+        """Return the weights (N,) of ``samples`` as in :meth:`poses`, 1 if there are no weights."""
         if self.listed is not None and self.listed.weights is not None:
             return self.listed.weights[samples[:, 0].astype(np.int64)]
         if self.draw is not None:
@@ -469,7 +470,7 @@ class Region(Presentable):
 
     @property
     def heaviest(self) -> float:
-        """Largest weight that a sample can have; 0 where only a custom function determines it."""
+        """Largest possible weight of a sample; 0 if only a user-defined function determines it."""
         if self.listed is not None and self.listed.weights is not None:
             return float(self.listed.weights.max())
         return self.weight.heaviest if isinstance(self.weight, Density) else 0.0
@@ -478,7 +479,7 @@ class Region(Presentable):
 
     @property
     def storable(self) -> bool:
-        """True if a results folder can hold the region; False if it uses a custom function."""
+        """True if a results folder can store the region; False if it uses a user-defined function."""
         return self.draw is None and (self.weight is None or isinstance(self.weight, Density))
 
     def to_dict(self) -> dict[str, Any]:
@@ -496,7 +497,7 @@ class Region(Presentable):
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Region:
-        """Return the region of :meth:`to_dict`."""
+        """Return the region from ``data``, the JSON data of :meth:`to_dict`."""
         if data["kind"] == "poses":
             return cls("poses", (), (), name=data["name"], listed=PoseList.from_dict(data))
         if data["kind"] not in ("box", "cone", "joints"):
@@ -512,10 +513,10 @@ class Region(Presentable):
     @classmethod
     @check_arguments
     def load(cls, path: str | Path) -> Region:
-        """Return a region from a YAML file; see ``docs/files``.
+        """Return the region in the YAML file ``path``; see ``docs/files``.
 
         Raises:
-            InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+            InputError: The file cannot be read, or a key is unknown, missing or wrong; the message names it.
         """
         from holdfast.kinematics.regions.region_file import read_region_file
 
@@ -536,8 +537,8 @@ class Region(Presentable):
         if self.listed is not None:
             return f"a list of {len(self.listed):,} poses{', with weights' if self.listed.weights is not None else ''}"
         if self.draw is not None:
-            return f"poses drawn by a function of your own{', with weights' if self.draw[1] else ''}"
-        weight_note = "; weighted by a function of your own" if self.weight is not None else ""
+            return f"poses sampled by a user-defined function{', with weights' if self.draw[1] else ''}"
+        weight_note = "; weighted by a user-defined function" if self.weight is not None else ""
         weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else weight_note
         rounded_center, rounded_size = np.round(self.center, 12) + 0.0, np.round(self.size, 12)
         positions = (
@@ -559,10 +560,10 @@ class Region(Presentable):
 
 
 def builtin_region(arm: str) -> Region | None:
-    """Return the region that a paper gives for a built-in arm; None if none does.
+    """Return the region that a paper defines for a built-in arm; None if no paper does.
 
     Args:
-        arm: Name of the arm: ``pa10-9dof`` has one.
+        arm: Name of the arm; ``pa10-9dof`` has a region.
 
     Source: Abdi et al. 2012, section V.B, printed centre; the pose at the nominal configuration differs by 0.5 mm.
     """
@@ -579,7 +580,7 @@ def _well_conditioned_configuration(arm: Arm, reach: float) -> FloatArray:
     offsets = np.random.default_rng(0).random((256, arm.n)) - 0.5
     q = (lower + upper) / 2 + offsets * (upper - lower) / 2
     values = np.linalg.svd(arm.jacobian(q) / np.repeat([reach, 1.0], 3)[:, None], compute_uv=False)
-    rank = int((values.max(axis=0) > 1e-9).sum())  # an arm that moves in a plane has three at most
+    rank = int((values.max(axis=0) > 1e-9).sum())  # a planar arm has at most three
     return np.asarray(q[values[:, max(rank, 1) - 1].argmax()])
 
 
@@ -587,8 +588,8 @@ def default_region(arm: Arm, spec: str | None = None) -> Region:
     """Return the default region of an arm: the paper's region for the paper's arm, else a region around its home.
 
     Args:
-        arm: The arm.
-        spec: What it was called: a built-in name, or a file. If not given, an arm that equals a built-in one is that one.
+        arm: Arm model.
+        spec: Built-in name or file of the arm. Default: the name of the built-in arm that equals the arm, if there is one.
     """
     from holdfast.model import arms
 

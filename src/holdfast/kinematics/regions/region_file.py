@@ -11,17 +11,18 @@
       rpy_center: [0, 174, 0]        # roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)
       rpy_size: 90                   # full range, one or three
 
-In place of the two rpy keys, ``cone: {axis: [0, 0, -1], within: 30}`` makes the tool's z axis uniform on the spherical cap
-within 30 degrees (always degrees) of an axis in the world, with any turn about the z axis.
+Instead of the two rpy keys, ``cone: {axis: [0, 0, -1], within: 30}`` makes the tool's z axis uniform on the spherical cap
+within 30 degrees (always degrees) of an axis in the world, with any rotation about the z axis.
 
-``order: abdi`` takes roll, pitch, yaw as ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of Abdi et al. 2012. Format 1, a file
-without ``format:``, is always read so: files that were written for it keep their meaning.
+``order: abdi`` reads roll, pitch, yaw as ``R = Rz(roll) Ry(pitch) Rx(yaw)``, the order of Abdi et al. 2012. Format 1, a file
+without ``format:``, always has this order, so files that were written for it keep their meaning.
 
-In a box, ``density: {z: [[0.0, 1], [0.5, 3]]}`` makes poses count more where the robot works more: points of coordinate
-(x, y, z, m; roll, pitch, yaw, in the unit of the angles) and weight, linear between them; coordinates are multiplied.
+In a box, ``density: {z: [[0.0, 1], [0.5, 3]]}`` gives more weight to poses where the robot works more often: points of
+coordinate (x, y, z, m; roll, pitch, yaw, in the unit of the angles) and weight, linear between them; coordinates are
+multiplied.
 
-For configurations instead of poses, ``joints:`` with the lists ``lower`` and ``upper``, rad and m; for a list of poses,
-``poses: file.csv``, relative to the region file, a table with the header x,y,z,qx,qy,qz,qw and perhaps weight.
+For configurations instead of poses, write ``joints:`` with the lists ``lower`` and ``upper``, rad and m. For a list of poses,
+write ``poses: file.csv``, relative to the region file, a table with the header x,y,z,qx,qy,qz,qw and an optional weight.
 """
 
 from __future__ import annotations

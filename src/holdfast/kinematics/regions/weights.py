@@ -21,7 +21,7 @@ def check_weights(weights: ArrayLike, count: int, label: str) -> FloatArray:
     """Return the weights (count,) as float64.
 
     Raises:
-        InputError: Not so many finite numbers of 0 or more; the message begins with ``label``.
+        InputError: The weights are not ``count`` finite numbers of 0 or more; the message begins with ``label``.
     """
     try:
         array = np.asarray(weights, dtype=np.float64)
@@ -44,7 +44,7 @@ def swap_roll_and_yaw(points: Mapping[str, Points]) -> dict[str, Points]:
 class Density:
     """Weight of samples of a box: the product of one piecewise linear function per coordinate.
 
-    Beyond its outermost points a function keeps its last value.
+    Beyond its outermost points each function is constant.
 
     Attributes:
         pieces: Name of the coordinate (``x, y, z``, m, ``roll, pitch, yaw`` as Abdi et al. 2012, rad) and its
@@ -58,7 +58,7 @@ class Density:
         """Return the density of points such as ``{"z": [(0.0, 1), (0.5, 3)]}``.
 
         Raises:
-            InputError: Another coordinate, points that do not ascend, or negative weights, or 0 everywhere.
+            InputError: A coordinate is not known, points do not ascend, or weights are negative or 0 everywhere.
         """
         pieces = []
         for name, points in points_by_coordinate.items():

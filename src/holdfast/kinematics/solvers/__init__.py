@@ -1,4 +1,4 @@
-"""Solvers for configurations: inverse kinematics, the best one of a pose, self-motions, and the best path."""
+"""Solvers for configurations: inverse kinematics, the best configuration of a pose, self-motions, and the best path."""
 
 from holdfast.core._lazy import offer
 

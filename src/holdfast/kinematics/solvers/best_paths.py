@@ -1,4 +1,4 @@
-"""Dynamic program over the nodes of the poses of a path: the motions of greatest gain, one to each node."""
+"""Dynamic program over the nodes of the poses of a path, which finds the motion of greatest gain to each node."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray, IndexArray
 
-_RELATIVE_TIE_TOLERANCE = 1e-12  # of all that can be gathered: less is rounding
+_RELATIVE_TIE_TOLERANCE = 1e-12  # relative to the total gain: smaller differences are rounding
 
 
 @dataclass(frozen=True, eq=False)
 class NodeMoves:
-    """The M moves from the nodes of a pose to those of the next that are short enough, ordered by their targets.
+    """The M sufficiently short moves from the nodes of a pose to the nodes of the next pose, ordered by their targets.
 
     Attributes:
-        targets, sources: (M,) nodes.
+        targets, sources: (M,) indices of nodes.
         squared_distances: (M,) squared distances.
-        excesses: (M,) how much farther than allowed a joint goes, rad and m; at most 0 where none does.
+        excesses: (M,) amount by which a joint moves farther than allowed, rad and m; at most 0 if none does.
     """
 
     targets: IndexArray
@@ -29,12 +29,12 @@ class NodeMoves:
 
 
 class BestPathTable:
-    """Best motions up to a pose, one to each of its nodes; among equals the shortest, by its squared steps.
+    """Best motions up to a pose, one to each of its nodes; among equal motions the shortest, by its squared steps.
 
     Attributes:
-        gains: (P,) what each node of each pose is worth; -inf forbids it.
-        allowed_excess: How much farther than allowed a joint may go from pose to pose, rad and m.
-        last_pose: The last pose to which any motion leads, if it is not the last of all.
+        gains: (P,) gain of each node of each pose; -inf forbids the node.
+        allowed_excess: Amount by which a joint may move farther than allowed from pose to pose, rad and m.
+        last_pose: Last pose to which any motion leads, if it is not the last of all.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class BestPathTable:
         shortest = -_max_by_group(-lengths, targets, len(node_gains))
         predecessors = np.zeros(len(node_gains), dtype=np.int64)
         cheapest = np.flatnonzero(lengths == shortest[targets])[::-1]
-        predecessors[targets[cheapest]] = sources[cheapest]  # what is written last stays: the first
+        predecessors[targets[cheapest]] = sources[cheapest]  # the last write stays: the first
         self._totals, self._path_lengths = self._combine_gains(best_totals, node_gains), shortest
         self._predecessors.append(predecessors)
 
@@ -84,13 +84,13 @@ class BestPathTable:
         return float(self._totals.max()) if self.last_pose is None else float("nan")
 
     def trace_best_motion(self) -> IndexArray:
-        """Return the node of every pose (T,) along the best motion, up to the last pose to which any leads."""
+        """Return the node of every pose (T,) along the best motion, up to the last pose to which any motion leads."""
         best = np.flatnonzero(self._totals >= self._totals.max() - self._tie_tolerance)
         return trace_back(self._predecessors, int(best[self._path_lengths[best].argmin()]))
 
 
 def trace_back(predecessors: Sequence[IndexArray], last_node: int) -> IndexArray:
-    """Return the node of every pose (T,) on the way to a node of the last one, from T - 1 arrays of the nodes before."""
+    """Return the node of every pose (T,) on the way to a node of the last one, from T - 1 arrays of predecessors."""
     nodes = [last_node]
     for previous in reversed(predecessors):
         nodes.append(int(previous[nodes[-1]]))
@@ -103,7 +103,7 @@ def bound_move_length(spacing: float, nearest_distances: FloatArray) -> float:
 
 
 def _max_by_group(values: FloatArray, group_indices: IndexArray, group_count: int) -> FloatArray:
-    """Return (G,) the largest value of each group (M,), in sorted order; -inf for an empty group."""
+    """Return the largest value (G,) of each group (M,), in sorted order; -inf for an empty group."""
     maxima = np.full(group_count, -np.inf)
     if group_indices.size:
         group_starts = np.flatnonzero(np.diff(group_indices, prepend=-1))

@@ -1,4 +1,4 @@
-"""The parts of a curve of configurations that meet an inequality such as a clearance, proved between the points too."""
+"""Parts of a curve of configurations that meet an inequality such as a clearance, proved also between the points."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from holdfast.kinematics.solvers.curve_tracing import Component, ManifoldTracer
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 
-MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: what cannot be told clear at this ends the part
-# Of a piece is the most that its middle lies beside the curve; a half is then no longer than 0.75 of it.
+MIN_BOUNDED_CHANGE = 5e-4  # m or rad of possible change: a segment that is not proved at this size ends the part
+# Largest distance of the middle of a segment from the curve, relative to its length; a half is then at most 0.75 as long.
 _MAX_STRAY_FRACTION = 0.25
-_LENGTH_FACTOR = 1.1  # a curve is longer than the straight piece between two of its points by less than this
+_LENGTH_FACTOR = 1.1  # a curve is longer than the straight segment between two of its points by less than this factor
 
 
 @dataclass(frozen=True)
 class CurveConstraint:
-    """Inequalities on configurations, and how fast they can change.
+    """Inequalities on configurations, with bounds of their rates of change.
 
     Attributes:
-        evaluate_margins: Of configurations (N, n) what is left (N, P) of each of P rooms, m or rad; below 0 it is not clear.
-        lipschitz_bounds: (P, n) how fast they can change, m or rad per rad and m.
-        pair_names: (P,) of what ends a part where the room is used up.
+        evaluate_margins: Function of configurations (N, n) that returns P margins (N, P), m or rad; below 0 one is violated.
+        lipschitz_bounds: (P, n) bounds of the change of each margin, m or rad per rad and m.
+        pair_names: (P,) names for the end of a part, where a margin is used up.
     """
 
     evaluate_margins: Callable[[FloatArray], FloatArray]
@@ -35,7 +35,7 @@ class CurveConstraint:
 
     @classmethod
     def from_clearance(cls, clearance: Clearance, margin: float) -> CurveConstraint:
-        """Return the distance of every pair of a clearance above its margin, for configurations within its arm's limits."""
+        """Return the distance of every pair of a clearance beyond its margin, for configurations within the arm's limits."""
 
         def evaluate_margins(q: FloatArray) -> FloatArray:
             return np.asarray(clearance.by_pair(q) - clearance.margins - margin)
@@ -47,12 +47,12 @@ class CurveConstraint:
         return np.asarray((self.evaluate_margins(q) >= 0).all(axis=1))
 
     def find_feasible_parts(self, tracer: ManifoldTracer, pose: FloatArray, curve: Component) -> list[Component]:
-        """Return the parts of a curve of a pose (4, 4) that meet the inequalities, in order, with the names of the pairs at
-        their ends.
+        """Return the parts of a curve of a pose (4, 4) that meet the inequalities, in order, with the names of the pairs at the
+        ends.
 
-        Between two of its points, at which d_1 and d_2 of a room are left, no less than ``(d_1 + d_2 - L) / 2`` is, L the
-        most that it can change on the way (of a distance :meth:`Clearance.lipschitz_bounds`). Pieces for which that does not do
-        are halved, by points brought back to the pose, until it does or L is below half a millimetre: there a part ends.
+        Between two points with margins d_1 and d_2, the margin is at least ``(d_1 + d_2 - L) / 2``, where L bounds its change
+        (for a distance by :meth:`Clearance.lipschitz_bounds`). Segments for which this does not suffice are bisected, by points
+        projected onto the pose, until it suffices or L is below half a millimetre, where a part ends.
         """
         q = curve.q
         if curve.closed:
@@ -67,7 +67,7 @@ class CurveConstraint:
                 break
             segments, midpoints = q[undecided + 1] - q[undecided], (q[undecided] + q[undecided + 1]) / 2
             middle, on_curve, _ = tracer.project_onto_poses(midpoints, np.broadcast_to(pose, (undecided.size, 4, 4)))
-            # Near a singular configuration it may land anywhere, and halves would not get shorter.
+            # Near a singular configuration the projection may land anywhere, and halves would not get shorter.
             on_curve &= np.linalg.norm(middle - midpoints, axis=1) <= _MAX_STRAY_FRACTION * np.linalg.norm(segments, axis=1)
             middle[~on_curve] = midpoints[~on_curve]
             middle_margins = self.evaluate_margins(middle)
@@ -80,7 +80,7 @@ class CurveConstraint:
 
     def _cut_proved_parts(self, curve: Component, q: FloatArray, margins: FloatArray, proved: BoolArray) -> list[Component]:
         """Return the runs of proved segments between points q (K, n)."""
-        if curve.closed:  # begin behind a piece that is not clear
+        if curve.closed:  # begin after a segment that is not proved
             cut_index = int(np.flatnonzero(~proved)[0]) + 1
             continued = q[1:] + (q[-1] - q[0])
             q = np.concatenate([q[cut_index:], continued[:cut_index]])

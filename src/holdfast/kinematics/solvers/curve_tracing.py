@@ -1,6 +1,6 @@
-"""Curves of configurations of a pose: a predictor along the null vector of the Jacobian, a corrector back to the pose.
+"""Curves of configurations of a pose: a predictor along the null vector of the Jacobian, and a corrector back to the pose.
 
-Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds; samples of larger manifolds are ours.
+Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds; the samples of larger manifolds are ours.
 """
 
 from __future__ import annotations
@@ -24,28 +24,28 @@ from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
-CURVE_TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own: how far from the pose a point may be
+CURVE_TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own length: largest distance of a point from the pose
 _CORRECTOR_STEPS = 5  # corrector steps before a step counts as too long
-_MIN_STEP_FRACTION = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
-_MIN_TANGENT_COSINE = 0.9  # least cosine between the null vectors at the two ends of a step
-_ON_CURVE_FRACTION = 0.15  # of the spacing: a configuration nearer than this to a traced curve lies on it
+_MIN_STEP_FRACTION = 2.0**-10  # of the spacing: if a shorter step were needed, the curve ends
+_MIN_TANGENT_COSINE = 0.9  # least cosine of the angle between the null vectors at both ends of a step
+_ON_CURVE_FRACTION = 0.15  # of the spacing: a configuration closer than this to a traced curve lies on it
 _MAX_CURVE_LENGTH = 400.0  # rad: longer curves are cut
-_MAX_POINTS = 4000  # of a sample
-_SIMULTANEOUS_CURVES = 16  # curves traced side by side; no result depends on it
+_MAX_POINTS = 4000  # points of a sample
+_SIMULTANEOUS_CURVES = 16  # curves traced at the same time; no result depends on it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Component:
-    """One connected curve of configurations of a pose.
+    """Connected curve of configurations of a pose.
 
     Attributes:
-        q: (K, n) points in order, rad and m, continuous: joints without limits may run beyond pi.
-        closed: The curve comes back to its first point (modulo 2 pi on joints that turn without limits).
-        bounded_by: Index from 0 of the joint whose limit ends the curve at its first and at its last point; None where none
-            does: on a closed curve, and where the curve runs into a singular configuration.
-        length: rad (and m, of prismatic joints), of the polygon through the points.
-        barred_by: The pair of a clearance, ``panda_joint4 & table``, that ends the curve at its first and at its last point;
-            empty where none does.
+        q: (K, n) points in order, rad and m, continuous: joints without limits may pass pi.
+        closed: True if the curve returns to its first point (modulo 2 pi for joints without limits).
+        bounded_by: Index from 0 of the joint whose limit ends the curve at its first and at its last point. None for a closed
+            curve, and for an end at a singular configuration.
+        length: Length of the polygon through the points, rad (and m for prismatic joints).
+        barred_by: Pair of a clearance, ``panda_joint4 & table``, that ends the curve at its first and at its last point; empty
+            if none does.
     """
 
     q: FloatArray
@@ -56,18 +56,18 @@ class Component:
 
     @property
     def winding(self) -> IndexArray:
-        """Full revolutions (n,) of each joint along a closed curve; 0 on others.
+        """Full revolutions (n,) of each joint along a closed curve; 0 on other curves.
 
-        Not 0: the joint takes every angle, which no spacing of the points blurs.
+        If it is not 0, the joint takes every angle, for any spacing of the points.
         """
         revolutions = np.rint((self.q[-1] - self.q[0]) / (2 * np.pi)) if self.closed else np.zeros(self.q.shape[1])
         return revolutions.astype(np.int64)
 
     @property
     def ranges(self) -> FloatArray:
-        """Length (n,) of the interval of values of each joint on the curve, rad or m; 2 pi of a joint that winds.
+        """Length (n,) of the interval of values of each joint on the curve, rad or m; 2 pi for a joint that winds.
 
-        Of a revolute joint 2 pi or more is every angle. The ends lie on parabolas through three points.
+        For a revolute joint 2 pi or more means every angle. The ends lie on parabolas through three points.
         """
         widths = np.array(
             [_interpolated_maximum(values, self.closed) + _interpolated_maximum(-values, self.closed) for values in self.q.T]
@@ -82,29 +82,29 @@ def _interpolated_maximum(x: FloatArray, closed: bool) -> float:
         return float(x[index])
     left_drop, right_drop = x[index - 1] - x[index], x[(index + 1) % count] - x[index]
     curvature = left_drop + right_drop
-    # Where the curve winds or its ends are no neighbours the parabola means nothing: its rise is at most the gap.
+    # If the curve winds or its ends are not neighbours, the parabola has no meaning, and its rise is at most the gap.
     rise = (left_drop - right_drop) ** 2 / (-8 * curvature) if curvature < 0 else 0.0
     return float(x[index] + min(rise, abs(left_drop), abs(right_drop)))
 
 
 @dataclass
 class _CurveRun:
-    """Curves being traced, one per row: their current points, and why they ended."""
+    """Curves being traced, one per row: their current points, and the reason for their end."""
 
     q: FloatArray
     tangent: FloatArray
     points: list[FloatArray]
     closed: BoolArray
-    limit: IndexArray  # joint, or -1
+    limit: IndexArray  # index of the joint, or -1
 
 
 class ManifoldTracer:
-    """The compiled predictor and corrector of one arm and task.
+    """Compiled predictor and corrector of one arm and task.
 
     Attributes:
-        arm, task: What moves, and what it keeps.
-        dimension: Degrees of redundancy that are left.
-        fixed_joints: Joints that stay, by index from 0, and the values, rad or m, at which curves are looked for.
+        arm, task: Arm model, and task that the self-motion keeps.
+        dimension: Remaining degrees of redundancy.
+        fixed_joints: Values, rad or m, of the fixed joints by index from 0.
     """
 
     def __init__(self, arm: Arm, task: Task, fixed_count: int = 0) -> None:
@@ -115,7 +115,7 @@ class ManifoldTracer:
         self.fixed_joints: Mapping[int, float] = {}
 
     def with_fixed_joints(self, fixed_joints: Mapping[int, float]) -> ManifoldTracer:
-        """Return the tracer with other fixed joints, as many as the tracer was made for."""
+        """Return the tracer with other fixed joints, of the number for which the tracer was made."""
         tracer_copy = copy(self)
         tracer_copy.fixed_joints = fixed_joints
         tracer_copy.__dict__["_step"] = self._step  # one kernel for all
@@ -123,7 +123,7 @@ class ManifoldTracer:
 
     @property
     def _fixed_inputs(self) -> list[FloatArray]:
-        """Kernel inputs besides configurations and poses: the fixed joints, one in each row."""
+        """Return the kernel inputs in addition to configurations and poses: the fixed joints, one in each row."""
         return [np.eye(self.arm.n)[list(self.fixed_joints)]] if self.fixed_joints else []
 
     @cached_property
@@ -138,16 +138,16 @@ class ManifoldTracer:
         errors, jacobian = ca.vertcat(errors, ca.SX.zeros(fixed_count, 1)), ca.vertcat(jacobian, *fixed_rows)
         is_moving = 1 - ca.sum1(fixed_rows[0]) if fixed_rows else ca.SX.ones(1, arm.n)
         basis = factor_householder(jacobian).null_space_basis()
-        # Not even by rounding.
+        # Fixed joints do not move, not even by rounding.
         null_vectors = [basis[joint][column] * is_moving[joint] for column in range(self.dimension) for joint in range(arm.n)]
         correction = damped_least_norm(jacobian, errors, 1e-14) * is_moving.T
-        # The basis is that of q, the residual too: a point that needs no correction brings its own.
+        # Basis and residual are those of q, so that a point without correction has its own.
         return Kernel(
             "self-motion", [q, position, rotation, *fixed_rows], [ca.vertcat(q + correction, ca.norm_2(errors), *null_vectors)]
         )
 
     def find_seeds(self, poses: FloatArray, pose_indices: IndexArray, seed: int, starts: int) -> tuple[IndexArray, FloatArray]:
-        """Find configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""
+        """Find configurations (S, n) of poses, and the pose of each, in order of starts."""
         generator = np.random.default_rng(np.random.SeedSequence(seed))
         random_starts = self.engine.sample_starts(len(poses) * starts, generator).reshape(len(poses), starts, self.arm.n)
         random_starts[..., list(self.fixed_joints)] = list(self.fixed_joints.values())
@@ -160,7 +160,7 @@ class ManifoldTracer:
         return self.engine.attempt(q, poses, CURVE_TOLERANCE, fixed_joints=list(self.fixed_joints))
 
     def project_onto_poses(self, q: FloatArray, poses: FloatArray) -> tuple[FloatArray, BoolArray, FloatArray]:
-        """Move configurations (N, n) back to their poses; return them, where that worked, and null vectors (N, free, n)."""
+        """Project configurations (N, n) onto their poses; return them, where that succeeded, and null vectors (N, free, n)."""
         n = self.arm.n
         positions, rotations = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for steps_left in reversed(range(_CORRECTOR_STEPS)):
@@ -173,7 +173,7 @@ class ManifoldTracer:
 
     def newton_step_and_error(self, q: FloatArray, p: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return one least-norm step (N, n) from q (N, n) to positions p (N, 3) and rotations r (N, 3, 3), the error (N,) of q,
-        in units of the arm's own, and the first null vector (N, n) at q.
+        in units of the arm's own length, and the first null vector (N, n) at q.
         """
         n = self.arm.n
         outputs = self._step.rows(q, p, r, *self._fixed_inputs)
@@ -199,7 +199,7 @@ class ManifoldTracer:
                 advance(int(np.count_nonzero(~pending)))
                 pose_of_seed, q = pose_of_seed[pending], q[pending]
                 pending = np.ones(pose_of_seed.size, dtype=bool)
-                # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
+                # For few poses several seeds run at once, although some of them turn out to lie on the same curve.
                 curves_per_pose = max(1, _SIMULTANEOUS_CURVES // np.unique(pose_of_seed).size)
                 first = np.flatnonzero(_count_earlier_equals(pose_of_seed) < curves_per_pose)
                 for index, component in zip(
@@ -287,7 +287,7 @@ class ManifoldTracer:
                 & (np.einsum("ij,ij->i", next_tangent, direction) >= _MIN_TANGENT_COSINE)
                 & (distance <= 1.5 * step[active])
             )
-            # A limit: the step is cut in proportion until it ends on it.
+            # At a limit the step is shortened in proportion so that it ends there.
             fraction, joint = self._fraction_within_limits(current, predicted)
             beyond_limit = is_accepted & (fraction < 1)
             at_limit = beyond_limit & (fraction * distance <= 1e-12)
@@ -314,7 +314,7 @@ class ManifoldTracer:
         return run
 
     def _fraction_within_limits(self, q: FloatArray, new: FloatArray) -> tuple[FloatArray, IndexArray]:
-        """Return the fraction (N,) of the step from q to new that stays within the limits, and the joint that ends it."""
+        """Return the fraction (N,) of the step from q to new within the limits, and the joint that ends it."""
         displacement = new - q
         distance_to_limit = np.where(displacement > 0, self.arm.upper - q, self.arm.lower - q)
         outside = (new > self.arm.upper) | (new < self.arm.lower)
@@ -354,7 +354,7 @@ class ManifoldTracer:
         return points[:_MAX_POINTS]
 
     def _select_spaced_points(self, points: FloatArray, q: FloatArray, spacing: float) -> FloatArray:
-        """Return those of q (N, n), in order, that are ``spacing`` away from the points and from the points returned before."""
+        """Return those of q (N, n), in order, that are ``spacing`` away from the points and from those returned before."""
         if len(points) and len(q):
             q = q[joint_space.find_nearest(self.arm, points, q)[0] >= spacing]
         if not len(q):
@@ -385,7 +385,7 @@ def _distance_to_segment(displacement: FloatArray, segment: FloatArray) -> Float
 
 
 def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
-    """Return the vectors (K, n) from each point to the next; from the last to the first if closed, else 0."""
+    """Return the vectors (K, n) from each point to the next; the last one to the first if closed, else 0."""
     segments = np.diff(q, axis=0, append=q[-1:])
     if closed:
         segments[-1] = joint_space.joint_difference(arm, q[0], q[-1])
@@ -393,7 +393,7 @@ def _curve_segments(arm: Arm, q: FloatArray, closed: bool) -> FloatArray:
 
 
 def _count_earlier_equals(owner: IndexArray) -> IndexArray:
-    """Return (S,) the number of earlier entries that are equal to each entry."""
+    """Return (S,) the number of earlier entries equal to each entry."""
     order = np.argsort(owner, kind="stable")
     first = np.searchsorted(owner[order], owner[order])
     rank = np.empty(owner.size, dtype=np.intp)

@@ -1,4 +1,4 @@
-"""The best joint motion along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
+"""Best joint motion along a path of the end effector, by dynamic programming over sampled self-motion manifolds."""
 
 from __future__ import annotations
 
@@ -27,14 +27,13 @@ class FibrePath:
     """Configurations along a path of T poses.
 
     Attributes:
-        q: (T, n) rad and m, one configuration of each pose; joints that turn without limits run on beyond pi. NaN where
-            ``status`` is not OK.
-        value: (T,) of the objective at q.
-        global_value: (T,) the smallest value over all points of the pose's manifold, whether a path leads there or not.
-        global_q: (T, n) where that is.
-        gaps: (G,) every index t at which no continuous motion leads on from ``q[t]`` to pose t + 1: the best path for the
-            poses up to t ends there, and another begins behind it.
-        reach: (T - 1,) largest distance in joint space allowed from one pose to the next, rad (and m).
+        q: (T, n) one configuration of each pose, rad and m; joints without limits may pass pi. NaN where ``status`` is not OK.
+        value: (T,) value of the objective at q.
+        global_value: (T,) smallest value over all points of the pose's manifold, even if no path leads there.
+        global_q: (T, n) configuration with this value, rad and m.
+        gaps: (G,) every index t at which no continuous motion leads from ``q[t]`` to pose t + 1. The best path for the poses up
+            to t ends there, and another path begins after it.
+        reach: (T - 1,) largest allowed distance in joint space from one pose to the next, rad (and m).
         status: (T,) ``OK``, ``NOT_FOUND`` (no configuration of the pose was found), ``UNDEFINED`` (the objective is NaN or
             infinite at all of them) or ``BAD_INPUT``.
     """
@@ -53,7 +52,7 @@ class FibrePath:
         return not self.gaps.size and bool((self.status == Status.OK).all())
 
     def require_ok(self) -> FibrePath:
-        """Return the path, or raise :class:`holdfast.HoldfastError` naming the first pose without a configuration."""
+        """Return the path, or raise :class:`holdfast.HoldfastError`, which names the first pose without a configuration."""
         require_ok(self.status, "best path")
         return self
 
@@ -74,29 +73,31 @@ def best_path(
 ) -> FibrePath:
     """Find the configurations along a path of poses whose objective is smallest, on average or at its largest.
 
-    Global, up to the spacing and up to curves that no start of inverse kinematics found. Gradient projection follows one
-    minimum of the objective; this also finds a motion that gives way early to be better later.
+    The result is global up to the spacing and up to curves that no start of inverse kinematics found. Gradient projection
+    follows one minimum of the objective; this function also finds a motion that first accepts worse values to reach better ones
+    later.
 
     Args:
-        arm: The arm.
-        poses: (T, 4, 4) in the world, T at least 2, close together.
-        objective_value: (N, n) configurations to (N,) values, smaller is better, for example a susceptibility. NaN forbids.
+        arm: Arm model.
+        poses: (T, 4, 4) poses in the world, m, T at least 2, close together.
+        objective_value: Function of configurations (N, n) with values (N,), smaller is better, for example a susceptibility.
+            NaN forbids a configuration.
         task: Rows of the poses that matter.
-        spacing: Of the points of each manifold, rad; see :func:`holdfast.kinematics.solvers.fibres`.
+        spacing: Distance of the points of each manifold, rad; see :func:`holdfast.kinematics.solvers.fibres`.
         rate_limit: Largest motion of each joint from one pose to the next (speed times time step), rad or m, one number or
-            (n,). The spacing comes on top, as the points are no finer. Without it the distance in joint space must be at
-            most 3 times the spacing and twice what the points of one manifold typically need to reach the next.
-        cost: ``mean`` of the values, or ``max``: the largest value as small as can be, and among those paths the best mean.
-        motion: Weight of the motion: a step as long as allowed costs this share of what the median of all values lies above the
-            smallest; half as long a step, a quarter.
-        seed: Of the starts.
-        starts: Of inverse kinematics per pose.
+            (n,). The spacing is added to it, because the points are no finer. Default: the distance in joint space must be at
+            most 3 times the spacing and twice the distance that the points of one manifold typically need to reach the next.
+        cost: ``mean`` of the values, or ``max`` to minimise the largest value, and among those paths the mean.
+        motion: Weight of the motion. The longest allowed step costs this fraction of the difference between the median and the
+            smallest of all values; a step half as long costs a quarter of it.
+        seed: Seed of the starts.
+        starts: Number of starts of inverse kinematics per pose.
 
     Returns:
-        A :class:`FibrePath`; where no continuous path exists it says so and does not jump.
+        A :class:`FibrePath`; where no continuous path exists, it reports a gap instead of a jump.
 
     Raises:
-        InputError: Fewer than 2 poses, an objective of the wrong shape, or options out of range.
+        InputError: There are fewer than 2 poses, the objective has a wrong shape, or an option is out of range.
         TaskError: The arm has no redundancy for the task.
     """
     if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
@@ -114,9 +115,10 @@ def best_path_over(
     cost: Literal["mean", "max"] = "mean",
     motion: float = 1e-2,
 ) -> FibrePath:
-    """Find the best path over self-motion manifolds of its poses that are already computed (:func:`fibres`, ``follow=True``).
+    """Find the best path of ``arm`` over ``found``, the self-motion manifolds of its poses (:func:`fibres`, ``follow=True``).
 
-    So several objectives can share them.
+    Several objectives can share the manifolds. ``objective_value``, ``rate_limit`` (rad or m), ``cost`` and ``motion`` are the
+    arguments of :func:`best_path`.
     """
     if cost not in ("mean", "max"):
         raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
@@ -183,7 +185,7 @@ def _find_moves(
 def _choose_points_and_gaps(
     values: list[FloatArray], moves: Sequence[NodeMoves], weight: float, cost: str
 ) -> tuple[list[int], list[int]]:
-    """Choose a point at each pose (-1: none exists), and return the gaps too."""
+    """Choose a point at each pose (-1: none exists), and return the gaps as well."""
     gains = [-pose_values for pose_values in values]
     chosen: list[int] = [-1] * len(gains)
     gaps: list[int] = []
@@ -211,7 +213,7 @@ def _find_best_nodes(
     weight: float,
     combine_gains: Callable[[FloatArray, FloatArray], FloatArray],
 ) -> IndexArray:
-    """Return the nodes of the best motion from the first pose to the last that can be reached."""
+    """Return the nodes of the best motion from the first pose to the last reachable pose."""
     table = BestPathTable(gains, move_weight=weight, combine_gains=combine_gains)
     for step in moves:
         table.advance_to_next_pose(step)
@@ -242,7 +244,7 @@ def _read_rate_limit(arm: Arm, rate_limit: ArrayLike | None) -> FloatArray | Non
 
 
 def _unwrap_path(arm: Arm, q: FloatArray) -> FloatArray:
-    """Make joints without limits take the short way from one pose to the next, also across -pi to pi."""
+    """Make joints without limits take the short way from one pose to the next, also across -pi and pi."""
     displacements = np.nan_to_num(joint_space.joint_difference(arm, q[1:], q[:-1]))
     unbroken: BoolArray = np.asarray(np.isfinite(q).all(axis=1))
     unwrapped = q.copy()

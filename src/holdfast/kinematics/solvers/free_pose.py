@@ -1,7 +1,7 @@
-"""The best configuration of an arm within its limits, without a prescribed pose.
+"""Best configuration of an arm within its limits, without a prescribed pose.
 
-Many optima are kinks where several failures are equally bad, each with a small basin. So very many starts, the best of still
-more random configurations, go a few steps of the linearised problem side by side, and the best of them many.
+Many optima are kinks where several failures are equally bad, each with a small basin. Therefore a large number of starts, the
+best of even more random configurations, take a few steps of the linearised problem, and the best of them take many.
 """
 
 from __future__ import annotations
@@ -16,25 +16,25 @@ from holdfast.kinematics.solvers.optimum import Ascent, Optimum
 
 FREE_STARTS = 10_000
 _SAMPLES_PER_START = 20  # random configurations for each start
-_CHECKED_PER_START = 8  # of them, for each start, are looked at for collisions
+_CHECKED_PER_START = 8  # number of these, for each start, that are checked for collisions
 _FIRST_STEPS = 8  # steps of every start
-_LAST_STEPS = 80  # steps of the starts that are followed to the end
+_LAST_STEPS = 80  # steps of the starts that are refined
 _REFINED_FRACTION = 0.05  # of the starts
-_VALUE_TOLERANCE = 1e-7  # values that differ by less are all the same: nothing to climb, and nothing is compiled
+_VALUE_TOLERANCE = 1e-7  # values that differ by less are equal: nothing is optimised, and nothing is compiled
 
 
 def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: int) -> Optimum:
     """Find the best configuration, as the optimum of the one pose that it has.
 
-    Its ``start_q`` is the best of the random configurations; ``starts`` are those that were climbed from.
+    ``start_q`` of the result is the best random configuration; ``starts`` counts the refined starts.
 
     Args:
-        ascent: A free one.
-        seed: Of the draws.
-        starts: How many of the random configurations are climbed from.
+        ascent: Free ascent.
+        seed: Seed of the samples.
+        starts: Number of random configurations from which an ascent starts.
 
     Raises:
-        HoldfastError: None of the random configurations has a value, or none is clear.
+        HoldfastError: No random configuration has a value, or none is collision-free.
     """
     engine = ascent.engine
     q = engine.sample_starts(_SAMPLES_PER_START * starts, np.random.default_rng(seed))
@@ -76,7 +76,7 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
 
 
 def _ascend_starts(ascent: Ascent, q: FloatArray, retained: int) -> tuple[FloatArray, FloatArray]:
-    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf where an end collides."""
+    """Ascend from the best starts q (N, n); return the ends (retained, n) and their values, -inf for a collision."""
     has_clearance = ascent.clearance is not None
 
     def evaluate_worth(q: FloatArray) -> FloatArray:

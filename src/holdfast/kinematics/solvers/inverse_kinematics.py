@@ -31,25 +31,25 @@ from holdfast.model.arm.task import Task, as_task
 
 Accept = Callable[[FloatArray], BoolArray]
 
-MAX_STEPS = 40  # per start; most starts that reach the target do so within 15
-_HALF_TURN_SINE = 1e-6  # sine of a rotation by half a turn
-_ZERO_SINE = 1e-9  # sine of no rotation
+MAX_STEPS = 40  # per start; most successful starts converge within 15
+_HALF_TURN_SINE = 1e-6  # sine of a rotation by nearly half a turn
+_ZERO_SINE = 1e-9  # sine of a rotation by nearly 0
 _ROUNDING_SINE = 1e-15  # sine that is only rounding
-_WAVE_ROWS = 8192  # rows of starts that run side by side when poses are left over
-_ROW_MULTIPLIER = 2654435761  # odd, so each row walks through the whole pool of starts
-_START_MULTIPLIER = 40503  # odd, too
+_WAVE_ROWS = 8192  # rows of starts that run at once for the remaining poses
+_ROW_MULTIPLIER = 2654435761  # odd, so that each row passes through the whole pool of starts
+_START_MULTIPLIER = 40503  # odd as well
 
 
 @dataclass(frozen=True, kw_only=True)
 class PoseSolutions:
-    """Configurations found for N poses, or for one (then without the leading N).
+    """Configurations found for N poses, or for one (without the leading N).
 
     Attributes:
-        q: (N, n) rad and m, within the limits; the best found where ``status`` is not OK, NaN where the pose is NaN.
-        status: (N,) ``OK``, ``NOT_FOUND`` (not found within the budget, which proves nothing) or ``BAD_INPUT``.
-        position_error: (N,) m, of the task rows.
-        rotation_error: (N,) rad, of the task rows; 0 for a task without angular rows.
-        restarts: (N,) starts used.
+        q: (N, n) configurations, rad and m, within the limits; the best found if ``status`` is not OK, NaN if the pose is NaN.
+        status: (N,) ``OK``, ``NOT_FOUND`` (not found within the budget, which is no proof) or ``BAD_INPUT``.
+        position_error: (N,) position error in the task rows, m.
+        rotation_error: (N,) orientation error in the task rows, rad; 0 for a task without angular rows.
+        restarts: (N,) number of starts used.
     """
 
     q: FloatArray
@@ -65,21 +65,20 @@ class PoseSolutions:
 
     @property
     def first_row(self) -> PoseSolutions:
-        """The first row alone, without the leading N."""
+        """Result for the first row, without the leading N."""
         return PoseSolutions(**{field.name: getattr(self, field.name)[0] for field in fields(self)})
 
     def require_ok(self) -> PoseSolutions:
-        """Return the result, or raise :class:`holdfast.HoldfastError` naming the first row that failed."""
+        """Return the result, or raise :class:`holdfast.HoldfastError`, which names the first row that failed."""
         require_ok(self.status, "inverse kinematics")
         return self
 
 
 def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the world-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest rotation, up to half a
-    turn.
+    """Return the world-frame error (6,): ``(p_d - p; log(R_d R'))`` with the shortest rotation, up to half a turn.
 
-    There the shortest turn flips from one way to the other. At exactly half a turn, where both ways are as long, it is about
-    the axis of which the largest component is positive.
+    At half a turn the shortest rotation changes its direction. At exactly half a turn, where both directions are equally long,
+    the rotation is about the axis whose largest component is positive.
     """
     error_rotation = target_rotation @ rotation.T
     skew_vector = _axis_times_sine(error_rotation)
@@ -87,8 +86,8 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
     cosine = 0.5 * (error_rotation[0, 0] + error_rotation[1, 1] + error_rotation[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > _ZERO_SINE, angle / ca.if_else(sine > _ZERO_SINE, sine, 1.0), 1.0)
-    # Near half a turn the skew part is too short to give the axis a, but says which way it points. The other part of R,
-    # R + R' - 2 cos I = 2 (1 - cos) a a', has it in every column; the longest is that of the largest component.
+    # Near half a turn the skew part is too short to give the axis a, but gives its sign. The other part of R,
+    # R + R' - 2 cos I = 2 (1 - cos) a a', contains a in every column; the longest column is that of the largest component.
     columns = [error_rotation[:, i] + error_rotation.T[:, i] - 2 * cosine * ca.SX.eye(3)[:, i] for i in range(3)]
     column = ca.if_else(error_rotation[0, 0] >= error_rotation[2, 2], columns[0], columns[2])
     axis = ca.if_else(
@@ -107,7 +106,7 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
 def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
     """Return :func:`pose_error` for a task with free rotation about the tool axis: the rotation from z to the target's z.
 
-    Where z points exactly away from it, every axis across z is as good, and the tool's x axis is taken.
+    If z points exactly opposite, every axis perpendicular to z is equally good, and the tool's x axis is used.
     """
     z, zd = rotation[:, 2], target_rotation[:, 2]
     rotation_axis = ca.cross(z, zd)
@@ -125,7 +124,7 @@ def _axis_times_sine(r: SX) -> SX:
 
 
 def pose_error_for_task(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the world-frame error (6,) of the end effector, of which a task takes its rows, by its shortest rotation."""
+    """Return the world-frame error (6,) of the end effector by its shortest rotation, from which a task selects its rows."""
     return (pointing_error if _has_free_tool_rotation(task) else pose_error)(position, rotation, target, target_rotation)
 
 
@@ -136,7 +135,7 @@ def _has_free_tool_rotation(task: Task) -> bool:
 def task_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
     """Return the error (m,) of the task's components, in metres and radians, and its Jacobian (m, n).
 
-    Whatever the characteristic length of the indices, errors of poses are in metres.
+    Errors of poses are in metres for any characteristic length of the indices.
     """
     chain = kinematics.kinematic_chain(arm, q)
     error = pose_error_for_task(task, chain.position, chain.rotation, target, target_rotation)
@@ -153,7 +152,7 @@ def scaled_error_and_jacobian(arm: Arm, task: Task, q: SX, target: SX, target_ro
 
 
 def sine_task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
-    """Return the error of :func:`task_error_and_jacobian` with sines in place of angles: equal near 0, but differentiable."""
+    """Return the error of :func:`task_error_and_jacobian` with sines instead of angles: equal near 0, but differentiable."""
     chain = kinematics.kinematic_chain(arm, q)
     if _has_free_tool_rotation(task):
         rotation_vector = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
@@ -174,11 +173,11 @@ def _flatten_poses(poses: FloatArray) -> FloatArray:
 
 
 class InverseKinematics:
-    """The compiled solver of one arm and task.
+    """Compiled solver of one arm and task.
 
-    One step is damped least squares with the joints that press against a limit taken out:
-    ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
-    Lengths in it, and in every ``tolerance``, are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`scale_tolerance`.
+    One step is damped least squares without the joints that press against a limit: ``dq = A J' (J A J' + lambda I)^-1 e`` with
+    ``lambda = 1e-3 |e|^2 + 1e-12``, and the new q is clipped to the limits. Its lengths, and those of every ``tolerance``, are
+    in units of :attr:`holdfast.Arm.length_unit`; see :meth:`scale_tolerance`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
@@ -222,7 +221,7 @@ class InverseKinematics:
     ) -> tuple[FloatArray, BoolArray]:
         """Try one start q (N, n) for each pose; return the ends, and whether each is on the pose and within the limits.
 
-        Joints that are ``fixed_joints``, by index from 0, stay where they are.
+        The joints ``fixed_joints``, by index from 0, do not move.
         """
         parameters, loop = _flatten_poses(poses), self._damped_step_loop
         if fixed_joints:
@@ -252,7 +251,7 @@ class InverseKinematics:
     ) -> PoseSolutions:
         """Solve as :meth:`solve`, with joint or joints ``locked[i]`` locked at ``angles[i]`` and values not wrapped."""
         lock_count = locked.shape[1] if locked.ndim > 1 else 1
-        locked, angles = locked.reshape(-1, lock_count), angles.reshape(-1, lock_count)  # no rows are rows, too
+        locked, angles = locked.reshape(-1, lock_count), angles.reshape(-1, lock_count)  # also for 0 rows
         parameters = _append_free_joints(poses, self.arm.n, locked)
         finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1) & np.isfinite(angles).all(axis=1))
 
@@ -279,25 +278,25 @@ class InverseKinematics:
     ) -> BoolArray:
         """Return (N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
-        False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
+        False means that none was found in ``restarts`` starts, which is no proof. Poses must be finite.
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
     def solve_near(
         self, q: FloatArray, pose: FloatArray, is_movable: FloatArray, tolerance: float, steps: int = MAX_STEPS
     ) -> tuple[FloatArray, bool]:
-        """Solve from q (n,) towards one pose (4, 4), without restarts, for an end effector that is dragged.
+        """Solve from q (n,) towards one pose (4, 4) without restarts, for interactive dragging of an end effector.
 
         Args:
-            q: (n,) where the arm is, rad and m.
-            pose: (4, 4) in the world.
+            q: (n,) present configuration, rad and m.
+            pose: (4, 4) pose in the world, m.
             is_movable: (n,) 1 for joints that may move, 0 for locked ones.
-            tolerance: rad, and lengths in units of the arm's own.
-            steps: At most so many.
+            tolerance: Tolerance, rad, and lengths in units of the arm's own length.
+            steps: Maximum number of steps.
 
         Returns:
-            The configuration (n,), never farther from the pose than q, joint values not wrapped; and whether it is on the pose
-            and within the limits.
+            The configuration (n,), never farther from the pose than q, with joint values not wrapped; and whether it is on the
+                pose and within the limits.
         """
         poses = pose[None]
         run = self._locked_damped_step_loop.run(
@@ -323,12 +322,11 @@ class InverseKinematics:
     ) -> tuple[FloatArray, IndexArray]:
         """Try starts until each of the chosen rows is solved, and return the configurations (N, n) and starts used (N,).
 
-        Several starts of a row run in parallel once few rows are left.
+        Several starts of a row run in parallel once few rows remain. A solution that ``accept`` rejects counts as a failed
+        start.
 
-        What is not accepted counts as if its start had led nowhere.
-
-        Start k of row i is one of a pool of random configurations, chosen by i and k alone: it does not depend on which
-        rows are left, on how many starts run side by side, or on how many rows there are.
+        Start k of row i is one of a pool of random configurations and depends only on i and k: not on the remaining rows, on
+        the number of parallel starts, or on the number of rows.
         """
         count, n = len(parameters), self.arm.n
         pool_size = 1 << max(12, (restarts - 1).bit_length())
@@ -338,7 +336,7 @@ class InverseKinematics:
         unsolved, next_start = rows, 0
         with ProgressCount("starts of each pose", restarts, most=True) as advance:
             while unsolved.size and next_start < restarts:
-                # Doubling: most rows converge early, and starts that run beside a successful one are wasted.
+                # Doubling, because most rows converge early, and starts that run in parallel with a successful one are wasted.
                 wave_size = (
                     1 if next_start == 0 else min(restarts - next_start, next_start, max(1, _WAVE_ROWS // unsolved.size))
                 )
@@ -399,13 +397,13 @@ class InverseKinematics:
         """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses.
 
         Args:
-            poses: The poses.
-            seed: Of the starts.
-            restarts: At most so many.
-            tolerance: Largest pose error, rad, and lengths in units of the arm's own.
-            first: (N, n) the first start of each, if it is not a random one.
-            accept: Which configurations (K, n) that meet their poses count, (K,); all of them if not given.
-            steps: At most so many from each start.
+            poses: (N, 4, 4) poses in the world, m.
+            seed: Seed of the starts.
+            restarts: Maximum number of starts.
+            tolerance: Largest pose error, rad, and lengths in units of the arm's own length.
+            first: (N, n) first start of each pose; default: random.
+            accept: Function of configurations (K, n) that meet their poses, which returns those to accept (K,); default: all.
+            steps: Maximum number of steps from each start.
         """
         parameters = _flatten_poses(poses)
         finite: BoolArray = np.asarray(np.isfinite(parameters).all(axis=1))
@@ -433,7 +431,7 @@ class InverseKinematics:
         restarts: IndexArray,
         is_valid: BoolArray | bool = True,
     ) -> PoseSolutions:
-        """Return the result for q (N, n): its verdict comes from the configuration handed out, not from a residual."""
+        """Return the result for q (N, n), with a status from the returned configuration, not from a residual."""
         position_error, rotation_error = self.position_and_rotation_errors(q, poses)
         reached = self._is_reached(q, position_error, rotation_error, tolerance) & is_valid
         reached &= True if accept is None else accept(q)
@@ -461,7 +459,7 @@ class InverseKinematics:
 def damped_step_and_residual(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX] | None = None) -> tuple[SX, SX]:
     """Return the next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error.
 
-    Within the limits of the arm, or within ``limits``, two symbols (n,).
+    The step stays within the limits of the arm, or within ``limits``, two symbols (n,).
     """
     n = arm.n
     bounds = _finite_bounds(arm) if limits is None else [(limits[0][k], limits[1][k]) for k in range(n)]
@@ -469,7 +467,7 @@ def damped_step_and_residual(arm: Arm, q: SX, e: SX, j: SX, limits: tuple[SX, SX
     gradient = [ca.dot(j[:, k], e) for k in range(n)]
     active = []
     for k in range(n):
-        # CasADi has no short way to say "at the lower limit and pulled below it".
+        # CasADi has no short form of "at the lower limit and pulled below it".
         lower, upper = bounds[k]
         at_lower = ca.SX(0) if lower is None else ca.logic_and(q[k] <= lower, gradient[k] < 0)
         at_upper = ca.SX(0) if upper is None else ca.logic_and(q[k] >= upper, gradient[k] > 0)
@@ -485,7 +483,7 @@ def clip_to_limits(arm: Arm, q: Sequence[SX]) -> SX:
 
 
 def _finite_bounds(arm: Arm) -> list[tuple[Any, Any]]:
-    """Return the limits of each joint, None where there is none."""
+    """Return the limits of each joint, None where there is no limit."""
     ends = zip(arm.lower, arm.upper, strict=True)
     return [
         (lower if kinematics.is_limit_given(lower) else None, upper if kinematics.is_limit_given(upper) else None)
@@ -506,12 +504,12 @@ def _clip_to_bounds(bounds: Sequence[tuple[Any, Any]], q: Sequence[SX]) -> SX:
 
 @lru_cache(maxsize=16)
 def _cached_solver(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> InverseKinematics:
-    # Keyed by what matters: every call makes a new Task, and the characteristic length plays no part here.
+    # The key omits the characteristic length, which has no effect here, because every call makes a new Task.
     return InverseKinematics(arm, Task("task", np.array(rows), frame))
 
 
 def solver(arm: Arm, task: Task) -> InverseKinematics:
-    """Return the solver of an arm and task, compiled once."""
+    """Return the inverse kinematics of the model ``arm`` and the ``task``, compiled once."""
     return _cached_solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
@@ -530,19 +528,19 @@ def solve_ik(
     """Find configurations that put the end effector at poses, within the joint limits.
 
     Args:
-        arm: The arm.
-        poses: (4, 4) or (N, 4, 4) tool poses in the world; of them only the task's rows must be met.
-        seed: Of the random starts: the same seed gives the same result.
-        task: Rows of the pose that matter.
-        restarts: Random starts per pose before giving up.
-        tolerance: Largest error, m and rad; of an arm that is shorter than 1 m, lengths are as much nearer.
-        start: (n,) or (N, n) where to start from the first time; random if not given.
+        arm: Arm model.
+        poses: (4, 4) or (N, 4, 4) tool poses in the world, m; only the task's rows must be met.
+        seed: Seed of the random starts; the same seed gives the same result.
+        task: Rows of the pose that must be met.
+        restarts: Maximum number of random starts per pose.
+        tolerance: Largest error, m and rad; for an arm shorter than 1 m the length is reduced in proportion.
+        start: (n,) or (N, n) configuration of the first start, rad and m; default: random.
 
     Returns:
-        A :class:`PoseSolutions`. It never says OK for a configuration outside the limits or beyond the tolerance.
+        A :class:`PoseSolutions`. Its status is never OK for a configuration outside the limits or the tolerance.
 
     Raises:
-        InputError: Poses that are not 4x4 transforms, or options out of range.
+        InputError: Poses are not 4x4 transforms, or an option is out of range.
     """
     targets = check_poses(poses)
     if restarts < 1:

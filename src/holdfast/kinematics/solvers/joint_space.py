@@ -1,4 +1,4 @@
-"""Distances between configurations, in which joints without limits have period 2 pi."""
+"""Distances between configurations in which joints without limits have period 2 pi."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _MAX_PAIRWISE_DISTANCES = 1 << 20
 
 
 def is_unlimited(arm: Arm) -> BoolArray:
-    """Return (n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
+    """Return (n,) True for revolute joints without limits, for which q and q + 2 pi are equal."""
     return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
 
 
 def joint_difference(arm: Arm, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return ``a - b`` (..., n), the short way round where a joint has no limits."""
+    """Return ``a - b`` (..., n), the short way for joints without limits."""
     raw_difference = a - b
     return np.where(is_unlimited(arm), np.arctan2(np.sin(raw_difference), np.cos(raw_difference)), raw_difference)
 
@@ -46,7 +46,7 @@ def find_nearest(arm: Arm, points: FloatArray, q: FloatArray) -> tuple[FloatArra
 
 
 def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> IndexArray:
-    """Find the pairs (M, 2) of configurations q (N, n) no further than ``max_distance`` from each other, k < m, in order."""
+    """Find the pairs (M, 2) of configurations q (N, n) at most ``max_distance`` apart, k < m, in order."""
     if _is_brute_force_faster(q, q):
         return np.argwhere(np.triu(_pairwise_distances(arm, q, q) <= max_distance, 1))
     close_pairs = build_tree(arm, q).query_pairs(max_distance, output_type="ndarray")
@@ -54,7 +54,7 @@ def find_close_pairs(arm: Arm, q: FloatArray, max_distance: float) -> IndexArray
 
 
 def _is_brute_force_faster(a: FloatArray, b: FloatArray) -> bool:
-    """Return True if computing all distances takes less time than importing SciPy's trees; the bits are the same."""
+    """Return True if computing all distances is faster than importing SciPy's trees; the bits are the same."""
     return 0 < len(a) * len(b) <= _MAX_PAIRWISE_DISTANCES
 
 
@@ -91,7 +91,7 @@ def wrap_joints_to_positive(arm: Arm, q: FloatArray) -> FloatArray:
 def join_intervals(
     intervals: Iterable[tuple[float, float]], gap: float = 0.0, period: float | None = None
 ) -> list[tuple[float, float]]:
-    """Join intervals that overlap or lie within ``gap``, by lower end; with a period the last one also with the first."""
+    """Join intervals that overlap or lie within ``gap``, by lower end; with a period also the last one with the first."""
     joined: list[tuple[float, float]] = []
     for lower, upper in sorted(intervals):
         if joined and lower <= joined[-1][1] + gap:

@@ -1,8 +1,8 @@
-"""The step that raises the lowest of several functions most, by a small linear program as straight-line code.
+"""Step that most increases the smallest of several functions, by a small linear program as straight-line code.
 
 ``max sum_p w_p t_p`` over z (r,) and t, subject to ``s_k + g_k z >= t_p`` for every function k of part p, ``|z_i| <= radius``
-and limits ``low_j <= a_j z <= high_j``. Solved by a fixed number of primal-dual interior-point iterations, so that a batch
-of such programs runs in SIMD; what a step lacks in precision the next one makes up for.
+and limits ``low_j <= a_j z <= high_j``. It takes a fixed number of primal-dual interior-point iterations, so that a batch of
+such programs runs in SIMD. The next step corrects the imprecision of this one.
 """
 
 from __future__ import annotations
@@ -17,26 +17,26 @@ from holdfast.kinematics.indices.objective import ObjectivePart
 
 INTERIOR_POINT_ITERATIONS = 7
 _CENTERING_FACTOR = 0.1
-_BOUNDARY_FRACTION = 0.9  # share of the way to the boundary that a step may go
+_BOUNDARY_FRACTION = 0.9  # fraction of the distance to the boundary that a step may take
 
 
 def maximin_step(
     parts: Sequence[ObjectivePart], rows: Sequence[Vector], low: Sequence[SX], high: Sequence[SX], radius: SX
 ) -> Vector:
-    """Compute the best z (r,).
+    """Return the best z (r,).
 
     Args:
-        parts: What to raise: a weighted sum of minima of functions, with the slopes of these along z.
+        parts: Terms to increase: a weighted sum of minima of functions, with their slopes along z.
         rows: Directions a_j of the limits, lists of r.
-        low: Lower limits of ``a_j z``; finite: +-1e3 stands for no limit.
-        high: Upper limits.
+        low: Lower limits of ``a_j z``, finite; +-1e3 means no limit.
+        high: Upper limits of ``a_j z``.
         radius: Largest entry of z.
     """
     weights, values, gradients, part_of = _flatten_scaled_parts(parts)
     r, p = len(gradients[0]), len(weights)
     unit_vectors = [[ca.SX(float(i == k)) for i in range(r)] for k in range(r)]
     two_sided = [*zip(rows, low, high, strict=True), *[(e, -radius, radius) for e in unit_vectors]]
-    min_slack = 1e-3 * radius  # a limit that is met already; closer to 0 the iteration stalls there
+    min_slack = 1e-3 * radius  # a limit that is already met; the iteration stalls closer to 0
     count = len(values) + 2 * len(two_sided)
 
     z: Vector = [ca.SX(0)] * r
@@ -103,8 +103,8 @@ def maximin_step(
 def _flatten_scaled_parts(parts: Sequence[ObjectivePart]) -> tuple[list[SX], list[SX], list[Vector], list[int]]:
     """Return weights that sum to 1, functions, gradients, and the part that each function belongs to.
 
-    The iteration starts from slacks of the size of the radius, so each part is divided by the size of its slopes, which
-    may be anything: without it, one configuration in five of a Panda missed the best manipulability by more than 1e-3.
+    The iteration starts from slacks of the size of the radius, so each part is divided by the size of its slopes, which can be
+    arbitrary. Without this, one configuration in five of a Panda missed the best manipulability by more than 1e-3.
     """
     values, gradients, part_of = [], [], []
     weights: list[SX] = []

@@ -1,4 +1,4 @@
-"""The best configurations of given poses, compared with the configurations that an arm has there now."""
+"""Best configurations of given poses, compared with the present configurations of an arm."""
 
 from __future__ import annotations
 
@@ -33,21 +33,21 @@ if TYPE_CHECKING:
     from holdfast.model.collision.clearance import Clearance
 
 
-_SMALL_FRACTION = 0.1  # of a loss, and of the value that is lost
-_ZERO_TOLERANCE = 1e-9  # of an index after a failure that ends the task: rounding
-_BLOCK_POSES = 512  # poses worked on together by one thread; no result depends on it
+_SMALL_FRACTION = 0.1  # of a loss, and of the value before it
+_ZERO_TOLERANCE = 1e-9  # index after a failure below which only rounding remains
+_BLOCK_POSES = 512  # poses that one thread optimises together; no result depends on it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cap:
-    """A failure that limits the optimised worst case, so that the other failures lose much for almost no gain.
+    """Failure that limits the optimised worst case, so that the other failures lose much for almost no gain.
 
     Values are medians over the poses, of the index before and after optimisation.
 
     Attributes:
         failure: Name of the joint, or joints, whose failure is the worst one after optimisation.
         before, after: Value after this failure.
-        other: Name of the failure that loses most.
+        other: Name of the failure with the largest loss.
         other_before, other_after: Value after that failure.
         remaining: Positions in ``index.failures`` of all failures but the first one.
     """
@@ -70,17 +70,17 @@ class Cap:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Optima(Optimum, Result):
-    """Result and inputs of :func:`optimise` for N poses, or for one (then without the leading N).
+    """Result and inputs of :func:`optimise` for N poses, or for one (without the leading N).
 
     Attributes:
-        objective: By which configurations were chosen.
-        task: The rows of the pose that are kept.
-        free: No pose was given: the best configuration of all.
-        poses: (N, 4, 4) in the world; where none was given that of the best configuration.
-        initial: (N, n) configurations of the poses that were given to compare with, or None.
-        clearance: What the arm is kept clear of, itself and its cell, or None.
+        objective: Objective of the optimisation.
+        task: Rows of the pose that are met.
+        free: True if no pose was given, so that the best configuration of all was sought.
+        poses: (N, 4, 4) poses in the world, m; without given poses that of the best configuration.
+        initial: (N, n) configurations for comparison, rad and m, or None.
+        clearance: Collision model of the arm and its cell, or None.
         margin: Smallest clearance, m.
-        seed: Of the starts.
+        seed: Seed of the starts.
     """
 
     objective: Objective
@@ -94,12 +94,12 @@ class Optima(Optimum, Result):
 
     @property
     def arm(self) -> Arm:
-        """The arm."""
+        """Arm model."""
         return self.objective.arm
 
     @property
     def rows(self) -> Optima:
-        """The result with the leading N, also of one pose."""
+        """Result with the leading N, also for one pose."""
         if self.q.ndim == 2:
             return self
         arrays = {field.name: getattr(self, field.name)[None] for field in fields(Optimum)}
@@ -108,7 +108,7 @@ class Optima(Optimum, Result):
 
     @property
     def q_before(self) -> FloatArray:
-        """Configurations (N, n) that were given or found first (the best random one without poses); NaN where none was."""
+        """Configurations (N, n) that were given or found first (without poses the best random one); NaN if none was found."""
         return np.where(self.success[..., None], self.start_q, np.nan) if self.initial is None else self.initial
 
     @property
@@ -117,19 +117,18 @@ class Optima(Optimum, Result):
         return self.start_value if self.initial is None else self.objective(self.initial)
 
     def clearance_at(self, q: FloatArray) -> FloatArray:
-        """Compute the clearance of the arm from itself and its cell, (N,) m, at q (N, n); NaN if no clearance is given."""
+        """Return the clearance of the arm from itself and its cell, (N,) m, at ``q`` (N, n); NaN if no clearance is given."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
 
     def close(self, q: FloatArray) -> BoolArray:
-        """Return (N,) True where the clearance is below the margin at q (N, n); False if no clearance is given."""
+        """Return (N,) True where the clearance at ``q`` (N, n) is below the margin; False if no clearance is given."""
         return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.margin_left(q) < self.margin
 
     @property
     def obstacles(self) -> list[str]:
-        """Name of each pose's pair, ``panda_joint4 & table``, that blocks the unconstrained best configuration, or an empty
-        string.
+        """Pair of each pose, ``panda_joint4 & table``, that blocks the best unconstrained configuration, or an empty string.
 
-        Of a pose that is INFEASIBLE it is the pair that bars most of the configurations found.
+        For a pose with the status INFEASIBLE it is the pair that blocks most of the configurations found.
         """
         rows = self.rows
         names = [] if self.clearance is None else self.clearance.pair_names
@@ -137,16 +136,16 @@ class Optima(Optimum, Result):
 
     @property
     def worse(self) -> BoolArray:
-        """Flags (N,) of the given configurations that are better than those found, and as collision-free."""
+        """Flags (N,) of the given configurations that are better than those found and equally collision-free."""
         loss = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
         better = loss > 1e-9 * np.abs(self.value)
         return np.asarray(better & ~self.close(self.q_before))
 
     @cached_property
     def cap(self) -> Cap | None:
-        """The failure that caps the value; None if the gain is worth the loss of the others, or there is only one failure.
+        """Failure that caps the value; None if the gain is worth the loss of the others, or there is only one failure.
 
-        A failure caps the value if it is the worst one at half of the best configurations or more, and either nothing is left
+        A failure caps the value if it is the worst one in at least half of the best configurations, and either nothing remains
         after it, or the value gains at most a tenth of the largest loss after another failure.
         """
         index, rows = self.objective, self.rows
@@ -158,7 +157,7 @@ class Optima(Optimum, Result):
         sign = 1.0 if index.better == "larger" else -1.0
         lowest = (sign * after).min(axis=1, keepdims=True)
         tied = sign * after <= lowest + 1e-3 * np.abs(lowest)
-        worst = np.where(tied, sign * before, np.inf).argmin(axis=1)  # of several, the one that was worst before
+        worst = np.where(tied, sign * before, np.inf).argmin(axis=1)  # of several failures the one that was worst before
         capping = int(np.bincount(worst).argmax())
         old_medians, new_medians = np.median(before, axis=0), np.median(after, axis=0)
         losses = sign * (old_medians - new_medians)
@@ -179,10 +178,10 @@ class Optima(Optimum, Result):
         )
 
     def require_any(self) -> Optima:
-        """Return the result, unless no pose has a configuration.
+        """Return the result if any pose has a configuration.
 
         Raises:
-            HoldfastError: None has; the message says what to try.
+            HoldfastError: No pose has one; the message suggests what to try.
         """
         if self.success.any():
             return self
@@ -194,15 +193,15 @@ class Optima(Optimum, Result):
             advice = (
                 f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), most often by "
                 f"{self.clearance.pair_names[pair]}: choose another pose, give the real shape by --capsules or a smaller "
-                "--margin, " + ("or let it by --no-clearance" if is_self_pair else "or move the object")
+                "--margin, " + ("or allow the contact by --no-clearance" if is_self_pair else "or move the object")
             )
         raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the configurations as rows, with values before and after.
+        """Write the configurations as rows to the CSV ``file``, with values before and after.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         written: Path = self._present("to_csv", Path(file))
         return written
@@ -225,35 +224,35 @@ def optimise(
     margin: float = 0.0,
     initial: ArrayLike | None = None,
 ) -> Optima:
-    """Find the configuration of each pose that is best under an objective, within the joint limits.
+    """Find the best configuration of each pose under an objective, within the joint limits.
 
     Args:
-        arm: The arm.
-        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met. None: any pose will do, and the best
-            configuration of all within the limits is looked for.
-        objective: An index, a susceptibility or a weighted sum of them; it knows whether larger or smaller is better.
-        seed: The same seed gives the same result, whatever the number of threads and of other poses behind.
-        starts: Random starts per pose; more find better optima (the problem has many). Default: 128, or 32 for a
-            redundancy of 2 or more. Where fewer than half of them reach the pose, up to seven times as many follow. Without
-            poses: 10,000, the best of twenty times as many random configurations.
-        restarts: Random starts of inverse kinematics before a pose counts as not found.
+        arm: Arm model.
+        poses: (4, 4) or (N, 4, 4) poses in the world, m; only the rows of the task must be met. None: find the best
+            configuration of all within the limits.
+        objective: Index, susceptibility or weighted sum of them, which defines the better direction.
+        seed: Seed; the same seed gives the same result for any number of threads and of following poses.
+        starts: Number of random starts per pose; more starts find better optima, because the problem has many. Default: 128, or
+            32 for a redundancy of 2 or more, and up to seven times as many more if fewer than half of them reach the pose.
+            Without poses: 10,000, the best of twenty times as many random configurations.
+        restarts: Maximum number of random starts of inverse kinematics per pose.
         tolerance: Largest pose error, m and rad.
-        task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it is not of a task.
-        clearance: Keep the links of the arm apart; not looked at if not given. True: capsules of an assumed radius.
-        cell: Objects around the arm, or their file, to keep clear of; the links are then kept apart as well, but for an arm
-            that moves in a plane and with ``clearance=False``.
-        margin: Smallest clearance, m; from an object beyond what the cell keeps from it.
-        initial: (n,) or (N, n), rad and m: configurations to compare with. One that meets its pose within the limits is
-            also the first start of that pose. Default: the first that inverse kinematics finds.
+        task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it has no task.
+        clearance: Collision model that keeps the links apart. True: capsules with an assumed radius. Default: not checked.
+        cell: Environment, or its file, to avoid. The links are then kept apart as well, except for a planar arm and with
+            ``clearance=False``.
+        margin: Smallest clearance, m, in addition to the distances that the cell requires.
+        initial: (n,) or (N, n) configurations for comparison, rad and m. One that meets its pose within the limits is also the
+            first start of that pose. Default: the first configuration that inverse kinematics finds.
 
     Returns:
-        :class:`Optima`. Their value is never worse than that of the first configuration found or given, unless that one
-        runs the arm through itself or an object.
+        :class:`Optima`. The value is never worse than that of the first configuration found or given, unless that
+            configuration collides.
 
     Raises:
-        InputError: Poses that are not 4x4 transforms, options out of range, an objective or clearance of another arm, or a
-            cell that cannot be read or does not fit the arm.
-        TaskError: A task other than the objective's, or an objective that cannot be optimised.
+        InputError: Poses are not 4x4 transforms, an option is out of range, the objective or clearance belongs to another arm,
+            or the cell cannot be read or does not fit the arm.
+        TaskError: The task differs from the objective's, or the objective cannot be optimised.
 
     Source: Abdi et al. 2012, eq. (11), (12).
     """

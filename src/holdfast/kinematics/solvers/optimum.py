@@ -1,8 +1,8 @@
-"""Ascent to the best configuration of a pose, after the worst failure, without moving the end effector.
+"""Ascent to the best configuration of a pose, for the worst failure, without moving the end effector.
 
 Source: Abdi, Maciejewski, Nahavandi 2012, eq. (11), (12), in the epigraph form: ``max t`` subject to ``s_k(q) >= t`` for
-every failure k, the pose and the joint limits. Each step solves that program linearised about q on the self-motion
-manifold, within a trust region; many starts run side by side and the poor ones are dropped early.
+every failure k, the pose and the joint limits. Each step solves that program linearised about q on the self-motion manifold,
+within a trust region. Many starts run at once, and poor ones are dropped early.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 
 
 _MORE_WAVES = 7  # of random starts, for poses that fewer than half of a wave reached
-FIRST_STEPS = 4  # of every start
-LAST_STEPS = 12  # of the few that are kept
+FIRST_STEPS = 4  # steps of every start
+LAST_STEPS = 12  # steps of the few starts that are kept
 _RETAINED_STARTS = 4
 INITIAL_RADIUS = 0.3  # first step along each null-space direction, rad or m
 _MAX_RADIUS = 0.6
@@ -51,24 +51,23 @@ _MAX_RADIUS = 0.6
 
 @dataclass(frozen=True, kw_only=True)
 class Optimum:
-    """Best configurations found for N poses, or for one (then without the leading N).
+    """Best configurations found for N poses, or for one (without the leading N).
 
     Attributes:
-        q: (N, n) rad and m, within limits; NaN where no configuration of the pose was found.
-        value: (N,) of the objective; never worse than ``start_value``.
-        start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
-        start_q: (N, n) that configuration, or the nearest miss.
-        status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found has the arm collide with itself or the cell), ``UNDEFINED`` (a formula of the user's own has no
-            value at any configuration found) or ``BAD_INPUT``.
-        position_error: (N,) m.
-        rotation_error: (N,) rad.
-        starts: (N,) starts from which a configuration of the pose was found.
-        agreeing: (N,) share of the starts followed to the end that reached the best value to 1e-3 of the scale of values.
-        blocked: (N,) True where a clearance was asked for and the best configuration without it has the arm collide with
-            itself or the cell.
-        blocked_by: (N,) there the position in ``clearance.pair_names`` of the pair with the least room, or, where the status is
-            INFEASIBLE, of the pair that most often has the least at the configurations found; else -1.
+        q: (N, n) configurations, rad and m, within limits; NaN if no configuration of the pose was found.
+        value: (N,) value of the objective, never worse than ``start_value``.
+        start_value: (N,) value at the first configuration that inverse kinematics found, the sample before optimisation.
+        start_q: (N, n) that configuration, or the closest one if none was found.
+        status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (only singular configurations), ``INFEASIBLE`` (every configuration
+            found collides with the arm itself or the cell), ``UNDEFINED`` (a user-defined formula has no value at any
+            configuration found) or ``BAD_INPUT``.
+        position_error: (N,) position error, m.
+        rotation_error: (N,) orientation error, rad.
+        starts: (N,) number of starts from which a configuration of the pose was found.
+        agreeing: (N,) fraction of the refined starts that reached the best value to 1e-3 of the scale of values.
+        blocked: (N,) True if a clearance was requested and the best configuration without it collides.
+        blocked_by: (N,) position in ``clearance.pair_names`` of the pair with the smallest margin there or, for the status
+            INFEASIBLE, of the pair that most often has the smallest margin; else -1.
     """
 
     q: FloatArray
@@ -89,7 +88,7 @@ class Optimum:
         return np.asarray((self.status == Status.OK) | (self.status == Status.SINGULAR))
 
     def require_ok(self) -> Self:
-        """Return the result, or raise :class:`holdfast.HoldfastError` naming the first row that failed."""
+        """Return the result, or raise :class:`holdfast.HoldfastError`, which names the first row that failed."""
         require_ok(self.status, "optimisation")
         return self
 
@@ -102,19 +101,19 @@ def ascent_step(
     around: bool = False,
     free: bool = False,
 ) -> tuple[list[SX], SX]:
-    """Build one step of the ascent, of an arm whose geometry may be symbols.
+    """Build one step of the ascent for an arm whose geometry may be symbolic.
 
     Args:
-        objective: What to raise.
-        task: The rows of the pose that are kept.
-        clearance: Of the arm from itself.
+        objective: Objective to improve.
+        task: Rows of the pose to keep.
+        clearance: Collision model of the arm with itself.
         margin: Smallest clearance, m.
-        around: There are objects too. What room they leave is an input, so that no step is compiled for a cell.
-        free: No pose is kept: every joint may move by itself.
+        around: There are objects as well. Their clearance is an input, so that no step is compiled for a cell.
+        free: No pose is kept, so that every joint may move.
 
     Returns:
-        Symbols of the configuration (n,), the trust radius, the last step (n,) and the pose, position (3,) and rotation
-        (3, 3), and of the objects around the room, m, and its gradient (n,); the next three of them as one column.
+        Symbols of the configuration (n,), the trust radius, the last step (n,), the pose, position (3,) and rotation (3, 3),
+        and, with objects, their clearance, m, and its gradient (n,); and the next values of the first three as one column.
     """
     arm = objective.arm
     q = kinematics.joint_symbols(arm)
@@ -125,10 +124,10 @@ def ascent_step(
     rows = [ca.horzsplit(x) for x in ca.vertsplit(ca.SX.eye(arm.n))] if free else factorization.null_space_basis()
     directions = [ca.vertcat(*column) for column in zip(*rows, strict=True)]
     parts = objective.parts(q, jacobian, factorization, directions)
-    # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
+    # Back onto the pose with least norm. The step along the manifold leaves the pose only to second order.
     error, error_jacobian = task_error_and_jacobian(arm, task, q, position, rotation)
     correction = ca.SX.zeros(arm.n) if free else damped_least_norm(error_jacobian, error, 1e-12)
-    no_limit = 1e3  # stands for no limit: far beyond any trust region
+    no_limit = 1e3  # means no limit: far beyond any trust region
     constraint_rows: list[list[SX]] = []
     constraint_bounds: list[tuple[SX, SX]] = []
     for joint, (lower, upper) in enumerate(zip(arm.lower, arm.upper, strict=True)):
@@ -156,7 +155,7 @@ def ascent_step(
     )
     move = [dot_product(rows[joint], z) for joint in range(arm.n)]
     next_q = clip_to_limits(arm, [q[joint] + correction[joint] + move[joint] for joint in range(arm.n)])
-    # Steps that agree may grow; steps that turn back have passed the best point.
+    # Steps in the same direction may grow; steps that reverse have passed the best point.
     displacement = ca.vertcat(*move)
     cosine = ca.dot(displacement, last_move) / (ca.sqrt(ca.sumsqr(displacement) * ca.sumsqr(last_move)) + 1e-30)
     next_radius = radius * ca.if_else(cosine < 0, 0.5, ca.if_else(cosine > 0.5, 1.3, 0.85))
@@ -168,17 +167,17 @@ def ascent_step(
 def compile_ascent_step(
     objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool, free: bool
 ) -> Kernel:
-    """Compile :func:`ascent_step`; the measure of an objective is the last input."""
+    """Compile :func:`ascent_step`; numbers that the objective computes outside are the last input."""
     inputs, step = ascent_step(objective, task, clearance, margin, around, free)
     measured = objective.measured
     return Kernel(f"ascent of {objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
 
 class Ascent:
-    """The compiled step of one objective: towards the best configuration, back onto the pose, within the limits.
+    """Compiled step of one objective: towards the best configuration, back onto the pose, within the limits.
 
-    Where the task leaves no freedom there is nothing to climb, and the best of the configurations found is chosen. A free
-    ascent keeps no pose (:mod:`holdfast.kinematics.solvers.free_pose`).
+    If the task leaves no redundancy, the best of the configurations found is chosen. A free ascent keeps no pose
+    (:mod:`holdfast.kinematics.solvers.free_pose`).
     """
 
     def __init__(
@@ -188,7 +187,7 @@ class Ascent:
         self.clearance, self.margin, self.free = clearance, margin, free
         self.engine: InverseKinematics = solver(self.arm, task)
         if not free:
-            _ = self._step  # an objective that cannot be climbed says so before anything is computed
+            _ = self._step  # an objective that cannot be optimised raises its error before any computation
 
     @cached_property
     def _step(self) -> Kernel | None:
@@ -222,7 +221,7 @@ class Ascent:
                 margin, _, gradient = obstacles.nearest_margin_and_gradient(state[:, :n])
                 extra_inputs = [margin, gradient, *extra_inputs]
             state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], positions, rotations, *extra_inputs)
-            # A step that divided by zero (a singular configuration) is not taken.
+            # A step with a division by zero (at a singular configuration) is not taken.
             is_invalid = ~np.isfinite(state).all(axis=1)
             state[is_invalid] = previous[is_invalid]
         return state[:, :n], state[:, n]
@@ -237,7 +236,7 @@ class Ascent:
     ) -> tuple[IndexArray, FloatArray, FloatArray]:
         """Ascend from starts q of poses ``owner`` and drop the poor ones; return owners, ends, and oriented values.
 
-        The value is -inf where the end is not on its pose or, if asked, not clear.
+        The value is -inf if the end is not on its pose or, if requested, not collision-free.
         """
         q, radius = self.ascend(collision_free, q, poses[owner], FIRST_STEPS)
         value = self.values_to_maximise(q)
@@ -246,7 +245,7 @@ class Ascent:
         )
         owner, q, radius = owner[retained], q[retained], radius[retained]
         q, _ = self.ascend(collision_free, q, poses[owner], LAST_STEPS, radius)
-        # Far below the tolerance, so that the pose does not pay for the value.
+        # Far below the tolerance, so that the value does not improve by leaving the pose.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
         q = joint_space.wrap_joints(self.engine.arm, q)
         is_valid = self.engine.check_solutions(q, poses[owner], tolerance)
@@ -260,7 +259,7 @@ class Ascent:
         return np.asarray(self.clearance.margin_left(q) >= self.margin)
 
     def _most_frequent_nearest_pair(self, owner: IndexArray, q: FloatArray, poses: IndexArray) -> IndexArray:
-        """Return for each pose (H,) the pair of the smallest margin at most of its configurations among q (K, n)."""
+        """Return for each pose (H,) the pair that most often has the smallest margin among its configurations q (K, n)."""
         assert self.clearance is not None
         is_selected = np.isin(owner, poses)
         votes = np.zeros((len(poses), len(self.clearance.pair_names)), dtype=np.int64)
@@ -272,8 +271,8 @@ class Ascent:
     ) -> tuple[IndexArray, FloatArray]:
         """Sample start configurations of the reached poses; return the pose of each and the configurations.
 
-        Where joint limits let few random starts converge, more waves of them follow, so that hard poses are searched as
-        well as easy ones. Start k of pose i is the same number whichever other poses are reached.
+        If joint limits let few random starts converge, further waves of starts follow, so that hard poses are searched as well
+        as easy ones. Start k of pose i does not depend on the other poses.
         """
         reached = np.flatnonzero(first.success)
         owners, starts_found = [reached], [first.q[reached]]
@@ -301,11 +300,11 @@ class Ascent:
         """Find the best of several starts for (N, 4, 4) poses.
 
         Args:
-            poses: The poses.
-            ik_solutions: What inverse kinematics found for them: the first start, and what the result never falls below.
-            seed: Of the other starts.
-            starts: In all, the first included.
-            tolerance: Largest pose error, rad, and lengths in units of the arm's own.
+            poses: (N, 4, 4) poses in the world, m.
+            ik_solutions: Solutions of inverse kinematics: the first start, and the lower bound of the result.
+            seed: Seed of the other starts.
+            starts: Total number of starts, with the first one.
+            tolerance: Largest pose error, rad, and lengths in units of the arm's own length.
         """
         count = len(poses)
         engine, sign = self.engine, 1.0 if self.objective.better == "larger" else -1.0
@@ -324,11 +323,11 @@ class Ascent:
 
             def choose_best(owner: IndexArray, q: FloatArray, value: FloatArray, chosen: IndexArray) -> None:
                 best_index = largest_per_group(owner, value, 1)
-                # A formula of the user's own may have no value at the first configuration: any other is better.
+                # A user-defined formula may have no value at the first configuration, so that any other is better.
                 best_index = best_index[(value[best_index] > -np.inf) & ~(value[best_index] <= best_value[owner[best_index]])]
                 best_q[owner[best_index]], best_value[owner[best_index]] = q[best_index], value[best_index]
                 first_value = sign * start_value
-                # Either may be infinite, at a singular configuration or by a formula of the user's own.
+                # Either may be infinite, at a singular configuration or by a user-defined formula.
                 gain = np.subtract(
                     best_value, first_value, out=np.zeros(count), where=np.isfinite(best_value) & np.isfinite(first_value)
                 )
@@ -344,7 +343,7 @@ class Ascent:
                 blocked_poses = np.flatnonzero(blocked)
                 if blocked_poses.size:
                     blocked_by[blocked_poses] = self.clearance.closest_pair(best_q[blocked_poses])
-                    # Only the poses whose best configuration is not clear are climbed once more.
+                    # Only poses whose best configuration collides are optimised again.
                     best_value[blocked_poses], best_q[blocked_poses], agreeing[blocked_poses] = -np.inf, np.nan, 0.0
                     is_candidate = blocked[owner]
                     is_candidate[is_candidate] = self.is_collision_free(q[is_candidate])
@@ -381,10 +380,11 @@ class Ascent:
 
 
 def default_starts(arm: Arm, task: Task) -> int:
-    """Return the number of random starts per pose if none is given.
+    """Return the default number of random starts per pose.
 
-    One degree of redundancy gives curves, often many short ones between joint limits, and each must be hit to be climbed;
-    measured on a Panda, 32 starts find the best of 600 on 81 % of poses and 128 on 97 %. More redundancy joins them.
+    One degree of redundancy gives curves, often many short ones between joint limits, and only a start on a curve can find its
+    best point. On a Panda (measured) 32 starts find the best of 600 on 81 % of poses and 128 on 97 %. More redundancy connects
+    the curves.
     """
     return 128 if arm.n - task.m <= 1 else 32
 
@@ -405,10 +405,10 @@ def get_cached_ascent(
     margin: float = 0.0,
     free: bool = False,
 ) -> Ascent:
-    """Return the compiled ascent of an objective, made once for each task, clearance and margin; free: without a pose.
+    """Return the compiled ascent of an objective, made once for each task, clearance and margin; ``free``: without a pose.
 
     Raises:
-        TaskError: A task other than the objective's own.
+        TaskError: The task differs from the objective's own.
     """
     own_task = objective.own_task
     if own_task is not None and task is not None and not own_task.same_rows(task):

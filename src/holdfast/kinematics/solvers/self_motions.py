@@ -1,7 +1,7 @@
 """All configurations of a pose: the self-motion manifold, traced if it consists of curves, sampled in higher dimension.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, section on self-motion manifolds: follow the null vector of the Jacobian
-(predictor) and go back to the pose with Newton steps (corrector), from configurations that inverse kinematics found.
+(predictor) and return to the pose with Newton steps (corrector), from configurations that inverse kinematics found.
 """
 
 from __future__ import annotations
@@ -37,22 +37,22 @@ TRACING_STARTS = 128
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SelfMotion(Result):
-    """The configurations of one pose, as far as they were found.
+    """Configurations found for one pose.
 
     Attributes:
-        arm: The arm.
-        pose: (4, 4) in the world.
-        task: Which of its rows are met.
+        arm: Arm model.
+        pose: (4, 4) pose in the world, m.
+        task: Rows of the pose that are met.
         redundancy: Dimension of the manifold, n - m.
-        components: Its curves, for redundancy 1; empty otherwise.
-        q: (N, n) all points: of all components one after the other, or the sample.
-        spacing: Of the points, rad (and m).
-        status: ``OK``, ``NOT_FOUND`` (no configuration was found, which proves nothing), ``INFEASIBLE`` (none that was found is
-            clear) or ``BAD_INPUT``.
-        clearance: What the configurations are clear of, the arm itself and its cell, or None.
-        margin: m that is kept, at least.
-        bounds: For each joint the values at which it may lock without losing the pose, rad or m, ``(low, high)`` each, if
-            somebody asked :func:`holdfast.joint_bounds` for them.
+        components: Curves of the manifold, for redundancy 1; empty otherwise.
+        q: (N, n) all points, rad and m: those of all components one after the other, or the sample.
+        spacing: Distance of the points, rad (and m).
+        status: ``OK``, ``NOT_FOUND`` (no configuration was found, which is no proof), ``INFEASIBLE`` (no configuration found is
+            collision-free) or ``BAD_INPUT``.
+        clearance: Collision model of the arm and its cell, or None.
+        margin: Smallest clearance, m.
+        bounds: Values at which each joint may lock without losing the pose, rad or m, as ``(low, high)`` pairs, if they were
+            computed by :func:`holdfast.joint_bounds`.
     """
 
     arm: Arm
@@ -69,12 +69,12 @@ class SelfMotion(Result):
 
     @property
     def cell(self) -> Cell | None:
-        """The objects around the arm."""
+        """Environment of the arm."""
         return None if self.clearance is None else self.clearance.cell
 
     @property
     def summary(self) -> str:
-        """The number of curves with their lengths, or the reason why there is none, as a phrase."""
+        """Phrase with the number of curves and their lengths, or the reason why there is none."""
         if self.status == Status.INFEASIBLE and self.clearance is not None:
             return f"at every configuration found the arm {self.clearance.too_close(self.margin)}"
         if self.status != Status.OK:
@@ -88,13 +88,13 @@ class SelfMotion(Result):
 
     @property
     def size(self) -> float:
-        """The largest sum over the revolute joints of the measure of angles of each on one curve; 0 without curves.
+        """Largest sum, over the revolute joints, of the measure of the angles that each takes on one curve; 0 without curves.
 
-        With n revolute joints at most 2 pi n: then the pose stays within reach whatever joint locks, at whatever angle, and
-        all these configurations lie on one curve.
+        For n revolute joints it is at most 2 pi n. At this value the pose stays within reach for any locked joint and angle,
+        and all these configurations lie on one curve.
 
         Raises:
-            TaskError: The manifold is sampled, not made of curves.
+            TaskError: The manifold is sampled and does not consist of curves.
 
         Source: Almarkhi, Maciejewski 2020 (abstract); the measure by winding numbers is derived here.
         """
@@ -106,11 +106,11 @@ class SelfMotion(Result):
 
     @property
     def full(self) -> bool:
-        """True where every revolute joint takes every angle on one curve."""
+        """True if every revolute joint takes every angle on one curve."""
         return bool(self.size >= 2 * np.pi * np.count_nonzero(~self.arm.prismatic) * (1 - 1e-12))
 
     def ends(self, k: int) -> str:
-        """Describe the ends of curve k."""
+        """Return a phrase on the ends of curve number ``k``, from 0."""
         curve = self.components[k]
         if curve.closed:
             return "closed"
@@ -119,12 +119,12 @@ class SelfMotion(Result):
         return " to ".join(pair or limit for pair, limit in zip(curve.barred_by, limits, strict=True))
 
     def arcs(self) -> list[list[tuple[float, float]]]:
-        """Return the values of each joint on the curves, ``(low, high)`` each, rad or m, at which it may lock.
+        """Return the values of each joint on the curves, as ``(low, high)`` pairs, rad or m, at which it may lock.
 
-        Up to curves that no start found. Joints that turn without limits begin within -pi to pi.
+        Curves that no start found are missing. For joints without limits intervals begin within -pi to pi.
 
         Raises:
-            InputError: The manifold is sampled, not made of curves.
+            InputError: The manifold is sampled and does not consist of curves.
         """
         if self.redundancy > 1:
             raise InputError(
@@ -141,10 +141,10 @@ class SelfMotion(Result):
         ]
 
     def to_csv(self, file: str | Path, degrees: bool = False) -> Path:
-        """Write all points as rows, with the number of their curve; revolute joints in rad or degrees.
+        """Write all points as rows to the CSV ``file``, with the number of their curve; revolute joints in rad or ``degrees``.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         turning = degrees & ~self.arm.prismatic
         units = ["deg" if is_angle else joint.unit for is_angle, joint in zip(turning, self.arm.joints, strict=True)]
@@ -168,22 +168,22 @@ def self_motion(
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> SelfMotion:
-    """Find all configurations of a target, within the joint limits; ``fibres`` takes many poses.
+    """Find all configurations of a target, within the joint limits; :func:`fibres` takes many poses.
 
     Args:
-        arm: The arm.
-        target: (m,) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task, (4, 4), a
-            tool pose in the world.
-        task: Rows of the pose that matter.
+        arm: Arm model.
+        target: (m,) rows of the target tool point, m, for tasks without angular rows; or, for any task, a (4, 4) tool pose in
+            the world.
+        task: Rows of the pose that must be met.
         spacing: Distance of neighbouring points in joint space, rad; see :func:`holdfast.kinematics.solvers.fibres`.
-        seed: Of the starts.
-        starts: Random starts of inverse kinematics: more find shorter curves.
-        clearance: Of the arm from itself; not looked at if not given. See :func:`holdfast.kinematics.solvers.fibres`.
-        cell: Objects around the arm, or their file.
-        margin: m; from an object beyond what the cell keeps from it.
+        seed: Seed of the starts.
+        starts: Number of random starts of inverse kinematics; more starts find shorter curves.
+        clearance: Collision model; default: not checked. See :func:`holdfast.kinematics.solvers.fibres`.
+        cell: Environment, or its file.
+        margin: Smallest clearance, m, in addition to the distances that the cell requires.
 
     Raises:
-        InputError: A target of another shape or with NaN, options out of range, or a cell that cannot be read or does not fit.
+        InputError: The target has another shape or NaN, an option is out of range, or the cell cannot be read or does not fit.
         TaskError: The arm has no redundancy for the task.
 
     Source: Goel et al. 2005.
@@ -209,32 +209,32 @@ def fibres(
 ) -> list[SelfMotion]:
     """Find the self-motion manifold of each pose, within the joint limits.
 
-    With one degree of redundancy every curve on which a start of inverse kinematics converges is traced, both ways, until it
-    closes or a joint reaches its limit. Curves that no start converges to are missed: more starts find shorter ones. With
-    more redundancy the manifold is sampled: neighbours of known points are added until none is farther than about the
-    spacing from the points (or until there are 4000).
+    With one degree of redundancy every curve on which a start of inverse kinematics converges is traced in both directions,
+    until it closes or a joint reaches its limit. A curve to which no start converges is missed; more starts find shorter
+    curves. With more redundancy the manifold is sampled: neighbours of known points are added until no configuration is farther
+    than about the spacing from the points (or until there are 4000).
 
     Args:
-        arm: The arm.
-        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met.
-        task: Rows of the pose that matter.
-        spacing: Distance of neighbouring points in joint space, rad (a prismatic joint counts 1 m as 1 rad). Steps are
-            shortened where the curve bends.
-        seed: Of the starts; start k of pose i does not depend on the number of poses behind it.
-        starts: Random starts of inverse kinematics per pose.
-        follow: The poses follow each other along a path: each curve of a pose is also looked for at the poses before and
-            behind it. Only with one degree of redundancy.
-        clearance: Of the arm from itself; not looked at if not given. True: capsules of an assumed radius. Curves are cut
-            where less room than the margin is left, and what is kept of them is proved clear between its points too.
-        cell: Objects around the arm, or their file; the links are then kept apart as well, but for an arm that moves in a
-            plane and with ``clearance=False``.
-        margin: m; from an object beyond what the cell keeps from it.
+        arm: Arm model.
+        poses: (4, 4) or (N, 4, 4) poses in the world, m; only the rows of the task must be met.
+        task: Rows of the pose that must be met.
+        spacing: Distance of neighbouring points in joint space, rad (a prismatic joint counts 1 m as 1 rad). Steps are shorter
+            where the curve bends.
+        seed: Seed of the starts; start k of pose i does not depend on the number of following poses.
+        starts: Number of random starts of inverse kinematics per pose.
+        follow: The poses follow each other along a path, so each curve of a pose is also searched at the previous and the next
+            pose. Only with one degree of redundancy.
+        clearance: Collision model; default: not checked. True: capsules with an assumed radius. Curves are cut where less than
+            the margin remains, and the remaining parts are proved collision-free also between their points.
+        cell: Environment, or its file. The links are then kept apart as well, except for a planar arm and with
+            ``clearance=False``.
+        margin: Smallest clearance, m, in addition to the distances that the cell requires.
 
     Returns:
         One :class:`SelfMotion` per pose; every point meets its pose to 1e-9 rad, and m for an arm of 1 m.
 
     Raises:
-        InputError: Poses that are not 4x4 transforms, options out of range, or a cell that cannot be read or does not fit.
+        InputError: Poses are not 4x4 transforms, an option is out of range, or the cell cannot be read or does not fit.
         TaskError: The arm has no redundancy for the task.
 
     Source: Goel et al. 2005.
@@ -267,7 +267,7 @@ def trace_self_motions(
     clearance: Clearance | None,
     margin: float,
 ) -> list[SelfMotion]:
-    """Trace as :func:`fibres`, of arguments that are already read; fixed joints of the tracer stay fixed."""
+    """Trace as :func:`fibres` does, with arguments that are already checked; fixed joints of the tracer stay fixed."""
     if not (np.isfinite(spacing) and 0 < spacing <= 0.5):
         raise InputError(f"spacing is {spacing:g}; it must be above 0 and at most 0.5 rad")
     if starts < 1:
@@ -307,13 +307,13 @@ def trace_self_motions(
 
 
 def make_tracer(arm: Arm, task: Task, fixed_joints: Mapping[int, float] | None = None) -> ManifoldTracer:
-    """Return the predictor and corrector of an arm and task, compiled once; for fixed joints once for each number of them."""
+    """Return the predictor and corrector of an arm and task, compiled once for each number of fixed joints."""
     engine = _cached_tracer(arm, tuple(map(tuple, task.rows.tolist())), task.frame, len(fixed_joints or {}))
     return engine.with_fixed_joints(fixed_joints) if fixed_joints else engine
 
 
 def _join_intervals(spans: list[tuple[float, float]], is_periodic: bool) -> list[tuple[float, float]]:
-    """Join intervals that overlap; on a circle intervals that begin outside -pi to pi are moved there by full turns."""
+    """Join intervals that overlap; on a circle intervals that begin outside -pi to pi are shifted by full turns."""
     period = 2 * np.pi
     if is_periodic:
         if any(upper - lower >= period for lower, upper in spans):

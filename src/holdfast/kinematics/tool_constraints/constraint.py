@@ -15,7 +15,7 @@ from holdfast.model.arm.poses import check_poses, rotation_vectors
 
 Frame = Literal["base", "tool"]
 
-CONSTRAINT_TOLERANCE = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as kept between the waypoints
+CONSTRAINT_TOLERANCE = (1e-3, float(np.deg2rad(0.5)))  # m and rad within which a row counts as met between the waypoints
 _ROUNDING_M_RAD = 1e-8  # m and rad
 _DOWN_DIRECTION = (0.0, 0.0, -1.0)
 _TOOL_Z_AXIS = (0.0, 0.0, 1.0)
@@ -23,18 +23,18 @@ _TOOL_Z_AXIS = (0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ToolConstraint:
-    """Components of the end effector's pose fixed at every instant; made by :func:`upright`, :func:`rail`, :func:`plane`.
+    """Fixed components of the end effector's pose along a motion; made by :func:`upright`, :func:`rail`, :func:`plane`.
 
     Attributes:
         name: ``upright``, ``rail`` or ``plane``.
-        normals: (k, 3) orthonormal directions in which the tool point stays where ``pose`` has it; none: it may be anywhere.
-        direction: (3,) the unit vector that the tool's axis is kept along; None: it may point anywhere.
-        axis: (3,) that axis, a unit vector in the tool's frame.
-        angle: rad, half the opening of the cone about ``direction`` in which the axis stays; 0: it is along it.
-        turned: The whole orientation stays as in ``pose``.
-        frame: Whose axes normals and direction are given in: of the ``base``, or of the ``tool`` at the start.
-        pose: (4, 4) through which the rail or plane goes, world, m; None: the tool's pose at the start.
-        within: m and rad by which a row that is kept exactly may be missed between two waypoints.
+        normals: (k, 3) orthonormal directions in which the tool point stays at ``pose``; k = 0: it is free.
+        direction: (3,) unit vector with which the tool's axis is aligned; None: the axis is free.
+        axis: (3,) unit vector of that axis in the tool's frame.
+        angle: Half the opening of the cone about ``direction`` in which the axis stays, rad; 0: the axis is along it.
+        turned: True if the whole orientation stays as in ``pose``.
+        frame: Frame of normals and direction: ``base``, or ``tool`` at the start.
+        pose: (4, 4) pose on the rail or plane, world, m; None: the tool's pose at the start.
+        within: Allowed error of exact rows between two waypoints, m and rad.
     """
 
     name: str
@@ -48,7 +48,7 @@ class ToolConstraint:
     within: tuple[float, float] = CONSTRAINT_TOLERANCE
 
     def anchor(self, start: FloatArray) -> ToolConstraint:
-        """Return the constraint in the base frame and through a pose, given the tool's pose (4, 4) at the start."""
+        """Return the constraint in the base frame and through a pose, for ``start``, the tool's pose (4, 4) at the start, m."""
         rotation = start[:3, :3] if self.frame == "tool" else np.eye(3)
         return replace(
             self,
@@ -60,13 +60,13 @@ class ToolConstraint:
 
     @property
     def widest(self) -> float:
-        """The largest tool rotation that satisfies the constraint, rad; infinite where the orientation is free."""
+        """Largest tool rotation that satisfies the constraint, rad; infinite if the orientation is free."""
         if self.direction is None and not self.turned:
             return np.inf
         return self.angle or self.within[1]
 
     def distances(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return how far tool poses (N, 4, 4) are from the line or plane, (N,) m, and rotated away from it, (N,) rad."""
+        """Return the distances of tool ``poses`` (N, 4, 4) from the line or plane, (N,) m, and rotation errors, (N,) rad."""
         assert self.pose is not None, "not anchored"
         distance = np.linalg.norm((poses[:, :3, 3] - self.pose[:3, 3]) @ self.normals.T, axis=1)
         if self.turned:
@@ -79,18 +79,18 @@ class ToolConstraint:
         return distance, rotation_angle
 
     def farthest(self, poses: FloatArray) -> tuple[float, float]:
-        """Return the largest values of :meth:`distances` at poses (N, 4, 4), m and rad."""
+        """Return the largest values of :meth:`distances` at ``poses`` (N, 4, 4), m and rad."""
         distance, rotation_angle = self.distances(poses)
         return float(distance.max()), float(rotation_angle.max())
 
     def trouble(self, poses: FloatArray) -> str:
-        """Describe the largest violation of the constraint at poses (N, 4, 4) in a phrase; empty if there is none."""
+        """Return a phrase on the largest violation of the constraint at ``poses`` (N, 4, 4); empty if there is none."""
         distance, rotation_angle = self.farthest(poses)
         violations = []
         if distance > self.within[0] + _ROUNDING_M_RAD:
             violations.append(f"{distance:.4g} m off the {self.name}")
         if rotation_angle > self.widest + _ROUNDING_M_RAD:
-            violations.append(f"turned away by {np.rad2deg(rotation_angle):.4g} deg, beyond {np.rad2deg(self.widest):.4g} deg")
+            violations.append(f"rotated away by {np.rad2deg(rotation_angle):.4g} deg, beyond {np.rad2deg(self.widest):.4g} deg")
         return " and ".join(violations)
 
     def __str__(self) -> str:
@@ -124,20 +124,20 @@ def upright(
     direction: ArrayLike = _DOWN_DIRECTION,
     within: ArrayLike = CONSTRAINT_TOLERANCE,
 ) -> ToolConstraint:
-    """Keep an axis of the tool in a cone: a tray level, a cup upright, a torch pointing down.
+    """Keep an axis of the tool in a cone, for example to hold a tray level, a cup upright, or a torch pointing down.
 
     Args:
-        angle: rad, from 0 to below pi/2, half the opening of the cone; with 0 the axis stays along the direction, within
+        angle: Half the opening of the cone, rad, from 0 to below pi/2; with 0 the axis stays along the direction, up to
             ``within``.
-        axis: (3,) in the tool's frame; its z axis if not given.
-        direction: (3,) in the world; straight down if not given.
-        within: m and rad within which rows are kept between two waypoints; here only with an angle of 0.
+        axis: (3,) vector in the tool's frame; default: its z axis.
+        direction: (3,) vector in the world; default: straight down.
+        within: (2,) allowed error between two waypoints, m and rad; only used with an angle of 0.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
+        Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.
 
     Raises:
-        InputError: An angle out of bounds, or a direction of length 0.
+        InputError: The angle is out of range, or a direction has length 0.
     """
     return ToolConstraint(
         name="upright",
@@ -153,19 +153,19 @@ def upright(
 def rail(
     direction: ArrayLike, *, frame: Frame = "base", pose: ArrayLike | None = None, within: ArrayLike = CONSTRAINT_TOLERANCE
 ) -> ToolConstraint:
-    """Keep the tool on a straight line with its orientation, as of a drawer: only motion along the line is free.
+    """Keep the tool on a straight line with its orientation, as for a drawer; only motion along the line is free.
 
     Args:
-        direction: (3,) of the line.
-        frame: Whose axes it is given in: of the ``base``, or of the ``tool`` as it is at the start.
-        pose: (4, 4) the line goes through, with the orientation that is kept, m, world; the tool's at the start if not given.
-        within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
+        direction: (3,) direction of the line.
+        frame: Frame of the direction: ``base``, or ``tool`` at the start.
+        pose: (4, 4) pose on the line, with the orientation to keep, m, world; default: the tool's pose at the start.
+        within: (2,) allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
+        Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.
 
     Raises:
-        InputError: A direction of length 0, or a pose or frame that cannot be read.
+        InputError: The direction has length 0, or the pose or frame cannot be read.
     """
     along = _normalize_vector(direction, "direction")
     across = np.linalg.svd(along[None])[2][1:]
@@ -190,22 +190,22 @@ def plane(
     pose: ArrayLike | None = None,
     within: ArrayLike = CONSTRAINT_TOLERANCE,
 ) -> ToolConstraint:
-    """Keep the tool point in a plane, as in wiping a board, and the tool against it if an angle is given.
+    """Keep the tool point in a plane, as in wiping a board, and the tool towards it if an angle is given.
 
     Args:
-        normal: (3,) of the plane, towards the side that the tool is on.
-        angle: rad, from 0 to below pi/2, by which the tool's axis may lean from straight against the plane, the direction
-            opposite to the normal; None: it may point anywhere.
-        axis: (3,) in the tool's frame; its z axis if not given.
-        frame: Whose axes the normal is given in: of the ``base``, or of the ``tool`` as it is at the start.
-        pose: (4, 4) or (3,) a place in the plane, m, world; the tool's at the start if not given.
-        within: m and rad within which rows are kept between two waypoints, at which they are met to 1e-6.
+        normal: (3,) normal vector of the plane, towards the side of the tool.
+        angle: Largest angle, rad, from 0 to below pi/2, between the tool's axis and the direction opposite to the normal; None:
+            the axis is free.
+        axis: (3,) vector in the tool's frame; default: its z axis.
+        frame: Frame of the normal: ``base``, or ``tool`` at the start.
+        pose: (4, 4) pose or (3,) point in the plane, m, world; default: the tool's pose at the start.
+        within: (2,) allowed error between two waypoints, m and rad; at the waypoints it is 1e-6.
 
     Returns:
-        What :func:`holdfast.recover` and :func:`holdfast.plan_motion` take as ``keep``.
+        Constraint for the argument ``keep`` of :func:`holdfast.recover` and :func:`holdfast.plan_motion`.
 
     Raises:
-        InputError: An angle out of bounds, a normal of length 0, or a place or frame that cannot be read.
+        InputError: The angle is out of range, the normal has length 0, or the pose or frame cannot be read.
     """
     across = _normalize_vector(normal, "normal")
     return ToolConstraint(

@@ -15,19 +15,19 @@ from holdfast.kinematics.tool_constraints.constraint import ToolConstraint, plan
 
 CONSTRAINT_KINDS: dict[str, Callable[..., ToolConstraint]] = {"upright": upright, "rail": rail, "plane": plane}
 KeepLike = ToolConstraint | str | Sequence[ToolConstraint | str]
-"""What is kept along a whole motion, or its label, or several."""
+"""Path constraint, its label, or several of them."""
 
 
 @check_arguments
 def by_label(label: str) -> ToolConstraint:
-    """Return the constraint of a label: its kind, then the first value of the function of that name, or values by key.
+    """Return the constraint of ``label``: its kind, then the first argument of the function of that name, or values by key.
 
-    Numbers are in rad and m, or have ``deg``, ``rad``, ``mm`` or ``m`` behind them: ``upright:10deg``,
+    Numbers are in rad and m, or are followed by ``deg``, ``rad``, ``mm`` or ``m``: ``upright:10deg``,
     ``upright:angle=5deg,axis=1,0,0``, ``rail:0,0,1``, ``rail:direction=0,0,1,frame=tool``,
     ``plane:normal=0,0,1,angle=3deg,within=2mm,1deg``.
 
     Raises:
-        InputError: It cannot be read, or a value is wrong; the sentence says which.
+        InputError: The label cannot be read, or a value is wrong; the message names it.
     """
     name, first_value, settings = split_label(label)
     if name not in CONSTRAINT_KINDS:
@@ -58,15 +58,15 @@ def _read_value(key: str, text: str) -> Any:
 
 
 def anchor_constraints(keep: KeepLike | None, start: FloatArray) -> tuple[ToolConstraint, ...]:
-    """Return the constraints through the tool's pose (4, 4) at the start; raises as :func:`read_constraints`."""
+    """Return the constraints through the tool's pose (4, 4) at the start; raises as :func:`read_constraints` does."""
     return tuple(constraint.anchor(start) for constraint in read_constraints(keep))
 
 
 def read_constraints(keep: KeepLike | None) -> tuple[ToolConstraint, ...]:
-    """Return constraints as a tuple, given as objects or labels, one or several.
+    """Return constraints as a tuple, from objects or labels, one or several.
 
     Raises:
-        InputError: Something that is neither a :class:`holdfast.kinematics.tool_constraints.ToolConstraint` nor its label.
+        InputError: An item is neither a :class:`holdfast.kinematics.tool_constraints.ToolConstraint` nor its label.
     """
     items = [] if keep is None else [keep] if isinstance(keep, str | ToolConstraint) else list(keep)
     constraints = [by_label(item) if isinstance(item, str) else item for item in items]

@@ -1,12 +1,13 @@
-"""The manifold of configurations that meet all path constraints: margins, proved straight segments, and projection.
+"""Manifold of configurations that meet all path constraints: margins, proved straight segments, and projection.
 
-Of each :class:`ToolConstraint` two vectors of the tool's pose are looked at: ``v`` across its line or plane, and of the
-orientation the part of the tool's axis across its direction (as long as the sine of their angle), or the difference of both
-rotation matrices (``2 sqrt(2) sin(angle / 2)`` long). Each must be no longer than a bound. Along a straight piece of joint
-space, passed through in time 1, none of them is longer than at the longer end and ``|v''| / 8``, as a straight line between the
-ends is convex. With ``d`` the joints' motion, ``|v''|`` is at most ``sum_kl r_max(k,l) |d_k| |d_l|`` for the place, ``r_l`` the
-farthest that the tool can be from axis l, since ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l`` (zero for a slide k, and
-without ``r_l`` for a slide l); and at most ``(sum |d_k|)^2`` for an axis of the tool, ``sqrt(2)`` times that for the matrix.
+Each :class:`ToolConstraint` bounds the lengths of two error vectors ``v`` of the tool's pose: the position across its line or
+plane, and for the orientation either the part of the tool's axis across its direction (of length sine of their angle), or the
+difference of both rotation matrices (of length ``2 sqrt(2) sin(angle / 2)``). Along a straight segment of joint space, passed
+in time 1, no length exceeds the longer end's plus ``|v''| / 8``, because a straight line between the ends is convex. With ``d``
+the joints' motion, ``|v''|`` is at most ``sum_kl r_max(k,l) |d_k| |d_l|`` for the position, with ``r_l`` the largest distance
+of the tool from axis l, because ``d2p / dq_k dq_l = z_k x (z_l x r_l)`` for ``k <= l`` (zero for a prismatic joint k, and
+without ``r_l`` for a prismatic joint l). It is at most ``(sum |d_k|)^2`` for a tool axis, and ``sqrt(2)`` times that for the
+matrix.
 """
 
 from __future__ import annotations
@@ -22,27 +23,27 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
 
 More = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
-"""Errors (N, k) and slopes (N, k, n) of what must be met too, for configurations (N, n) and which of those given they are."""
+"""Errors (N, k) and slopes (N, k, n) of further equations, for configurations (N, n) and the numbers of their rows."""
 
 _ROUNDING_M_RAD = 1e-9  # m and rad
-_EQUALITY_TOLERANCE = 1e-8  # m and rad: a row that is kept exactly is met
-_CONE_FRACTION = 0.9  # of a cone's opening: what is outside is brought back to there, which leaves room for the next piece
+_EQUALITY_TOLERANCE = 1e-8  # m and rad: error below which an exact row is met
+_CONE_FRACTION = 0.9  # of a cone's opening: axes outside are projected to there, which leaves a margin for the next segment
 _PROJECTION_STEPS = 12  # steps
-_MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one of them
-_MAX_PIECE_BISECTIONS = 8  # times, until a piece that is not proved counts as breaking a row
+_MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one step
+_MAX_PIECE_BISECTIONS = 8  # bisections, until a segment that is not proved counts as a violation
 
 
 class ConstraintManifold:
-    """The configurations that meet the path constraints, for an arm with locked joints and limits.
+    """Configurations that meet the path constraints, for an arm with locked joints and limits.
 
     Args:
-        arm: With the limits in force.
-        keep: What is kept, through the pose at the start; see :meth:`ToolConstraint.anchor`.
-        free: (n,) joints that move.
-        limits: (n,) and (n,) between which they do; of a locked slide where it is.
+        arm: Arm model with the limits in force.
+        keep: Constraints through the pose at the start; see :meth:`ToolConstraint.anchor`.
+        free: (n,) True for joints that move.
+        limits: (n,) lower and (n,) upper limits of the joints, rad and m; equal for a locked prismatic joint.
 
     Attributes:
-        has_equalities: Some row is kept exactly, so that no straight way through joint space keeps it for long.
+        has_equalities: True if some row is exact, so that no straight segment of joint space meets it for long.
     """
 
     def __init__(
@@ -73,10 +74,10 @@ class ConstraintManifold:
         self._slack = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
         self.has_equalities = any(is_equality)
 
-    # ---- room --------------------------------------------------------------------------------------------------------
+    # ---- margins -----------------------------------------------------------------------------------------------------
 
     def constraint_margins(self, q: FloatArray) -> FloatArray:
-        """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 where one is violated."""
+        """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 if one is violated."""
         return np.asarray(self._bounds + _ROUNDING_M_RAD - self._error_lengths(self.arm.forward_kinematics(q)))
 
     def is_satisfied(self, q: FloatArray) -> BoolArray:
@@ -96,7 +97,7 @@ class ConstraintManifold:
                 axis = poses[:, :3, :3] @ constraint.axis
                 cosine = axis @ constraint.direction
                 sine = np.linalg.norm(axis - cosine[:, None] * constraint.direction, axis=1)
-                lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it is turned away, however small the sine
+                lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it points away, for any sine
         return np.stack(lengths, axis=1)
 
     def bound_curvature(self, d: FloatArray) -> FloatArray:
@@ -115,7 +116,7 @@ class ConstraintManifold:
         return np.stack(bounds, axis=1)
 
     def bound_changes(self, d: FloatArray) -> FloatArray:
-        """Bound how much the error vectors (N, R) change where joints move by d (N, n)."""
+        """Bound the change (N, R) of the error vectors if joints move by d (N, n)."""
         joint_travel, bounds = np.abs(d), []
         for constraint in self.keep:
             if len(constraint.normals):
@@ -127,7 +128,7 @@ class ConstraintManifold:
     def prove_edges(self, a: FloatArray, b: FloatArray, deviation: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
 
-        With ``deviation`` (E, n) also everything whose joints are off it by no more.
+        With ``deviation`` (E, n) this includes configurations whose joints deviate from the segment by no more.
         """
         reserve = 0.0 if deviation is None else self.bound_changes(deviation)
         start_margins, end_margins = self.constraint_margins(a) - reserve, self.constraint_margins(b) - reserve
@@ -161,14 +162,14 @@ class ConstraintManifold:
         with np.errstate(divide="ignore"):
             return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
 
-    # ---- the way back ------------------------------------------------------------------------------------------------
+    # ---- projection --------------------------------------------------------------------------------------------------
 
     def project(self, q: FloatArray, extra_equations: More | None = None) -> FloatArray:
         """Project configurations q (N, n) onto the constraints within the limits by Newton's method; it may fail for some.
 
         Args:
-            q: (N, n), rad and m; those that keep everything exactly are left as they are.
-            extra_equations: Errors and slopes of rows that must be met beside those kept; None: there are none.
+            q: (N, n) configurations, rad and m; rows that meet everything exactly are unchanged.
+            extra_equations: Errors and slopes of rows that must be met in addition; None: there are none.
         """
         q = q.copy()
         moving = np.arange(len(q))
@@ -186,7 +187,7 @@ class ConstraintManifold:
         return q
 
     def _newton_step(self, q: FloatArray, errors: FloatArray, jacobians: FloatArray) -> FloatArray:
-        """Take one step of least length; joints that it would push over their limits do not move."""
+        """Take one step of least length; joints that it would push beyond their limits do not move."""
         movable: BoolArray = np.broadcast_to(self.free, q.shape)
         for _ in range(2):
             masked = jacobians * movable[:, None, :]
@@ -201,7 +202,7 @@ class ConstraintManifold:
         return np.asarray(np.where(movable, np.clip(q + step, self._low, self._high), q))
 
     def _constraint_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the errors (N, k) of equality constraints, and of cones that are left, with their Jacobians (N, k, n)."""
+        """Return the errors (N, k) of equality constraints, and of violated cones, with their Jacobians (N, k, n)."""
         poses, jacobian = self.arm.forward_kinematics(q), self.arm.jacobian(q)
         errors, jacobians = [], []
         for constraint in self.keep:

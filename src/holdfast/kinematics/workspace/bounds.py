@@ -22,11 +22,11 @@ Arcs = list[tuple[float, float]]
 
 CRITICAL_POINT_STARTS = 256
 LOCKED_RESTARTS = 60
-_SCANNED_VALUES = 90  # values of each joint that are tried besides the critical ones
-_TARGET_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own
-_BISECTION_STEPS = 18  # of a gap of the scan: 5 deg becomes 3e-7 rad
-_CRITICAL_VALUE_TOLERANCE = 1e-6  # rad and m: critical values nearer than this are one
-_CUT_DISTANCE = 1e-4  # rad and m: nearer to a cut, a value says nothing: at the edge of the workspace it may be that wrong
+_SCANNED_VALUES = 90  # values of each joint that are tried in addition to the critical ones
+_TARGET_TOLERANCE = 1e-8  # rad, and lengths in units of the arm's own length
+_BISECTION_STEPS = 18  # bisections of a gap of the scan: 5 deg becomes 3e-7 rad
+_CRITICAL_VALUE_TOLERANCE = 1e-6  # rad and m: closer critical values are the same
+_CUT_DISTANCE = 1e-4  # rad and m: values closer to a cut are ignored; at the edge of the workspace they may be wrong
 
 
 @check_arguments
@@ -41,32 +41,31 @@ def joint_bounds(
 ) -> list[Arcs]:
     """Compute the values of each joint over all configurations of a target; a lock elsewhere makes the target unreachable.
 
-    The ends are critical points of the joint on the self-motion manifold: equations (8) and (9), solved by Newton's method
-    from many starts (with joint limits also on the faces where joints rest on theirs). These and a scan of 90 values cut the
-    range of the joint into segments; one is reached if a configuration known to be on the target lies in it, or inverse
-    kinematics with the joint locked at its middle finds one. An end that is not a critical point, because Newton's method
-    missed it, is found by bisection.
+    The ends are critical points of the joint on the self-motion manifold: equations (8) and (9), solved by Newton's method from
+    many starts (with joint limits also on the faces where joints rest on theirs). These points and a scan of 90 values cut the
+    range of the joint into segments. A segment is reached if it contains a known configuration of the target, or if inverse
+    kinematics with the joint locked at its middle finds one. An end that Newton's method missed is found by bisection.
 
-    Ends that are critical points are exact to 1e-9, others to 1e-6 rad where inverse kinematics finds what there is; at the
+    Ends that are critical points are exact to 1e-9, and others to 1e-6 rad if inverse kinematics finds all solutions; at the
     edge of the workspace, where arcs shrink to points, to 1e-4. Gaps and arcs narrower than a 90th of the joint's range may be
-    missed, where Newton's method missed both their ends: what is not found is not proved absent.
+    missed if Newton's method missed both their ends: what is not found is not proved absent.
 
     Args:
-        arm: The arm, with any number of redundant joints.
-        target: (m,) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task, (4, 4), a
-            tool pose in the world.
-        task: Rows of the pose that matter.
-        seed: Of the starts.
-        starts: Of Newton's method per joint.
+        arm: Arm model with any number of redundant joints.
+        target: (m,) rows of the target tool point, m, for tasks without angular rows; or, for any task, a (4, 4) tool pose in
+            the world.
+        task: Rows of the pose that must be met.
+        seed: Seed of the starts.
+        starts: Number of starts of Newton's method per joint.
 
     Returns:
-        For each joint a list of ``(lower, upper)``, rad (m for prismatic joints), in ascending order: ``[(-pi, pi)]`` where a
-        joint without limits is free, ``[]`` where no configuration of the target was found. An arc of a joint that turns
-        without limits begins in -pi to pi and may end beyond pi. Of a joint with limits arcs lie within them. An arc of
-        length 0 is a single value.
+        For each joint a list of ``(lower, upper)``, rad (m for prismatic joints), in ascending order: ``[(-pi, pi)]`` if a
+        joint without limits is free, ``[]`` if no configuration of the target was found. An arc of a joint without limits
+        begins in -pi to pi and may end beyond pi. Arcs of a joint with limits lie within them. An arc of length 0 is a single
+        value.
 
     Raises:
-        InputError: A target of another shape or with NaN, or options out of range.
+        InputError: The target has another shape or NaN, or an option is out of range.
         TaskError: The arm has no redundancy for the task.
 
     Source: Goel et al. 2005, eq. (8) and (9); the segment test, limits and the scan are ours.
@@ -95,14 +94,14 @@ def joint_bounds(
 def _find_critical_values(
     solver: CriticalPoints, pose: FloatArray, seeds: FloatArray, starts: int, generator: np.random.Generator
 ) -> tuple[IndexArray, FloatArray]:
-    """Find critical points (C, n) and the joint (C,) of which each one is critical."""
+    """Find critical points (C, n), and the joint (C,) for which each is critical."""
     arm = solver.arm
     joint = np.repeat(np.arange(arm.n), starts)
     q = seeds[generator.integers(0, len(seeds), joint.size)]
     at_limit = np.zeros(q.shape, dtype=bool)
     limits = np.stack([arm.lower, arm.upper])
     if np.isfinite(limits).any():
-        # Every other start on a face: some of the other joints rest on a limit, at most as many as are redundant.
+        # Every other start is on a face: some of the other joints, at most as many as are redundant, rest on a limit.
         order = generator.permuted(np.broadcast_to(np.arange(arm.n), q.shape), axis=1)
         limit_count = generator.integers(1, arm.n - solver.m + 1, joint.size)
         limit_values = limits[generator.integers(0, 2, q.shape), np.arange(arm.n)]
@@ -115,14 +114,14 @@ def _find_critical_values(
 
 @dataclass
 class _JointSegments:
-    """The range of one joint, cut into segments.
+    """Range of one joint, cut into segments.
 
     Attributes:
-        joint: Index from 0.
-        cuts: (K,) ascending. Segment k runs from cut k to the next; on a circle the last runs on to the first.
-        is_critical: (K,) the cut is a critical value, and so a value that is reached.
-        is_periodic: The joint turns without limits; values in 0 to 2 pi.
-        witnesses: (S, 2) lowest and highest value in each segment that is known to be reached, NaN where none is.
+        joint: Index of the joint, from 0.
+        cuts: (K,) ascending cuts. Segment k extends from cut k to the next; on a circle the last one extends to the first.
+        is_critical: (K,) True if the cut is a critical value, which is therefore reached.
+        is_periodic: True if the joint has no limits; values are in 0 to 2 pi.
+        witnesses: (S, 2) lowest and highest known reached value in each segment, NaN if none is known.
     """
 
     joint: int
@@ -147,7 +146,7 @@ class _JointSegments:
         return (self.boundaries[1:] + self.boundaries[:-1]) / 2
 
     def record_values(self, values: FloatArray) -> None:
-        """Record reached values (V,) as witnesses of the segments that they are well inside of."""
+        """Record reached values (V,) as witnesses of the segments in whose interior they lie."""
         if self.is_periodic:
             values = np.where(values < self.cuts[0], values + 2 * np.pi, values)
         segment = np.searchsorted(self.boundaries, values, side="right") - 1
@@ -158,12 +157,12 @@ class _JointSegments:
         np.fmax.at(self.witnesses[:, 1], segment[well_inside], values[well_inside])
 
     def find_transitions(self) -> list[tuple[int, float, float]]:
-        """Find cuts between a reached and an unreached segment, with a value reached on one side and one not on the other."""
+        """Find cuts between a reached and an unreached segment, with a value of each kind beside the cut."""
         transitions = []
         count = self.is_reached.size
         for index in range(0 if self.is_periodic else 1, count):
             reached_before, reached_after = self.is_reached[index - 1], self.is_reached[index]
-            period = 2 * np.pi if index == 0 else 0.0  # the last segment of a circle lies before the first cut
+            period = 2 * np.pi if index == 0 else 0.0  # the last segment of a circle precedes the first cut
             if reached_before and not reached_after:
                 transitions.append((index, float(self.witnesses[index - 1, 1]) - period, float(self.midpoints[index])))
             elif reached_after and not reached_before:
@@ -171,7 +170,7 @@ class _JointSegments:
         return transitions
 
     def join_arcs(self) -> Arcs:
-        """Join reached segments, and critical values with no reached neighbor, to intervals."""
+        """Join reached segments, and critical values without a reached neighbor, to intervals."""
         if self.is_reached.all():
             return [(-np.pi, np.pi)] if self.is_periodic else [(float(self.cuts[0]), float(self.cuts[-1]))]
         boundaries, count = self.boundaries, self.is_reached.size
@@ -240,7 +239,7 @@ def _decide_segments(
     joint = np.array([joint_segments.joint for joint_segments, *_ in edges], dtype=np.int64)
     cut_values = np.array([joint_segments.cuts[segment] for joint_segments, segment, _, _ in edges])
     inner, outer = (np.array([edge[side] for edge in edges]) for side in (2, 3))
-    # A critical value is the end if what lies beside it says so.
+    # A critical value is the end if the values on both sides confirm it.
     is_critical = np.array([joint_segments.is_critical[segment] for joint_segments, segment, _, _ in edges])
     confirmed = (
         is_critical

@@ -1,6 +1,6 @@
-"""The failure-tolerant workspace of a planar arm of three revolute joints, in closed form for each radius.
+"""Failure-tolerant workspace of a planar arm with three revolute joints, in closed form for each radius.
 
-Angles here are those of the links in the plane: each joint turns counter-clockwise, and 0 is straight on.
+Angles here are those of the links in the plane: each joint rotates counter-clockwise, and 0 is straight on.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
 FULL_TURN_RAD = 2 * np.pi
-_EDGE_TOLERANCE_RAD = 1e-9  # rad: an angle that far beyond a limit rests on it
+_EDGE_TOLERANCE_RAD = 1e-9  # rad: an angle at most this far beyond a limit rests on it
 
 
 @dataclass(frozen=True)
 class ThreeLinks:
-    """A planar arm of three revolute joints without limits.
+    """Planar arm with three revolute joints without limits.
 
     Attributes:
-        lengths: (3,) m.
-        center: (2,) first joint in the plane of the task, m.
-        offset, sign: (3,) link angle of joint k: ``offset[k] + sign[k] q[k]``, rad.
+        lengths: (3,) link lengths, m.
+        center: (2,) position of the first joint in the plane of the task, m.
+        offset, sign: (3,) constants of the link angle of joint k, ``offset[k] + sign[k] q[k]``, rad.
     """
 
     lengths: FloatArray
@@ -35,7 +35,7 @@ class ThreeLinks:
 
     @classmethod
     def from_task(cls, arm: Arm, task: Task) -> ThreeLinks | None:
-        """Return the arm in the plane of a planar task; None for another kind, or with limits below a full turn."""
+        """Return ``arm`` in the plane of a planar ``task``; None for another kind, or with limits below a full turn."""
         if arm.n != 3 or task.name != "planar" or arm.prismatic.any():
             return None
         if not (arm.upper - arm.lower >= FULL_TURN_RAD - 1e-9).all():
@@ -50,15 +50,15 @@ class ThreeLinks:
         return cls(lengths, joint_positions[0], np.diff(direction, prepend=0.0), np.sign(arm.axes_at_zero @ normal))
 
     def link_limits(self, limits: FloatArray) -> FloatArray:
-        """Return artificial limits (3, 2) of the link angles, from those of the joints (3, 2)."""
+        """Return artificial limits (3, 2) of the link angles, rad, from ``limits`` (3, 2) of the joints, rad."""
         return np.sort(self.offset[:, None] + self.sign[:, None] * limits, axis=1)
 
 
 def workspace_area(arm: ThreeLinks, limits: FloatArray, radii: int) -> FloatArray:
-    """Compute the area (P,), m^2, of the failure-tolerant workspace for artificial limits (P, 3, 2) of the link angles.
+    """Return the area (P,), m^2, of the failure-tolerant workspace of ``arm`` for ``limits`` (P, 3, 2) of the link angles, rad.
 
-    ``int r a(r) dr`` over the annulus that locks of joints 2 and 3 leave, with the angular measure a(r) of
-    :func:`remaining_angles`: Gauss-Legendre at ``radii`` nodes in four panels.
+    It is ``int r a(r) dr`` over the annulus that remains after locks of joints 2 and 3, with the angular measure a(r) of
+    :func:`remaining_angles`, by Gauss-Legendre quadrature at ``radii`` nodes in four panels.
     """
     inner, outer = common_annulus(arm, limits)
     nodes, weight = _quadrature_nodes(radii)
@@ -75,14 +75,15 @@ def _quadrature_nodes(radii: int, panels: int = 4) -> tuple[FloatArray, FloatArr
 
 
 def common_annulus(arm: ThreeLinks, limits: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute the inner and outer radius (P,) that the arm reaches wherever joint 2 or 3 locks in its limits (P, 3, 2)."""
+    """Return the radii (P,), m, that ``arm`` reaches for every lock of joint 2 or 3 within its ``limits`` (P, 3, 2), rad."""
     second_annulus, third_annulus = _locked_annulus(arm, limits, 1), _locked_annulus(arm, limits, 2)
     return np.maximum(second_annulus[0], third_annulus[0]), np.minimum(second_annulus[1], third_annulus[1])
 
 
 def _locked_annulus(arm: ThreeLinks, limits: FloatArray, joint: int) -> tuple[FloatArray, FloatArray]:
-    """Compute the annulus with joint 2 locked, ``|L - l3| <= r <= L + l3`` with ``L = |l1 + l2 e^(i angle)|``, or with joint 3
-    locked likewise. ``joint`` counts from 0.
+    """Return the annulus with joint 2 locked, ``|L - l3| <= r <= L + l3``, ``L = |l1 + l2 e^(i angle)|``, or joint 3 likewise.
+
+    ``joint`` counts from 0.
     """
     first, second, third = arm.lengths
     a, b, outer_length = (first, second, third) if joint == 1 else (second, third, first)
@@ -92,10 +93,10 @@ def _locked_annulus(arm: ThreeLinks, limits: FloatArray, joint: int) -> tuple[Fl
 
 
 def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> FloatArray:
-    """Measure the directions, (P, R) rad, of points at radii r (P, R) that joint 1 leaves in the region.
+    """Return the measure of the directions, (P, R) rad, of points at radii ``r`` (P, R), m, that joint 1 leaves in the region.
 
-    A point is there if the healthy arm reaches it within the artificial limits, and the arm with joint 1 locked at any angle
-    within its limits does. Both are said by what is left out, arcs of directions; joint 1 has its middle at 0.
+    A point is in the region if the healthy ``arm`` reaches it within the artificial ``limits`` (P, 3, 2), rad, and so does the
+    arm with joint 1 locked at any angle within its limits. Both exclude arcs of directions; joint 1 has its middle at 0.
     """
     arcs = _arcs_lost_to_joint1(arm, limits, r), _arcs_outside_healthy_reach(arm, limits, r)
     start, end = (np.concatenate([pair[side] for pair in arcs], axis=-1) for side in (0, 1))
@@ -103,8 +104,8 @@ def remaining_angles(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> Floa
 
 
 def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> list[BoolArray]:
-    """Return which points (N, 2) in the task plane the healthy arm reaches within limits (3, 2) of the link angles, then for
-    each joint which points it reaches wherever that joint locks. The region is the intersection of all.
+    """Return which ``points`` (N, 2), m, in the task plane the healthy ``arm`` reaches within ``limits`` (3, 2), rad, then for
+    each joint which points it reaches for every lock of that joint. The region is the intersection of all.
     """
     displacement = points - arm.center
     radius, direction = np.maximum(np.hypot(*displacement.T), 1e-12), np.arctan2(displacement[:, 1], displacement[:, 0])
@@ -125,7 +126,7 @@ def classify_points(arm: ThreeLinks, limits: FloatArray, points: FloatArray) -> 
 
 
 def _arcs_lost_to_joint1(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the start and end (P, R, 2) of the arcs of directions lost to some lock of joint 1; end < start for no arc.
+    """Return the start and end (P, R, 2) of the arcs of directions lost to some lock of joint 1; end < start means no arc.
 
     With joint 1 locked the other two links reach an annulus about the elbow.
     """
@@ -153,8 +154,8 @@ def _arcs_outside_healthy_reach(arm: ThreeLinks, limits: FloatArray, r: FloatArr
 def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return arcs (P, R, 12) of directions, measured from link 1, in which the arm does not reach r within limits 2 and 3.
 
-    The directions that it reaches end where joint 1 is critical (joint 3 at 0 or pi) or a joint rests on its limit: twelve
-    values, between which one test each decides.
+    The directions that it reaches end where joint 1 is critical (joint 3 at 0 or pi) or a joint rests on its limit. These are
+    twelve values, and one test decides each interval between them.
     """
     first, second, third = arm.lengths
     boundaries = []
@@ -183,9 +184,9 @@ def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) ->
             )
             for sign in (1, -1)
         ]
-    sorted_angles = np.sort(np.stack(boundaries, axis=-1) % FULL_TURN_RAD, axis=-1)  # NaN last
+    sorted_angles = np.sort(np.stack(boundaries, axis=-1) % FULL_TURN_RAD, axis=-1)  # NaN is last
     no_boundary = np.isnan(sorted_angles[..., :1])
-    # Rows without a direction repeat the last one: arcs of length 0. Without any direction all or nothing is reached.
+    # Rows without a direction repeat the last one, as arcs of length 0. Without any direction, all or none is reached.
     sorted_angles = np.where(
         np.isnan(sorted_angles), np.nanmax(np.where(no_boundary, 0.0, sorted_angles), axis=-1, keepdims=True), sorted_angles
     )
@@ -193,7 +194,7 @@ def _unreached_directions(arm: ThreeLinks, limits: FloatArray, r: FloatArray) ->
     reached = _is_reached(arm, limits, r, (start + end_point) / 2)
     is_excluded = reached | (end_point <= start)
     never_reached = no_boundary & ~reached[..., -1:]
-    # With nothing reached the arc is wider than any dilation fills.
+    # If nothing is reached, the arc is wider than any dilation fills.
     end_point = np.where(never_reached, end_point + 4 * FULL_TURN_RAD, end_point)
     start = np.where(never_reached, start - 4 * FULL_TURN_RAD, start)
     return np.where(is_excluded, 1.0, start), np.where(is_excluded, 0.0, end_point)
@@ -229,7 +230,7 @@ def _cosine_range(limits: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _union_length(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Measure the union (...,) of arcs (..., A) on the circle; arcs with end <= start are empty."""
+    """Return the length of the union (...,) of arcs (..., A) on the circle; arcs with end <= start are empty."""
     length = np.minimum(end - start, FULL_TURN_RAD)
     is_empty = length <= 0
     wrapped_start = np.where(is_empty, 0.0, start % FULL_TURN_RAD)

@@ -18,18 +18,18 @@ from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
-CRITICAL_POINT_TOLERANCE = 1e-10  # off the target, rad and in units of the arm's own length, and of the rank condition
+CRITICAL_POINT_TOLERANCE = 1e-10  # of the target, rad and in units of the arm's length, and of the rank condition
 _MAX_EXTREMUM_STEPS = 80
-_CHUNK_ROWS = 4096  # rows of which the matrices are held at once
+_CHUNK_ROWS = 4096  # rows whose matrices are in memory at once
 
 
 class CriticalPoints:
-    """Newton's method for (8) ``f(q) = x`` and (9), of one arm and task.
+    """Newton's method for (8) ``f(q) = x`` and (9), for one arm and task.
 
-    (9) ``n_j(i) = 0`` for every null vector says that joint i takes no part in any self-motion, which is
-    ``rank(iJ) < m``: there is a unit vector u with ``j_k' u = 0`` for every joint k but i. In (q, u) these are n + m
-    equations for n + m unknowns, whatever n - m is; a joint that rests on a limit adds its column to those left out, and its
-    value to locked joints. Where J itself loses rank they hold too, and the manifold may end or cross itself there.
+    (9) ``n_j(i) = 0`` for every null vector means that joint i takes no part in any self-motion, so ``rank(iJ) < m``: there is
+    a unit vector u with ``j_k' u = 0`` for every joint k except i. In (q, u) these are n + m equations for n + m unknowns, for
+    any n - m. A joint that rests on a limit adds its column to the excluded ones, and its value to the locked joints. If J
+    itself loses rank, the equations hold as well, and the manifold may end or cross itself there.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
@@ -45,7 +45,7 @@ class CriticalPoints:
         error, jacobian = scaled_error_and_jacobian(arm, task, q, position, rotation)
         gradient = jacobian.T @ multipliers
         residual = ca.vertcat(error, gradient, ca.sumsqr(multipliers) - 1)
-        # On the target the derivative of the error is -J, and that is where the steps go.
+        # On the target the derivative of the error is -J, and the steps converge to the target.
         derivative = ca.vertcat(
             ca.horzcat(-jacobian, ca.SX(task.m, task.m)),
             ca.horzcat(ca.jacobian(gradient, q), jacobian.T),
@@ -64,7 +64,7 @@ class CriticalPoints:
         """Find critical points of ``joint`` (B,) from starts q (B, n), with the joints ``fixed`` (B, n) at their values.
 
         Returns:
-            Where each start led, and whether that is a critical point within the limits.
+            End of each start, and whether it is a critical point within the limits.
         """
         chunks = [slice(start, start + _CHUNK_ROWS) for start in range(0, len(q), _CHUNK_ROWS)]
         parts = [self._solve_chunk(pose, q[chunk], joint[chunk], fixed[chunk]) for chunk in chunks]
@@ -76,7 +76,7 @@ class CriticalPoints:
         self, pose: FloatArray, q: FloatArray, joint: IndexArray, fixed: BoolArray
     ) -> tuple[FloatArray, BoolArray]:
         n, m, count = self.arm.n, self.m, len(q)
-        is_constrained = ~fixed  # whose columns must be at right angles to u
+        is_constrained = ~fixed  # whose columns must be perpendicular to u
         is_constrained[np.arange(count), joint] = False
         jacobian = -self._residual_and_jacobian(pose, q, np.zeros((count, m)))[1][:, :m, :n]
         reduced = np.where(np.isfinite(jacobian), jacobian, 0.0) * is_constrained[:, None, :]
@@ -89,7 +89,7 @@ class CriticalPoints:
             residual[:, m : m + n] *= is_constrained[active]
             has_converged = np.abs(residual).max(axis=1) <= CRITICAL_POINT_TOLERANCE
             done[active[has_converged]] = True
-            # A start that runs into a place where the equations say nothing (NaN) is dropped.
+            # A start that reaches a point where the equations are not defined (NaN) is dropped.
             continues = ~has_converged & np.isfinite(residual).all(axis=1) & np.isfinite(derivative).all(axis=(1, 2))
             active, residual, derivative = active[continues], residual[continues], derivative[continues]
             if not active.size:

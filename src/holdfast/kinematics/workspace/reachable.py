@@ -29,26 +29,27 @@ def reachable_when_locked(
     restarts: int = 100,
     tolerance: float = 1e-6,
 ) -> PoseSolutions:
-    """Test whether the arm reaches a target with a joint locked at given values, within the limits of the others.
+    """Test whether the arm reaches a target with a joint locked at given values, within the limits of the other joints.
 
     Args:
-        arm: The arm.
-        target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
-            (4, 4) or (N, 4, 4) tool poses in the world.
-        locked: ``{joint: value}`` of one joint, by name or index from 0, rad or m; or its values (N,). One target goes with
-            many values, and the other way round. Or a :class:`holdfast.Degraded` of several joints, whose reduced ranges
-            count too.
-        task: Rows of the pose that matter.
-        seed: Of the random starts.
-        restarts: Random starts per row before giving up.
+        arm: Arm model.
+        target: (m,) or (N, m) rows of the target tool point, m, for tasks without angular rows; or, for any task, (4, 4) or
+            (N, 4, 4) tool poses in the world.
+        locked: ``{joint: value}`` of one joint, by name or index from 0, rad or m; or its values (N,). One target combines with
+            many values, and one value with many targets. Or a :class:`holdfast.Degraded` of several joints, whose reduced
+            ranges apply as well.
+        task: Rows of the pose that must be met.
+        seed: Seed of the random starts.
+        restarts: Maximum number of random starts per row.
         tolerance: Largest error, m and rad.
 
     Returns:
-        A :class:`holdfast.PoseSolutions`; ``success`` says where the target is reached, ``q`` in which configuration. Where it
-        is not, none was found, which proves nothing: :func:`holdfast.joint_bounds` looks more closely.
+        A :class:`holdfast.PoseSolutions`; ``success`` is true where the target is reached, with the configuration ``q``.
+        Elsewhere none was found, which is no proof: :func:`holdfast.joint_bounds` searches more thoroughly.
 
     Raises:
-        InputError: Wrong shapes, no such joint, a value beyond the joint's limits, or options out of range.
+        InputError: A shape is wrong, there is no such joint, a value is beyond the joint's limits, or an option is out of
+            range.
 
     Source: Goel et al. 2005: the target stays reachable if and only if the value lies in the range of the joint over the
     self-motion manifold.
@@ -88,7 +89,7 @@ def reachable_when_locked(
 
 
 def _read_lock_values(arm: Arm, locked: LockedValues) -> tuple[IndexArray, FloatArray]:
-    """Read the locked joints (k,) and their values (k,), or of one joint (1, N) values."""
+    """Return the locked joints (k,) and their values (k,), or (1, N) values of one joint."""
     if isinstance(locked, Degraded):
         locked.require_arm(arm)
         return np.flatnonzero(~locked.moves), locked.require_values().lo[~locked.moves]

@@ -1,4 +1,4 @@
-"""The failure-tolerant workspace of any arm, at sampled points and for sampled angles of the locked joint."""
+"""Failure-tolerant workspace of any arm, at sampled points and for sampled angles of the locked joint."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
 TARGET_TOLERANCE = 1e-6
-_HEALTHY_RESTARTS = 40  # for the healthy arm
+_HEALTHY_RESTARTS = 40  # restarts for the healthy arm
 _LOCKED_RESTARTS = 20
-_SOLUTIONS_PER_POINT = 48  # configurations per point that the search knows
+_SOLUTIONS_PER_POINT = 48  # configurations per point that the search uses
 _ASCENT_COUNT = 16
 _MAX_ASCENT_ROUNDS = 20
 _BOX_SAMPLES = 20_000
@@ -29,9 +29,9 @@ class SamplingBox:
     """Box around the workspace of an arm, from which points are sampled.
 
     Attributes:
-        directions: (d, 3) orthonormal, world; the plane of a planar task, else all three.
-        low, high: (d,) m.
-        rotation: (3, 3) of the end effector at every point.
+        directions: (d, 3) orthonormal directions, world; those of the plane of a planar task, else all three.
+        low, high: (d,) limits, m.
+        rotation: (3, 3) orientation of the end effector at every point.
     """
 
     directions: FloatArray
@@ -80,7 +80,7 @@ def with_artificial_limits(arm: Arm, limits: FloatArray) -> Arm:
 
 
 def find_reached_poses(arm: Arm, task: Task, poses: FloatArray, seed: int) -> BoolArray:
-    """Return (N,) True for poses of which a configuration was found."""
+    """Return (N,) True for poses for which a configuration was found."""
     if not len(poses):
         return np.zeros(0, dtype=bool)
     return solver(arm, task).solve(poses, np.random.SeedSequence(seed), _HEALTHY_RESTARTS, TARGET_TOLERANCE).success
@@ -108,12 +108,12 @@ def check_survival(arm: Arm, task: Task, poses: FloatArray, angles: list[FloatAr
 
 @dataclass
 class LimitChoices:
-    """The candidate artificial limits of one joint, between values of a grid.
+    """Candidate artificial limits of one joint, between values of a grid.
 
     Attributes:
-        limits: (I, 2) rad or m.
-        survives: (I, H) points reached with the joint locked at every value of the grid between the limits.
-        holds: (I, H, S) configurations within them.
+        limits: (I, 2) candidate limits, rad or m.
+        survives: (I, H) True for points reached with the joint locked at every grid value between the limits.
+        holds: (I, H, S) True for configurations within the limits.
     """
 
     limits: FloatArray
@@ -122,7 +122,7 @@ class LimitChoices:
 
     @classmethod
     def from_table(cls, grid: FloatArray, is_periodic: bool, table: BoolArray, q: FloatArray) -> LimitChoices:
-        """Return the choices of a grid (K,) with its reached values (H, K), and configurations q (H, S); NaN is in none."""
+        """Return the choices of a grid (K,) with its reached values (H, K), and configurations q (H, S), NaN in none."""
         count, step = grid.size, grid[1] - grid[0]
         if is_periodic:
             table = np.tile(table, 2)
@@ -143,8 +143,8 @@ class LimitChoices:
 def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, count: int, seed: int) -> FloatArray:
     """Find artificial limits (n, 2) that contain the most sampled points, by coordinate ascent from many starts.
 
-    Each joint's limits are chosen in turn among all pairs of values of a grid of ``count``, the others held, as long as points
-    are gained. Nothing proves that the best ones are found.
+    The limits of each joint are chosen in turn among all pairs of values of a grid of ``count``, with the other limits fixed,
+    as long as points are gained. The result is not proved to be the best.
     """
     generator = np.random.default_rng(np.random.SeedSequence([seed, 1]))
     poses = space.sample_poses(points, seed)
@@ -168,7 +168,7 @@ def find_best_limits(arm: Arm, task: Task, space: SamplingBox, points: int, coun
 
 
 def choose_limits(choices: list[LimitChoices], q: FloatArray, generator: np.random.Generator) -> FloatArray | None:
-    """Choose limits (n, 2) that contain most points, of which q (H, S, n) are known, by coordinate ascent; None without q."""
+    """Choose limits (n, 2) that contain most points, with known q (H, S, n), by coordinate ascent; None without q."""
     best, best_count = list[int](), -1
     known = np.argwhere(~np.isnan(q[:, :, 0]))
     for point, solution in known[generator.integers(0, len(known), _ASCENT_COUNT)] if len(known) else known:

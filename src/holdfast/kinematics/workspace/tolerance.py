@@ -1,4 +1,4 @@
-"""The points that the arm reaches before and after any joint locks, with artificial joint limits that enlarge the region."""
+"""Points that the arm reaches before and after any joint locks, with artificial joint limits that enlarge the region."""
 
 from __future__ import annotations
 
@@ -34,31 +34,31 @@ _GRID_POINTS = 161  # points along each edge of the map of the exact region
 _AREA_RADII = 1600
 _SEARCH_RADII = 32
 _POLISH_RADII = 160
-_MAX_SEARCH_POINTS = 250  # at most, of which the limits are chosen
-_MAX_GENERATIONS = 60  # of a search for limits at most
+_MAX_SEARCH_POINTS = 250  # maximum number of points for the choice of limits
+_MAX_GENERATIONS = 60  # maximum number of generations of a search for limits
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TolerantWorkspace(Result):
-    """The failure-tolerant workspace of an arm under artificial joint limits.
+    """Failure-tolerant workspace of an arm under artificial joint limits.
 
     Attributes:
-        arm: The arm, with its own limits.
-        task: What must be met at each point.
-        limits: (n, 2) artificial limits that hold until a joint locks, rad and m.
+        arm: Arm model with its own limits.
+        task: Task that is met at each point.
+        limits: (n, 2) artificial limits that apply until a joint locks, rad and m.
         size: Area (m^2) or volume (m^3) of the region.
-        size_interval: Between which it lies: the confidence interval of the sample; for the exact region the error of the
-            integral.
-        healthy_size: The same for all points that the healthy arm reaches within its own limits.
-        points: (N, 3) m, world: the sample, or the points of a map of the exact region.
-        healthy: (N,) points that the healthy arm reaches within its own limits.
-        within: (N,) those that it reaches within the artificial limits.
-        survives: (N, n) those of ``within`` that it reaches wherever joint k locks within its artificial limits.
-        inside: (N,) the region: ``within`` and all of ``survives``.
-        exact: In closed form, for planar arms of three revolute joints that turn all the way.
-        angles: Locked values per joint that were tried; 0 where the region is exact.
-        optimised: The limits were looked for, not given.
-        confidence: Of the interval; 1 where the region is exact.
+        size_interval: Lower and upper limit of the size, in its unit: the confidence interval of the sample, or, for an
+            exact region, the error of the integral.
+        healthy_size: Area (m^2) or volume (m^3) of all points that the healthy arm reaches within its own limits.
+        points: (N, 3) points, m, world: the sample, or the points of a map of the exact region.
+        healthy: (N,) True for points that the healthy arm reaches within its own limits.
+        within: (N,) True for points that it reaches within the artificial limits.
+        survives: (N, n) True for points of ``within`` that it reaches for every lock of joint k within its artificial limits.
+        inside: (N,) True for points of the region: ``within`` and all of ``survives``.
+        exact: True if the region is in closed form, for planar arms with three revolute joints without limits.
+        angles: Number of locked values per joint that were tried; 0 if the region is exact.
+        optimised: True if the limits were optimised, not given.
+        confidence: Confidence level of the interval, 0 to 1; 1 if the region is exact.
     """
 
     arm: Arm
@@ -84,7 +84,7 @@ class TolerantWorkspace(Result):
 
     @property
     def share(self) -> float:
-        """Fraction of the healthy arm's workspace; NaN if that is empty."""
+        """Fraction of the healthy arm's workspace; NaN if that workspace is empty."""
         return self.size / self.healthy_size if self.healthy_size > 0 else float("nan")
 
     @property
@@ -94,7 +94,7 @@ class TolerantWorkspace(Result):
         return 1 - self.survives.sum(axis=0) / count if count else np.full(self.arm.n, np.nan)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``.
+        """Return the results at each point: over ``v`` and ``u`` (m, in the plane) for an exact region, else over ``point``.
 
         Raises:
             HoldfastError: xarray is not installed (extra ``xarray``).
@@ -140,33 +140,34 @@ def tolerant_workspace(
 ) -> TolerantWorkspace:
     """Compute the points that the arm is guaranteed to reach before and after any single joint locks.
 
-    Artificial joint limits hold until a joint locks. A point is in the region if the healthy arm reaches it within them and,
-    for each joint and every value within its artificial limits, the arm with the joint locked there reaches it, the other
-    joints within the arm's own limits. Narrow limits leave fewer values to lock at, but less to reach before.
+    Artificial joint limits apply until a joint locks. A point is in the region if the healthy arm reaches it within these
+    limits, and if, for each joint and every value within its artificial limits, the arm with the joint locked there reaches it,
+    with the other joints within the arm's own limits. Narrow limits leave fewer values for a lock, but also fewer points before
+    it.
 
-    For planar arms of three revolute joints that turn all the way (task ``planar``) the region is known in closed form for
-    each radius: with joint 2 or 3 locked the arm reaches an annulus about its foot, with joint 1 locked one about its elbow,
-    and the directions that the healthy arm reaches end at twelve critical ones. For other arms points are drawn in a box about
-    what the arm reaches and tried with inverse kinematics, each joint locked at ``angles`` equally spaced values of its
-    range. Then values between those are not tried, which makes the region look larger, and configurations that inverse
-    kinematics misses make it look smaller; neither is in the interval.
+    For planar arms with three revolute joints without limits (task ``planar``) the region is known in closed form for each
+    radius. With joint 2 or 3 locked the arm reaches an annulus about its foot, with joint 1 locked one about its elbow, and the
+    directions that the healthy arm reaches end at twelve critical ones. For other arms, points are sampled in a box about the
+    workspace and tested with inverse kinematics, with each joint locked at ``angles`` equally spaced values of its range.
+    Values between those are not tested, which makes the region look larger, and configurations that inverse kinematics misses
+    make it look smaller. The interval contains neither error.
 
     Args:
-        arm: The arm.
-        task: What must be met at each point; with angular rows the tool has the ``rotation`` given.
-        limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs; the arm's own, or a
-            whole turn, for joints that are not given.
-        optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is exact,
-            else by coordinate ascent on a sample of its own of at most 250 points. Nothing proves that they are the best.
-        rotation: (3, 3) of the end effector, for tasks with angular rows; the identity if not given.
-        points: In the sample.
-        angles: Per joint; also the grid of limits that are tried.
-        seed: Of all draws.
-        confidence: Of the interval.
+        arm: Arm model.
+        task: Task to be met at each point; for angular rows the tool has the given ``rotation``.
+        limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs. Default: the arm's
+            own limits, or a whole turn.
+        optimise: Choose limits that make the region large: by differential evolution and a simplex if it is exact, else by
+            coordinate ascent on a separate sample of at most 250 points. The result is not proved to be the best.
+        rotation: (3, 3) orientation of the end effector, for tasks with angular rows; default: the identity.
+        points: Number of points in the sample.
+        angles: Number of locked values per joint, and of grid values for the search of limits.
+        seed: Seed of all samples.
+        confidence: Confidence level of the interval, 0 to 1.
 
     Raises:
-        InputError: Limits that are reversed or beyond those of the arm, or options out of range.
-        TaskError: The arm has no redundancy for the task, or the task does not hold a point of space or of a plane.
+        InputError: Limits are reversed or beyond those of the arm, or an option is out of range.
+        TaskError: The arm has no redundancy for the task, or the task does not prescribe a point in space or in a plane.
 
     Source: Lewis and Maciejewski 1997; Hoover et al. 2015; Bader and Maciejewski 2020 for optimal limits of planar arms.
     """
@@ -199,7 +200,7 @@ def tolerant_workspace(
         )
     else:
         chosen_limits = _read_limits(arm, limits)
-    # Limits are judged by other points than those they were chosen for.
+    # The limits are evaluated on other points than those from which they were chosen.
     return _sampled_workspace(
         arm, resolved_task, sampling_box, chosen_limits, optimise, points, angles, seed + 1 if optimise else seed, confidence
     )
@@ -319,7 +320,7 @@ def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray
     """Find limits (3, 2) of the largest region; joint 1 is centered at 0, because the region rotates with it."""
     from scipy import optimize
 
-    search: Any = optimize.differential_evolution  # its stubs know no vectorized cost
+    search: Any = optimize.differential_evolution  # its stubs lack the vectorized cost
     polish: Any = optimize.minimize
 
     arm_limits = np.stack([arm.lower, arm.upper], axis=1)
@@ -338,7 +339,7 @@ def _find_best_limits(arm: Arm, planar_arm: ThreeLinks, seed: int) -> FloatArray
     with ProgressCount("generations", _MAX_GENERATIONS, most=True) as advance:
         best = search(
             lambda x: negative_area(x.T, _SEARCH_RADII),
-            # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
+            # The mirror image of a region has the same size, so the middle of joint 2 may be positive.
             [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
             vectorized=True,
             updating="deferred",

@@ -1,5 +1,6 @@
-"""Model of a serial arm: joints, links, limits, tool, and gravity, with symbolic kinematics, statics, and dynamics; arms come
-from DH tables, URDF or MJCF files, or are built in.
+"""Model of a serial arm: joints, links, limits, tool, and gravity, with symbolic kinematics, statics, and dynamics.
+
+Arms come from DH tables, URDF or MJCF files, or are built in.
 """
 
 from holdfast.core._lazy import offer

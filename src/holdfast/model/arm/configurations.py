@@ -19,7 +19,7 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
     """Return ``q`` as (N, n), and whether it was a single configuration, which must then be finite.
 
     Raises:
-        InputError: Wrong shape; NaN or infinity in a single configuration.
+        InputError: The shape is wrong, or a single configuration contains NaN or infinity.
     """
     checked_q = arm.check_configurations(q)
     single = checked_q.ndim == 1
@@ -29,7 +29,7 @@ def as_configurations(arm: ArmData, q: ArrayLike) -> tuple[FloatArray, bool]:
 
 
 def sampling_limits(arm: ArmData) -> tuple[FloatArray, FloatArray]:
-    """Return (n,) lower and upper limits to sample between; a missing limit is pi rad or 1 m from 0, or from the other."""
+    """Return (n,) lower and upper limits for sampling; a missing limit is pi rad or 1 m from 0, or from the other limit."""
     return replace_infinite_limits(arm.lower, arm.upper, arm.prismatic)
 
 
@@ -45,9 +45,9 @@ def bound_axis_distances(arm: ArmData, end_length: Length, extensions: Sequence[
     """Bound the distance of a point of the last link from the axis of each joint, m, by the lengths beyond the axis.
 
     Args:
-        arm: The arm.
+        arm: Arm model.
         end_length: Distance of the point from the frame of the last joint, m.
-        extensions: How far each prismatic joint is out at most, m; not read for revolute joints.
+        extensions: Largest extension of each prismatic joint, m; not read for revolute joints.
     """
     length, distances = end_length, list[Length]()
     for joint, extension in zip(reversed(arm.joints), reversed(extensions), strict=True):

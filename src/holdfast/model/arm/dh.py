@@ -26,10 +26,10 @@ class DH:
         d: Joint offset, m (added to the joint variable of a prismatic joint).
         theta: Joint angle, rad (added to the joint variable of a revolute joint).
         type: ``revolute`` or ``prismatic``.
-        lower, upper: Limits of the joint variable, rad or m; None where there is none.
-        name: ``joint1``, ``joint2``, ... if not given.
+        lower, upper: Limits of the joint variable, rad or m; None for no limit.
+        name: Name of the joint; default: ``joint1``, ``joint2``, ...
         velocity, effort: Largest speed (rad/s, m/s) and torque or force (N m, N); None if not known.
-        friction, armature: Viscous friction (N m s/rad) and rotor inertia (kg m^2).
+        friction, armature: Viscous friction (N m s/rad or N s/m) and rotor inertia (kg m^2 or kg).
     """
 
     a: float
@@ -75,8 +75,8 @@ def build_from_rows(
 ) -> ArmData:
     """Build the machine data of an arm from DH rows; see :meth:`holdfast.Arm.from_dh`.
 
-    A row is a fixed transform, the joint's own motion about or along z, and another fixed transform. Between two
-    motions the fixed ones multiply; a link given in its row's frame moves with the joint that comes before it.
+    A row is a fixed transform, the joint's own motion about or along z, and another fixed transform. Between two motions the
+    fixed transforms are multiplied; a link in the frame of its row moves with the preceding joint.
     """
     if convention not in ("standard", "modified"):
         raise ArmError(f"DH convention '{convention}' is not known; use 'standard' or 'modified'")
@@ -98,7 +98,7 @@ def build_from_rows(
         offset = _rotation_about_z(row.theta) @ _translation(0, row.d)  # rotation about z and translation along z commute
         along_x = _rotation_about_x(row.alpha) @ _translation(row.a, 0)
         if convention == "standard":
-            # The constant part of the motion along the joint's own axis may be on either side of it.
+            # The constant part of the motion along the joint's own axis may be on either side of the motion.
             origin, row_frame = pending @ (_rotation_about_z(row.theta)), _translation(0, row.d) @ along_x
             if sliding:
                 origin, row_frame = pending @ offset, along_x

@@ -1,8 +1,8 @@
 """Symbolic inverse dynamics of a serial arm: the torques of a motion.
 
-The recursion of Newton and Euler runs out along the arm for velocities and accelerations and back for forces, each in the
-axes of its own link. It carries no gravity: what gravity asks comes from :mod:`holdfast.model.arm.statics`, so that the torques
-of slow and of fast motions differ by what is computed here and by no rounding of the weight.
+The recursion of Newton and Euler computes velocities and accelerations along the arm outwards, and forces on the way back, each
+in the axes of its own link. It contains no gravity, which comes from :mod:`holdfast.model.arm.statics`, so that the torques of
+slow and of fast motions differ by the dynamic terms and not by rounding errors of the weight.
 
 Source: English and Maciejewski 1998, eq. (5); Luh, Walker and Paul 1980 for the recursion.
 """
@@ -30,13 +30,13 @@ def inverse_dynamics(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
     Payload and rotor inertias (armature) are in M, viscous friction is B.
 
     Args:
-        arm: The arm; its links may be massless.
+        arm: Arm model; its links may be massless.
         q: (n,) configuration, rad and m.
-        qd: (n,) rates, rad/s and m/s.
-        qdd: (n,) accelerations, rad/s^2 and m/s^2.
+        qd: (n,) joint rates, rad/s and m/s.
+        qdd: (n,) joint accelerations, rad/s^2 and m/s^2.
 
     Raises:
-        ArmError: A link of which nothing is known, or whose inertia no body has.
+        ArmError: The mass or inertia of a link is unknown, or impossible for a body.
     """
     return sum(_torque_terms(arm, q, qd, qdd))
 
@@ -51,10 +51,10 @@ def torque_terms_kernel(arm: ArmData) -> Kernel:
 def check_states(arm: ArmData, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[FloatArray], bool]:
     """Return configurations, rates, and accelerations, each (N, n) float64, and whether all of them were single.
 
-    What is single, (n,), is used for every row of the others.
+    A single array, (n,), is used for every row of the others.
 
     Raises:
-        InputError: Shapes that do not fit the arm or one another; NaN or infinity in a single one.
+        InputError: Shapes do not fit the arm or one another, or a single array contains NaN or infinity.
     """
     states: list[FloatArray] = []
     row_count: int | None = None
@@ -91,7 +91,7 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
     """Return torques and forces (n,) that accelerate the links, payload, and rotors, ``M(q) qdd + C(q, qd) qd``.
 
     Raises:
-        ArmError: A link of which nothing is known, or whose inertia no body has.
+        ArmError: The mass or inertia of a link is unknown, or impossible for a body.
     """
     require_possible_inertia(arm)
     steps = joint_transforms(arm, q)
@@ -99,7 +99,7 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
     forces: list[SX] = []
     couples: list[SX] = []
     for index, (joint, body) in enumerate(zip(arm.joints, statics.links_with_payload(arm), strict=True)):
-        # Of the joint's origin as it moves with the link before, then of the link, in the axes of each in turn.
+        # Of the joint's origin as it moves with the previous link, then of the link, each in its own axes.
         for rotation, offset in (split_transform(joint.origin), steps[index]):
             linear_acceleration = rotation.T @ (
                 linear_acceleration + _point_acceleration(angular_velocity, angular_acceleration, offset)
@@ -120,13 +120,13 @@ def inertial_torques(arm: ArmData, q: SX, qd: SX, qdd: SX) -> SX:
             + ca.cross(moment, linear_acceleration)
         )
     torques: list[SX] = [None] * arm.n
-    force, couple = ca.SX(3, 1), ca.SX(3, 1)  # on the link at its origin, from the links behind it
+    force, couple = ca.SX(3, 1), ca.SX(3, 1)  # on the link at its origin, from the following links
     for index, joint in reversed(list(enumerate(arm.joints))):
         force, couple = force + forces[index], couple + couples[index]
         torques[index] = ca.dot(constant_matrix(joint.axis), force if joint.prismatic else couple) + joint.armature * qdd[index]
         for frame in (steps[index], split_transform(joint.origin)):
             rotation, offset = frame
-            force = rotation @ force  # from here on in the parent frame, and the couple about its origin
+            force = rotation @ force  # from here on in the parent frame, with the couple about its origin
             couple = rotation @ couple + ca.cross(offset, force)
     return ca.vertcat(*torques)
 

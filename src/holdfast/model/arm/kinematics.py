@@ -1,7 +1,7 @@
 """Symbolic kinematics of a serial arm.
 
-Everything here takes and returns CasADi ``SX``; the fixed geometry enters as exact numbers, so terms that vanish for
-an arm vanish from its code. Where the geometry itself is to vary (:mod:`holdfast.design`), symbols stand in its place.
+All functions take and return CasADi ``SX``. The fixed geometry enters as exact numbers, so terms that vanish for an arm vanish
+from its code. If the geometry itself varies (:mod:`holdfast.design`), symbols replace the numbers.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ class KinematicChain:
     """Joint axes and tool of an arm in one common frame, as functions of q.
 
     Attributes:
-        axes: n columns (3,), direction of each joint axis.
-        points: n columns (3,), a point on each axis, m.
+        axes: n directions (3,) of the joint axes.
+        points: n points (3,), one on each axis, m.
         rotation: (3, 3) orientation of the tool.
         position: (3,) tool point, m.
     """
@@ -44,11 +44,11 @@ def kinematic_chain(arm: ArmData, q: SX, frame: int | None = None, steps: list[F
     """Compute the joint axes and the tool pose in one common frame.
 
     Args:
-        arm: The arm.
+        arm: Arm model.
         q: (n,) joint variables.
-        frame: None: the world. k from 0 to n: the frame that moves with joint k - 1 (0: the arm's base), in which the axes near
-            joint k are simple. The choice does not change what any invariant index is, only how long its code gets.
-        steps: :func:`joint_transforms` of the same q, where several chains are made.
+        frame: None for the world. k from 0 to n for the frame that moves with joint k - 1 (0: the arm's base), in which the
+            axes near joint k are simple. The choice changes no invariant index, only the length of its code.
+        steps: :func:`joint_transforms` of the same q, if several chains are made.
     """
     body_frames, joint_frames = body_and_joint_frames(arm, joint_transforms(arm, q) if steps is None else steps, frame)
     axes = [rotation @ constant_matrix(joint.axis) for (rotation, _), joint in zip(joint_frames, arm.joints, strict=True)]
@@ -61,13 +61,13 @@ def body_and_joint_frames(arm: ArmData, steps: list[Frame], frame: int | None = 
     """Compute rotation (3, 3) and origin (3,) of every body and every joint.
 
     Args:
-        arm: The arm.
+        arm: Arm model.
         steps: :func:`joint_transforms`.
-        frame: The frame in which they are given; see :func:`kinematic_chain`.
+        frame: Frame of the results; see :func:`kinematic_chain`.
 
     Returns:
-        The n + 1 frames of the base and of what moves with each joint; the n joint frames, which their own joint leaves
-        where they are.
+        The n + 1 frames of the base and of the body that moves with each joint; and the n joint frames, which are not moved by
+            their own joint.
     """
     n, start = arm.n, 0 if frame is None else frame
     body_frames: dict[int, Frame] = {start: split_transform(arm.base) if frame is None else (identity_matrix(), ca.SX(3, 1))}
@@ -95,10 +95,10 @@ def tool_pose(arm: ArmData, q: SX) -> SX:
 
 
 def chain_jacobian(arm: ArmData, geometry: KinematicChain, reference_point: SX) -> SX:
-    """Return the geometric Jacobian (6, n), rows (linear; angular) in the chain's frame, for the velocity of the point
+    """Return the geometric Jacobian (6, n), rows (linear; angular) in the chain's frame, for the velocity of
     ``reference_point``.
 
-    Source: column of a revolute joint ``(z x (p - p_k); z)``, of a prismatic one ``(z; 0)``.
+    Source: the column of a revolute joint is ``(z x (p - p_k); z)``, of a prismatic joint ``(z; 0)``.
     """
     columns = []
     for index, joint in enumerate(arm.joints):
@@ -118,7 +118,7 @@ def world_jacobian(arm: ArmData, q: SX) -> SX:
 
 def tool_jacobian(arm: ArmData, q: SX) -> SX:
     """Return the geometric Jacobian (6, n) at the tool point, rows in the tool frame."""
-    geometry = kinematic_chain(arm, q, frame=arm.n)  # the frame of the last link: the tool sits still in it
+    geometry = kinematic_chain(arm, q, frame=arm.n)  # the frame of the last link, in which the tool is fixed
     link_jacobian = chain_jacobian(arm, geometry, geometry.position)
     return ca.vertcat(geometry.rotation.T @ link_jacobian[:3, :], geometry.rotation.T @ link_jacobian[3:, :])
 
@@ -126,8 +126,8 @@ def tool_jacobian(arm: ArmData, q: SX) -> SX:
 def invariant_jacobian(arm: ArmData, q: SX) -> SX:
     """Return a Jacobian ``A(q) J(q)`` with ``det A = 1`` and the fewest non-zero entries, for indices that do not depend on A.
 
-    It is the geometric Jacobian in the frame of a link in the middle of the arm, for the point of the tool that passes
-    that frame's origin. For the 9-joint PA10 this takes 774 operations where the world frame takes 1189.
+    It is the geometric Jacobian in the frame of a link in the middle of the arm, for the point of the tool at that frame's
+    origin. For the 9-joint PA10 this takes 774 operations, and the world frame 1189.
     """
     best: SX = None
     steps = joint_transforms(arm, q)
@@ -141,7 +141,7 @@ def invariant_jacobian(arm: ArmData, q: SX) -> SX:
 
 
 def jacobian_derivative(arm: ArmData, q: SX) -> SX:
-    """Return ``d J / d q_j`` stacked: rows 6 j to 6 j + 5 hold the derivative by joint j, (6 n, n)."""
+    """Return ``d J / d q_j`` stacked, (6 n, n): rows 6 j to 6 j + 5 contain the derivative by joint j."""
     world_frame_jacobian = world_jacobian(arm, q)
     return ca.vertcat(
         *[ca.reshape(ca.jacobian(ca.vec(ca.densify(world_frame_jacobian)), q[i]), 6, arm.n) for i in range(arm.n)]
@@ -154,7 +154,7 @@ def identity_matrix() -> SX:
 
 
 def constant_matrix(a: FloatArray) -> SX:
-    """Return numbers as a sparse symbolic matrix."""
+    """Return a matrix of numbers as a sparse symbolic matrix."""
     return ca.sparsify(ca.SX(ca.DM(a)))
 
 
@@ -166,7 +166,7 @@ def split_transform(transform: FloatArray | SX) -> Frame:
 
 
 def is_limit_given(limit: float | SX) -> bool:
-    """Return True if there is a limit: a finite number, or a symbol."""
+    """Return True if a limit is given: a finite number, or a symbol."""
     return isinstance(limit, ca.SX) or bool(np.isfinite(limit))
 
 
@@ -180,7 +180,7 @@ def _invert_frame(a: Frame) -> Frame:
 
 
 def joint_transforms(arm: ArmData, q: SX) -> list[Frame]:
-    """Return the motion of every joint by itself: rotation (3, 3) and translation (3,)."""
+    """Return the motion of every joint: rotation (3, 3) and translation (3,)."""
     return [_joint_motion(arm, k, q) for k in range(arm.n)]
 
 
@@ -191,5 +191,5 @@ def _joint_motion(arm: ArmData, index: int, q: SX) -> Frame:
         return identity_matrix(), constant_matrix(axis) * q[index]
     cosine, sine = ca.cos(q[index]), ca.sin(q[index])
     outer, skew = np.outer(axis, axis), np.cross(np.eye(3), axis)
-    # Rodrigues; for an axis along x, y or z the products below vanish and a plane rotation is left.
+    # Rodrigues; for an axis along x, y or z the products below vanish and a plane rotation remains.
     return constant_matrix(outer) + constant_matrix(np.eye(3) - outer) * cosine + constant_matrix(skew) * sine, ca.SX(3, 1)

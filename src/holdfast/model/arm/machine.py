@@ -23,21 +23,21 @@ GRAVITY = (0.0, 0.0, -9.81)
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
 FARTHEST_LIMIT_RAD = 200 * np.pi
 FARTHEST_LIMIT_M = 1000.0
-_MAX_ABSOLUTE_VALUE = 1e12  # of any number, so that their products stay finite
+_MAX_ABSOLUTE_VALUE = 1e12  # of any number, so that products stay finite
 
 
 @check_constructor
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, and it moves about or along ``axis``.
+    """One degree of freedom: its frame is at ``origin`` in the previous link frame, and it moves about or along ``axis``.
 
     Attributes:
-        name: Unique in the arm.
+        name: Name, unique in the arm.
         type: ``revolute``, ``continuous`` (revolute without limits) or ``prismatic``.
         origin: (4, 4) pose of the joint frame at q = 0 in the frame of the previous link (or base).
         axis: (3,) unit vector in the joint frame.
-        lower, upper: Position limits, rad or m; infinite where there are none. A limit of more than 100 turns or 1 km stands
-            for none in many files, and becomes infinite.
+        lower, upper: Position limits, rad or m; infinite if there are none. A limit of more than 100 turns or 1 km becomes
+            infinite, because many files use such a number for "no limit".
         velocity: Largest speed, rad/s or m/s; infinite if not given.
         effort: Largest torque or force, N m or N; infinite if not given.
         friction: Viscous friction, N m s/rad or N s/m.
@@ -110,11 +110,11 @@ class Link:
     """Inertial data of a rigid body.
 
     Attributes:
-        mass: kg, 0 or more.
-        com: (3,) centre of mass in the link's frame, m. For a DH arm this is the frame of its table row (the distal
-            frame in the standard convention); for a URDF arm the URDF link frame.
-        inertia: (3, 3) about the centre of mass, in the axes of the link's frame, kg m^2.
-        name: For messages.
+        mass: Mass, kg, 0 or more.
+        com: (3,) centre of mass in the link's frame, m. For a DH arm this is the frame of its table row (the distal frame in
+            the standard convention); for a URDF arm the URDF link frame.
+        inertia: (3, 3) inertia about the centre of mass, in the axes of the link's frame, kg m^2.
+        name: Name for messages.
     """
 
     mass: float
@@ -141,14 +141,14 @@ class Link:
         object.__setattr__(self, "inertia", _as_read_only((inertia + inertia.T) / 2))
 
     def in_frame(self, transform: ArrayLike) -> Link:
-        """Return the same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new frame."""
+        """Return the same body in another frame: ``transform`` (4, 4) is the pose of the present frame in the new frame, m."""
         pose = np.asarray(transform, dtype=np.float64)
         rotation = pose[:3, :3]
         return Link(self.mass, rotation @ self.com + pose[:3, 3], rotation @ self.inertia @ rotation.T, name=self.name)
 
     @staticmethod
     def merge(bodies: Sequence[Link], name: str | None = None) -> Link:
-        """Return rigidly connected bodies, all in one frame, as one body (parallel axis theorem)."""
+        """Return rigidly connected ``bodies``, all in one frame, as one body with a ``name`` (parallel axis theorem)."""
         mass = sum(body.mass for body in bodies)
         if mass <= 0:
             inertia_sum = np.sum([body.inertia for body in bodies], axis=0) if bodies else np.zeros((3, 3))
@@ -163,15 +163,15 @@ class Link:
 
 @dataclass(frozen=True)
 class Chain:
-    """Part of a file that makes up an arm.
+    """Part of a file that defines an arm.
 
     Attributes:
-        base: Link that it is mounted on.
-        tip: Link whose frame is the tool; None once the tool is another one.
-        held: Joints of the file that were held, and where, rad or m.
-        file: The file, for the shapes that it gives the links; empty where it is not known.
-        meshes: Folder in which the meshes that it names are looked for first; empty for none.
-        srdf: The SRDF file that belongs to it; empty for none.
+        base: Link on which the arm is mounted.
+        tip: Link whose frame is the tool; None if another tool was set.
+        held: Joints of the file that are held, with their values, rad or m.
+        file: Path of the file with the shapes of the links; empty if unknown.
+        meshes: Folder that is searched first for the meshes of the file; empty for none.
+        srdf: SRDF file of the arm; empty for none.
     """
 
     base: str
@@ -193,18 +193,18 @@ class ArmData:
     Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.
 
     Attributes:
-        name: For people and files.
-        joints: From base to tip; at least one.
-        links: One body per joint, moving with it, each in its joint's moving frame; None where nothing is known.
+        name: Name for people and files.
+        joints: Joints from base to tip; at least one.
+        links: One body per joint, moving with it, each in the joint's moving frame; None if its data are unknown.
         base: (4, 4) pose of the arm's base in the world.
         tool: (4, 4) pose of the tool in the last joint's moving frame. The tool point is its origin, the tool axis its z.
         flange: (4, 4) pose of the last link's own frame in the last joint's moving frame: the last row's frame of a DH table,
             the identity for a URDF file. Tools and payloads are given in it.
         gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
         payload: Body held by the end effector, in the last joint's moving frame.
-        source: Where the description comes from, for reports.
-        chain: Which links of that file are base and tip; None for a DH table.
-        states: Configurations (n,) that have a name, rad and m, such as ``home``.
+        source: Origin of the description, for reports.
+        chain: Links of the file that are base and tip; None for a DH table.
+        states: Named configurations (n,), rad and m, such as ``home``.
     """
 
     name: str
@@ -242,7 +242,7 @@ class ArmData:
         object.__setattr__(self, "tool", check_transform(self.tool, f"tool of arm '{self.name}'"))
         object.__setattr__(self, "flange", check_transform(self.flange, f"flange of arm '{self.name}'"))
         object.__setattr__(self, "gravity", _as_read_only(gravity))
-        # An arm made by replace() may have other joints than the states were written for.
+        # An arm made by replace() may have other joints than the states.
         states = {
             name: _as_read_only(configuration)
             for name, configuration in self.states.items()
@@ -257,12 +257,12 @@ class ArmData:
 
     @cached_property
     def lower(self) -> FloatArray:
-        """Lower limits (n,), rad or m; -inf where there is none."""
+        """Lower limits (n,), rad or m; -inf for no limit."""
         return _as_read_only(np.array([j.lower for j in self.joints]))
 
     @cached_property
     def upper(self) -> FloatArray:
-        """Upper limits (n,), rad or m; inf where there is none."""
+        """Upper limits (n,), rad or m; inf for no limit."""
         return _as_read_only(np.array([j.upper for j in self.joints]))
 
     @cached_property
@@ -281,7 +281,7 @@ class ArmData:
         """Return the index from 0 of a joint given by name or index from 0.
 
         Raises:
-            InputError: There is no such joint; the message lists those there are.
+            InputError: There is no such joint; the message lists all joints.
         """
         if isinstance(joint, (int, np.integer)) and not isinstance(joint, bool):
             if 0 <= joint < self.n:
@@ -292,7 +292,7 @@ class ArmData:
         raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
 
     def joint_indices(self, joints: Iterable[str | int]) -> tuple[int, ...]:
-        """Return the indices from 0, sorted, of joints given by name or index from 0; see :meth:`joint_index`."""
+        """Return the sorted indices from 0 of joints given by name or index from 0; see :meth:`joint_index`."""
         return tuple(sorted(self.joint_index(joint) for joint in joints))
 
     @cached_property
@@ -311,18 +311,19 @@ class ArmData:
 
     @cached_property
     def length_unit(self) -> float:
-        """Length close to the arm's own size, m: the sum of its link lengths and the tool, rounded to a power of two.
+        """Length scale of the arm, m: the sum of its link lengths and the tool, rounded to a power of two; 1 m without lengths.
 
-        Errors are divided by it before they are compared with a threshold. A power of two rounds nothing in that: copies of
-        an arm in sizes a power of two apart do the same to the last bit. 1 m where nothing has a length.
+        Errors are divided by it before they are compared with a threshold. Division by a power of two has no rounding error, so
+        copies of an arm whose sizes differ by a power of two give the same bits.
         """
         size = self.end_to_end
         return float(2.0 ** np.round(np.log2(size))) if size > 0 else 1.0
 
     @property
     def end_to_end(self) -> float:
-        """Upper bound of the distance from the first joint to the tool, m: link lengths behind the first joint, the tool, and
-        the limited travel of prismatic joints.
+        """Upper bound of the distance from the first joint to the tool, m.
+
+        It sums link lengths after the first joint, the tool, and the limited travel of prismatic joints.
         """
         size = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in self.joints[1:])
         size += float(np.linalg.norm(self.tool[:3, 3]))
@@ -346,7 +347,7 @@ class ArmData:
         """Return ``q`` as float64, ``(n,)`` or ``(N, n)``.
 
         Raises:
-            InputError: Wrong number of joint values, or not numbers.
+            InputError: The number of joint values is wrong, or they are not numbers.
         """
         array = require_real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
         if array.ndim > 2:
@@ -359,7 +360,7 @@ class ArmData:
         return array
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the fields alone, because compiled kernels cannot be sent to another process."""
+        """Return only the fields, because compiled kernels cannot be sent to another process."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def __repr__(self) -> str:
@@ -388,7 +389,7 @@ def snap_rounding_noise(a: FloatArray) -> FloatArray:
 
 
 def check_transform(value: ArrayLike, label: str) -> FloatArray:
-    """Return a checked pose (4, 4) from a caller; ``label`` names it in error messages."""
+    """Return a checked pose (4, 4) from a caller; ``label`` is its name in error messages."""
     pose = _as_float_array(value, label)
     if pose.shape != (4, 4) or not np.isfinite(pose).all():
         raise ArmError(f"{label} must be a 4x4 array of finite numbers, got shape {pose.shape}")

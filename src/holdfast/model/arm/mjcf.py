@@ -1,6 +1,6 @@
 """Read arms from MJCF files: MuJoCo compiles the file, and one chain of its tree of bodies is the arm.
 
-What MuJoCo adds to the format (defaults, includes, inertia from shapes, degrees) is therefore as MuJoCo means it.
+Features of the format (defaults, includes, inertia from shapes, degrees) therefore have MuJoCo's meaning.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def import_mujoco() -> ModuleType:
     """Import MuJoCo, which is an optional dependency of holdfast.
 
     Raises:
-        HoldfastError: It is not installed.
+        HoldfastError: MuJoCo is not installed.
     """
     module: ModuleType = import_extra("mujoco", "physics", "MuJoCo")
     return module
@@ -59,31 +59,31 @@ def load_mjcf(
 ) -> ArmData:
     """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast-arms[physics]``).
 
-    As :func:`holdfast.model.arm.urdf.load_urdf` does it: bodies without a joint are folded away, and what hangs on the chain
-    without being part of it becomes part of the body it hangs on, its own joints held where the file puts them. Hinges are
-    revolute with a range and continuous without one, slides are prismatic. Several joints of one body become joints with
-    massless links in between. ``links[i]`` is given in a frame with the axes of the body and the anchor of joint i as
-    origin; ``tool`` is the frame of ``tip``; joint values are MuJoCo's, so a ``ref`` is kept.
+    As in :func:`holdfast.model.arm.urdf.load_urdf`, bodies without a joint are merged into their parent. A body that is
+    attached to the chain without being part of it is merged as well, with its joints held at the values of the file. Hinges
+    become revolute joints if they have a range and continuous joints otherwise, slides become prismatic joints. Several joints
+    of one body become joints with massless links in between. ``links[i]`` is given in a frame with the axes of the body and the
+    anchor of joint i as origin; ``tool`` is the frame of ``tip``; joint values are MuJoCo's, including ``ref``.
 
-    Read are ``range``, ``armature``, ``damping`` (the friction), gravity, and as effort the joint's ``actuatorfrcrange`` or
-    else the sum of what its actuators can do. An Arm has no springs, dry friction, gravity compensation or contacts: they are
-    left out. Keyframes with a name become ``states``.
+    The arm takes ``range``, ``armature``, ``damping`` (the friction), gravity, and as effort the joint's ``actuatorfrcrange``
+    or else the total capacity of its actuators. Springs, dry friction, gravity compensation and contacts are left out, because
+    an Arm has none. Named keyframes become ``states``.
 
     Args:
-        path: The file, with the files that it names beside it.
-        base: Name of the body on which the arm is mounted; ``world`` if not given.
-        tip: Name of the body, or else of the site, whose frame is the tool; may be left out as for a URDF file.
-        hold: Value, rad or m, at which joints are held, on the chain or beside it; those on the chain are then no joints of the
-            arm. By default all on the chain move, and those beside it are held where the file's initial pose puts them.
-        name: Name of the arm; the file's model name if not given.
+        path: MJCF file; files that it names are searched next to it.
+        base: Name of the body on which the arm is mounted; default: ``world``.
+        tip: Name of the body, or else of the site, whose frame is the tool; optional as for a URDF file.
+        hold: Values, rad or m, of joints that are held, on the chain or next to it; held joints on the chain are no joints of
+            the arm. By default all joints on the chain move, and those next to it are held at the file's initial pose.
+        name: Name of the arm; default: the model name in the file.
 
     Returns:
-        What :meth:`holdfast.Arm.from_mjcf` makes an arm of; its ``base`` is the pose of the base body in MuJoCo's
-        world, its ``source`` the name of the file.
+        Data for :meth:`holdfast.Arm.from_mjcf`; ``base`` is the pose of the base body in MuJoCo's world, ``source`` the name of
+        the file.
 
     Raises:
         ArmError: MuJoCo cannot read the file, there is no single serial chain of hinges and slides from base to tip, or an
-            equality or tendon closes a loop over it or ties it.
+            equality or tendon couples joints of the chain.
         HoldfastError: MuJoCo is not installed.
     """
     path = Path(path)
@@ -122,7 +122,7 @@ def _compile_model(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
         with silence_mujoco():
             if path.suffix.lower() == ".xml":
                 spec = mujoco.MjSpec.from_file(str(path))
-            else:  # MuJoCo goes by the ending
+            else:  # MuJoCo decides by the file ending
                 spec = mujoco.MjSpec.from_string(text)
                 spec.modelfiledir = str(path.parent)
             model = spec.compile()
@@ -169,7 +169,7 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
     joints: dict[str, TreeJoint] = {}
     for body_index in range(1, model.nbody):
         body, link = bodies[body_index], bodies[int(model.body_parentid[body_index])]
-        # Of the body, in the link reached so far.
+        # pose of the body in the current link
         pending = pose_from_wxyz(model.body_pos[body_index], model.body_quat[body_index])
         first, count = int(model.body_jntadr[body_index]), int(model.body_jntnum[body_index])
         for joint_index in range(first, first + count):
@@ -215,7 +215,7 @@ def _read_body(model: Any, body_index: int, name: str) -> Link | None:
 
 
 def _read_joint(mujoco: ModuleType, model: Any, joint_index: int, name: str, kind: str) -> TreeJoint:
-    """Read a joint without its place in the tree."""
+    """Read a joint without its position in the tree."""
     reference = float(model.qpos0[model.jnt_qposadr[joint_index]]) if kind in ("hinge", "prismatic") else 0.0
     limited = bool(model.jnt_limited[joint_index])
     lower, upper = (float(limit) for limit in model.jnt_range[joint_index]) if limited else (-np.inf, np.inf)
@@ -293,7 +293,7 @@ def _build_arm(
 
 
 def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_chain: set[str]) -> None:
-    """Reject equalities and tendons on the chain; between bodies that do not move relative to each other, they do nothing."""
+    """Reject equalities and tendons on the chain; between bodies at rest relative to each other they have no effect."""
     joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
     bodies = _names_or_numbers(model.nbody, model.body, "body", 0)
 
@@ -306,7 +306,7 @@ def _reject_coupled_chain(mujoco: ModuleType, model: Any, tree: LinkTree, on_cha
 
     for kind, name, tied_joints, tied_bodies in _iterate_couplings(mujoco, model):
         if kind == "tendon" and len(tied_joints) == 1 and not tied_bodies:
-            continue  # it carries a motor or a spring of this joint and ties it to nothing
+            continue  # it carries a motor or spring of this joint and couples no other
         tied_names = [joints[joint] for joint in tied_joints if joints[joint] in on_chain]
         if tied_names:
             raise ArmError(

@@ -1,4 +1,4 @@
-"""Limits of size for MJCF files, because MuJoCo expands counts and opens the named files without a check."""
+"""Size limits for MJCF files, because MuJoCo expands counts and opens the named files without a check."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from holdfast.core.errors import ArmError
 from holdfast.core.files import reading
 
 _MAX_MODEL_BYTES = 64 << 20  # bytes of a model
-_MAX_FILE_BYTES = 256 << 20  # of a mesh or picture
-_MAX_ELEMENTS = 20_000  # with replicas
-_MAX_COPIES = 1000  # of one element; MuJoCo takes their square
-# The product of the numbers in these attributes becomes memory.
+_MAX_FILE_BYTES = 256 << 20  # of a mesh or image
+_MAX_ELEMENTS = 20_000  # including replicas
+_MAX_COPIES = 1000  # of one element; MuJoCo uses their square
+# The product of the numbers in these attributes determines the memory.
 _MAX_ENTRIES_BY_TAG = {
     "hfield": (("nrow", "ncol"), 1 << 22),
     "texture": (("width", "height"), 1 << 24),
@@ -23,7 +23,7 @@ _MAX_ENTRIES_BY_TAG = {
     "user": (("dim",), 10_000),
     "general": (("actdim", "nsample"), 10_000),
 }
-_STACK_SIZE_KEYS = {"memory", "njmax", "nconmax", "nstack"}  # taken only when a model moves, and then as it is used
+_STACK_SIZE_KEYS = {"memory", "njmax", "nconmax", "nstack"}  # allocated only when a model moves, and as needed
 _MAX_SIZE_VALUE = 10_000
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
@@ -32,7 +32,7 @@ def read_checked_model(path: Path) -> str:
     """Return the text of a model if it is safe for MuJoCo.
 
     Raises:
-        ArmError: It cannot be read, or it or a file that it names would make far more of itself than an arm needs.
+        ArmError: The model cannot be read, or it or a file that it names is far larger than an arm needs.
     """
     text = _read_text(path)
     _check_model(text, path, path.parent, {path.resolve()})
@@ -109,7 +109,7 @@ def _parse_integer(text: str) -> int:
 
 def _check_asset_file(asset_path: Path, tag: str, folder: Path, seen: set[Path]) -> None:
     if not reading.path_exists(asset_path) or asset_path.is_dir():
-        return  # for MuJoCo to refuse
+        return  # MuJoCo itself rejects it
     description = f"'{asset_path.name}', which it names"
     if tag in ("include", "model"):
         resolved = asset_path.resolve()

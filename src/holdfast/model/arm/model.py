@@ -47,25 +47,27 @@ class Arm(Presentable, ArmData):
         """Return an arm from Denavit-Hartenberg rows; see :class:`holdfast.model.arm.dh.DH`.
 
         Args:
-            rows: One per joint.
-            links: One per joint, each in its row's frame (distal for ``standard``, proximal for ``modified``).
+            rows: One row per joint.
+            links: One body per joint, each in its row's frame (distal for ``standard``, proximal for ``modified``).
             convention: ``standard``: ``Rz(theta) Tz(d) Tx(a) Rx(alpha)``; ``modified``: ``Rx(alpha) Tx(a) Rz(theta) Tz(d)``.
-            base: (4, 4) pose of the base in the world; the identity if not given.
-            tool: (4, 4) pose of the tool in the last row's frame; the identity if not given.
-            gravity: (3,) acceleration in the world frame in which ``base`` is given.
-            payload: In the last row's frame.
-            name: For people and files.
-            source: Where the numbers come from.
+            base: (4, 4) pose of the base in the world, m; default: the identity.
+            tool: (4, 4) pose of the tool in the last row's frame, m; default: the identity.
+            gravity: (3,) acceleration in the world frame, m/s^2.
+            payload: Body held by the end effector, in the last row's frame.
+            name: Name for people and files.
+            source: Origin of the numbers.
 
         Raises:
-            ArmError: What is wrong with which row.
+            ArmError: A row is wrong; the message names the row and the problem.
         """
         return cls._from_data(build_from_rows(rows, links, convention, base, tool, gravity, payload, name, source))
 
     @classmethod
     @check_arguments
     def from_urdf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
-        """Return the chain from link ``base`` to link ``tip`` of a URDF file; see :func:`holdfast.model.arm.urdf.load_urdf`.
+        """Return the chain from link ``base`` to link ``tip`` of the URDF file ``path``.
+
+        ``options`` are the further arguments of :func:`holdfast.model.arm.urdf.load_urdf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the link or joint.
@@ -77,8 +79,9 @@ class Arm(Presentable, ArmData):
     @classmethod
     @check_arguments
     def from_mjcf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
-        """Return the chain from body ``base`` to body or site ``tip`` of an MJCF file; see
-        :func:`holdfast.model.arm.mjcf.load_mjcf`.
+        """Return the chain from body ``base`` to body or site ``tip`` of the MJCF file ``path``.
+
+        ``options`` are the further arguments of :func:`holdfast.model.arm.mjcf.load_mjcf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the body or joint.
@@ -94,29 +97,29 @@ class Arm(Presentable, ArmData):
 
     @check_arguments
     def with_tool(self, tool: ArrayLike) -> Arm:
-        """Return the arm with another tool, given as in ``from_dh`` and for URDF files: (4, 4) in the last link's own frame."""
+        """Return the arm with another ``tool`` pose (4, 4), m, in the last link's own frame, as in ``from_dh`` and URDF."""
         chain = None if self.chain is None else replace(self.chain, tip=None)
         return replace(self, tool=self.flange @ check_transform(tool, f"tool of arm '{self.name}'"), chain=chain)
 
     @check_arguments
     def with_payload(self, payload: Link | None) -> Arm:
-        """Return the arm with another payload, given in the last link's own frame; None removes the payload."""
+        """Return the arm with another ``payload``, a body in the last link's own frame; None removes the payload."""
         return replace(self, payload=None if payload is None else payload.in_frame(self.flange))
 
     @check_arguments
     def with_base(self, base: ArrayLike) -> Arm:
-        """Return the arm mounted at another pose ``base`` (4, 4) in the world; gravity does not change."""
+        """Return the arm mounted at another pose ``base`` (4, 4) in the world, m; gravity does not change."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
 
     @check_arguments
     def with_limits(self, lower: ArrayLike, upper: ArrayLike) -> Arm:
-        """Return the arm with other joint limits (n,), rad and m; infinite where there are none."""
+        """Return the arm with other joint limits ``lower`` and ``upper`` (n,), rad and m; infinite for no limit."""
         limits = zip(self.joints, *(self.check_configurations(limit).tolist() for limit in (lower, upper)), strict=True)
         return replace(self, joints=tuple(replace(j, lower=low, upper=high) for j, low, high in limits))
 
     @cached_property
     def without_limits(self) -> Arm:
-        """Arm as a control law treats it: every revolute joint has period 2 pi."""
+        """Arm without joint limits, as a control law sees it: every revolute joint has period 2 pi."""
         return self.with_limits(np.full(self.n, -np.inf), np.full(self.n, np.inf))
 
     @cached_property
@@ -127,7 +130,7 @@ class Arm(Presentable, ArmData):
             return self
         return self.with_limits(np.where(excludes_nothing, -np.inf, self.lower), np.where(excludes_nothing, np.inf, self.upper))
 
-    # ---- what it is called --------------------------------------------------------------------------------------
+    # ---- names ------------------------------------------------------------------------------------------------
 
     @property
     def title(self) -> str:
@@ -152,38 +155,38 @@ class Arm(Presentable, ArmData):
     def save(self, file: str | Path) -> Path:
         """Write the arm as a URDF file (``.urdf``) or as a Denavit-Hartenberg table (``.yaml``).
 
-        A table holds all numbers of the arm. A URDF file has no place for gravity, payload, rotor inertia and limits on one
-        side; what is lost is said. Frames are written as angles, so numbers read from the file may differ in the last digits,
-        and then :attr:`fingerprint` does. A table has frames of its own between the joints.
+        A table contains all numbers of the arm. The URDF format lacks gravity, payload, rotor inertia and one-sided limits; a
+        message lists lost data. Frames are written as angles, so numbers read back may differ in the last digits, and so may
+        :attr:`fingerprint`. A table has its own frames between the joints.
 
         Args:
-            file: The file, replaced in one step. :meth:`from_urdf` reads one, :func:`holdfast.model.arms.resolve` both.
+            file: Path of the file, replaced in one step. :func:`holdfast.model.arms.resolve` reads both formats.
 
         Returns:
-            The file.
+            Path of the file.
 
         Raises:
-            InputError: Another ending.
+            InputError: The file name has another ending.
             StoreError: The file cannot be written.
         """
         written: Path = self._present("save", Path(file))
         return written
 
-    # ---- how it looks ------------------------------------------------------------------------------------------
+    # ---- display -----------------------------------------------------------------------------------------------
 
     def show(self, q: ArrayLike | None = None, **options: Any) -> Html:
         """Return a page with the arm in a small 3-D view that needs no server, network, or other file.
 
-        In a notebook it is seen as it is; ``arm.show().save("arm.html")`` writes it. Without WebGL there is a drawing.
+        A notebook shows the page; ``arm.show().save("arm.html")`` writes it. Without WebGL there is a drawing.
 
         Args:
-            q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or
-                (A, F, n) several; a configuration in which nothing is special if not given.
-            options: What else is shown: ``labels``, ``locked``, ``targets``, ``region``, ``path``, ``time``, ...; see
+            q: (n,) configuration, rad and m, or (A, n) several, the first solid and the others transparent; with ``time`` a
+                motion (F, n), or (A, F, n) several. Default: a generic configuration.
+            options: Further content: ``labels``, ``locked``, ``targets``, ``region``, ``path``, ``time``, ...; see
                 :func:`holdfast.interface.presentation.arm.view.scene`.
 
         Raises:
-            InputError: Options that do not fit the arm or each other.
+            InputError: Options do not fit the arm or each other.
         """
         page: Html = self._present("page", q, **options)
         return page
@@ -252,11 +255,11 @@ class Arm(Presentable, ArmData):
     def frames(self, q: ArrayLike) -> FloatArray:
         """Return the world poses of the base, of the link that moves with each joint, and of the tool, rad, m.
 
-        The origin of frame k + 1 is where joint k, from 0, is; a prismatic joint is where its slide is. So
+        The origin of frame k + 1 is at joint k, from 0; for a prismatic joint it moves with the slide. Therefore
         ``frames(q)[..., :3, 3]`` is the arm as a stick figure.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Returns:
             (n + 2, 4, 4) or (N, n + 2, 4, 4); the first is ``base``, the last is :meth:`forward_kinematics`.
@@ -275,7 +278,7 @@ class Arm(Presentable, ArmData):
         return self._pose_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 4, 4))
 
     def jacobian(self, q: ArrayLike) -> FloatArray:
-        """Return the geometric Jacobian at the tool point, (6, n) or (N, 6, n).
+        """Return the geometric Jacobian at the tool point, (6, n) or (N, 6, n), at ``q`` (n,) or (N, n), rad and m.
 
         Rows: linear velocity, then angular velocity, both in the world frame; m/rad and rad/rad for revolute columns.
         """
@@ -283,24 +286,26 @@ class Arm(Presentable, ArmData):
         return self._jacobian_kernel.rows(np.atleast_2d(checked_q)).reshape((*checked_q.shape[:-1], 6, self.n))
 
     def jacobian_derivative(self, q: ArrayLike) -> FloatArray:
-        """Return the derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
+        """Return ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n), at ``q`` (n,) or (N, n), rad and m."""
         a = self.check_configurations(q)
         return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
 
     def gravity_torque(self, q: ArrayLike) -> FloatArray:
-        """Return torques and forces, N m and N, that hold the arm and its payload still against gravity, (n,) or (N, n).
+        """Return torques and forces that hold arm and payload still at ``q`` (n,) or (N, n), of the same shape, N m and N.
 
         Raises:
-            ArmError: A link of which nothing is known.
+            ArmError: The mass of a link is unknown.
         """
         checked_q = self.check_configurations(q)
         return self._gravity_torque_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
 
     def inertia_diagonal(self, q: ArrayLike) -> FloatArray:
-        """Return the diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
+        """Return the diagonal of the joint-space inertia matrix at ``q`` (n,) or (N, n), of the same shape; kg m^2 and kg.
+
+        It includes payload and armature.
 
         Raises:
-            ArmError: A link of which nothing is known, or whose inertia no body has.
+            ArmError: The mass or inertia of a link is unknown, or impossible for a body.
         """
         checked_q = self.check_configurations(q)
         return self._inertia_diagonal_kernel.rows(np.atleast_2d(checked_q)).reshape(checked_q.shape)
@@ -308,24 +313,24 @@ class Arm(Presentable, ArmData):
     def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> FloatArray:
         """Return torques and forces of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, (n,) or (N, n); N m and N.
 
-        Payload, armature and viscous friction included.
+        They include payload, armature and viscous friction.
 
         Args:
-            q: (n,) or (N, n), rad and m.
-            qd: (n,) or (N, n), rad/s and m/s.
-            qdd: (n,) or (N, n), rad/s^2 and m/s^2.
+            q: (n,) or (N, n) configurations, rad and m.
+            qd: (n,) or (N, n) joint rates, rad/s and m/s.
+            qdd: (n,) or (N, n) joint accelerations, rad/s^2 and m/s^2.
 
         Source: English and Maciejewski 1998, eq. (5).
 
         Raises:
-            ArmError: A link of which nothing is known, or whose inertia no body has.
-            InputError: Shapes that do not fit; NaN or infinity in a single state (in a batch such a row gets NaN).
+            ArmError: The mass or inertia of a link is unknown, or impossible for a body.
+            InputError: Shapes do not fit, or a single state contains NaN or infinity (in a batch such a row gets NaN).
         """
         inertial, viscous, gravity = self.torque_terms(q, qd, qdd)
         return inertial + viscous + gravity
 
     def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd``, and ``g``, (n,) or (N, n); N m and N."""
+        """Return ``M qdd + C qd``, ``B qd``, and ``g`` of :meth:`inverse_dynamics` at ``q``, ``qd``, ``qdd`` (..., n)."""
         from holdfast.model.arm.dynamics import check_states
 
         states, single = check_states(self, q, qd, qdd)

@@ -12,10 +12,10 @@ _QUARTER_TURN_TOLERANCE_RAD = 1e-9  # rad; files write pi/2 with 11 or more digi
 
 
 def check_poses(poses: ArrayLike) -> FloatArray:
-    """Return poses as (N, 4, 4) float64.
+    """Return ``poses`` (4, 4) or (N, 4, 4), m, as (N, 4, 4) float64.
 
     Raises:
-        InputError: Not 4x4, or the upper left block of a finite pose is not a rotation.
+        InputError: The shape is wrong, or the upper left block of a finite pose is not a rotation.
     """
     checked = np.asarray(poses, dtype=np.float64)
     if checked.ndim not in (2, 3) or checked.shape[-2:] != (4, 4):
@@ -33,7 +33,7 @@ def check_poses(poses: ArrayLike) -> FloatArray:
 
 
 def pose_from_quaternion(position: ArrayLike, quaternion: ArrayLike) -> FloatArray:
-    """Return the pose (4, 4) of a position (3,), m, and a quaternion x, y, z, w of any length but 0."""
+    """Return the pose (4, 4) of a position (3,), m, and a quaternion x, y, z, w of any length except 0."""
     from scipy.spatial.transform import Rotation
 
     pose = np.eye(4)
@@ -42,17 +42,17 @@ def pose_from_quaternion(position: ArrayLike, quaternion: ArrayLike) -> FloatArr
 
 
 def pose_numbers(pose: FloatArray) -> tuple[float, ...]:
-    """Return position x, y, z in m and unit quaternion x, y, z, w of a pose (4, 4)."""
+    """Return position x, y, z in m and unit quaternion x, y, z, w of the ``pose`` (4, 4)."""
     from scipy.spatial.transform import Rotation
 
     return (*pose[:3, 3].tolist(), *Rotation.from_matrix(pose[:3, :3]).as_quat().tolist())
 
 
-# ---- rotations: what every command needs without loading scipy.spatial ---------------------------------------------
+# ---- rotations for every command, without the import of scipy.spatial ----------------------------------------------
 
 
 def rotations_of_quaternions(quaternions: ArrayLike) -> FloatArray:
-    """Return rotations (..., 3, 3) of quaternions (..., 4), x, y, z, w, of any length but 0."""
+    """Return rotations (..., 3, 3) of quaternions (..., 4), x, y, z, w, of any length except 0."""
     q = np.asarray(quaternions, dtype=np.float64)
     x, y, z, w = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
     rows = [
@@ -64,7 +64,7 @@ def rotations_of_quaternions(quaternions: ArrayLike) -> FloatArray:
 
 
 def rotations_of_vectors(vectors: ArrayLike) -> FloatArray:
-    """Return rotations (..., 3, 3) of rotation vectors (..., 3): axes as long as their angles, rad."""
+    """Return rotations (..., 3, 3) of rotation vectors (..., 3), whose lengths are the angles, rad."""
     rotation_vector = np.asarray(vectors, dtype=np.float64)
     half_angle = np.linalg.norm(rotation_vector, axis=-1, keepdims=True) / 2
     return rotations_of_quaternions(
@@ -77,7 +77,7 @@ def rotation_vectors(rotations: ArrayLike) -> FloatArray:
     matrices = np.asarray(rotations, dtype=np.float64)
     trace = np.trace(matrices, axis1=-2, axis2=-1)[..., None]
     diagonal = np.diagonal(matrices, axis1=-2, axis2=-1)
-    # 4 q q^T of the unit quaternion q: its longest row is the one without cancellation.
+    # The rows are 4 q q^T of the unit quaternion q; the longest one has no cancellation.
     quaternion_products = np.empty((*matrices.shape[:-2], 4, 4))
     quaternion_products[..., :3, :3] = matrices + matrices.swapaxes(-1, -2)
     np.einsum("...ii->...i", quaternion_products)[..., :3] = 1 + 2 * diagonal - trace
@@ -112,7 +112,7 @@ def zyx_angles(rotations: ArrayLike) -> FloatArray:
 
 # ---- motions of joints -----------------------------------------------------------------------------------------------
 def joint_motion(kind: str, axis: FloatArray, value: float) -> FloatArray:
-    """Return the motion (4, 4) of a joint by itself, rad or m; the identity for types without one axis."""
+    """Return the motion (4, 4) of a joint, rad or m; the identity for types without one axis."""
     pose = np.eye(4)
     if kind == "prismatic":
         pose[:3, 3] = axis * value
@@ -124,7 +124,7 @@ def joint_motion(kind: str, axis: FloatArray, value: float) -> FloatArray:
 def cos_sin(angle: float) -> tuple[float, float]:
     """Return cosine and sine, exact at quarter turns."""
     quarters = round(angle / (np.pi / 2))
-    # Exact zeros make terms vanish from the generated code; the file's author meant them.
+    # Exact zeros remove terms from the generated code, and they are what the author of the file meant.
     if abs(angle - quarters * np.pi / 2) < _QUARTER_TURN_TOLERANCE_RAD:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
     return float(np.cos(angle)), float(np.sin(angle))

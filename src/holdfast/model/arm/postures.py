@@ -10,20 +10,19 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 
 _CANDIDATE_COUNT = 96
-_SUFFICIENT_SCORE_FRACTION = 0.25  # of the best score among those tried: an earlier one that has it is taken
-_STRUCTURAL_LOSS_TOLERANCE = 1e-9  # a joint without which less than this is left everywhere is a matter of structure
+_SUFFICIENT_SCORE_FRACTION = 0.25  # of the best score: the first configuration that reaches this fraction is chosen
+_STRUCTURAL_LOSS_TOLERANCE = 1e-9  # relative manipulability: a joint is vital by structure if less remains everywhere
 
 
 @check_arguments
 def generic_configuration(arm: Arm) -> FloatArray:
-    """Return a generic configuration (n,), rad and m: inside the limits, not singular, and without an accidental loss of
-    dexterity.
+    """Return a generic configuration (n,) of ``arm``, rad and m: within the limits, not singular, without accidental losses.
 
-    The arm's ``home`` where it has one and nothing is special there, else the first sound one of a fixed list around home, or
-    around the middle between the limits. Sound means: the Jacobian is well conditioned, and whichever joint locks, as much is
-    left as can be expected (relative manipulability, Abdi et al. 2012, eq. (3)); joints that are single points of failure by
-    structure do not count. Where it can be had, no joint is behind the plane that the arm is mounted on, across the z axis of
-    its base. The same arm gets the same answer.
+    It is the arm's ``home`` if this exists and is generic, else the first suitable one of a fixed list around home or around
+    the middle between the limits. Suitable means that the Jacobian is well conditioned and that after any single lock the
+    relative manipulability (Abdi et al. 2012, eq. (3)) is as large as can be expected; joints that are single points of failure
+    by structure do not count. If possible, no joint is behind the mounting plane of the arm, across the z axis of its base. The
+    result is the same for the same arm.
     """
     lower, upper = sampling_limits(arm)
     ranges = np.minimum(upper - lower, np.where(arm.prismatic, np.inf, 2 * np.pi))
@@ -32,7 +31,7 @@ def generic_configuration(arm: Arm) -> FloatArray:
     finite_lower, finite_upper = np.isfinite(arm.lower), np.isfinite(arm.upper)
     inside = np.where(finite_lower, lower + margin, -np.inf), np.where(finite_upper, upper - margin, np.inf)
     start = np.clip(start, *inside)
-    # Additive recurrence (Roberts 2018): points that fill a cube evenly, the same ones everywhere; first near, then far.
+    # Additive recurrence (Roberts 2018): fixed points that fill a cube evenly, first near the centre, then far from it.
     generator = float(np.max(np.real(np.roots([1.0, *[0.0] * (arm.n - 1), -1.0, -1.0]))))
     directions = 2 * ((0.5 + np.arange(1, _CANDIDATE_COUNT)[:, None] * generator ** -np.arange(1.0, arm.n + 1)) % 1.0) - 1
     radii = np.linspace(0.04, 0.4, _CANDIDATE_COUNT - 1)[:, None]
@@ -54,7 +53,7 @@ def _score_configurations(arm: Arm, q: FloatArray) -> FloatArray:
     is_relevant = remaining.max(axis=0) > np.sqrt(_STRUCTURAL_LOSS_TOLERANCE)
     if is_relevant.any():
         score = score * remaining[:, is_relevant].min(axis=1)
-    # What an arm is mounted on is taken to lie across the z axis of its base.
+    # The mounting surface is assumed to lie across the z axis of the base.
     heights = (arm.frames(q)[:, :, :3, 3] - arm.base[:3, 3]) @ arm.base[:3, 2]
     score = score * np.where(heights.min(axis=1) < -0.02 * arm.length_unit, 0.5, 1.0)
     return np.asarray(score)

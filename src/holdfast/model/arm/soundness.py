@@ -1,4 +1,4 @@
-"""Check an arm's data: findings to read, and errors where an analysis needs inertial data."""
+"""Check an arm's data: findings for people, and errors if an analysis needs missing inertial data."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import numpy as np
 from holdfast.core.errors import ArmError
 from holdfast.model.arm.machine import FARTHEST_LIMIT_M, FARTHEST_LIMIT_RAD, ArmData, Joint, Link
 
-MAX_PLAUSIBLE_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
-MAX_PLAUSIBLE_RANGE_RAD = 4 * np.pi  # rad; two turns, beyond what cables allow
-_MAX_GYRATION_RADIUS_M = 3.0  # of gyration: larger ones are in other units where the arm itself is shorter
-MAX_PLAUSIBLE_LENGTH_M = 100.0  # m, end to end; beyond any arm, so a file in mm
+MAX_PLAUSIBLE_EFFORT = 20_000.0  # N m or N; larger than for any arm's joint, so a placeholder
+MAX_PLAUSIBLE_RANGE_RAD = 4 * np.pi  # rad; two turns, more than cables allow
+_MAX_GYRATION_RADIUS_M = 3.0  # radius of gyration; a larger one has other units if the arm itself is shorter
+MAX_PLAUSIBLE_LENGTH_M = 100.0  # m, end to end; larger than any arm, so the file is in mm
 RELATIVE_MOMENT_TOLERANCE = 1e-9  # relative to the largest moment
 
 
@@ -22,9 +22,9 @@ class DataFinding:
     """Missing, implausible, or impossible value in the data of an arm.
 
     Attributes:
-        severity: ``error``: no analysis that uses the number can be right; ``warning``: some analyses lack it.
-        subject: The joint or link, as ``joint 'elbow'``, or the arm.
-        message: One sentence: what is wrong and what would be right.
+        severity: ``error`` if no analysis with this number can be right; ``warning`` if some analyses lack the number.
+        subject: Joint or link, such as ``joint 'elbow'``, or the arm.
+        message: One sentence with the problem and the right value.
     """
 
     severity: Literal["warning", "error"]
@@ -35,8 +35,8 @@ class DataFinding:
 def check_arm(arm: ArmData) -> list[DataFinding]:
     """Return all findings about an arm, from base to tip, each joint before its link; empty if there are none.
 
-    A rod without inertia about its own axis (moments 0, I, I) is accepted. Upside-down limits cannot occur: they are
-    refused when a joint is made.
+    A rod without inertia about its own axis (moments 0, I, I) is accepted. Reversed limits cannot occur, because joints with
+    such limits are rejected.
     """
     findings: list[DataFinding] = []
     if arm.end_to_end > MAX_PLAUSIBLE_LENGTH_M:
@@ -52,7 +52,7 @@ def check_arm(arm: ArmData) -> list[DataFinding]:
 
 
 def _implausible_inertias(arm: ArmData) -> list[DataFinding]:
-    """Return a warning for each link whose mass would lie farther from its center of mass than the arm is long."""
+    """Return a warning for each link whose radius of gyration exceeds the length of the arm."""
     findings = []
     for joint, link in zip(arm.joints, arm.links, strict=True):
         if link is None or not link.mass > 0:
@@ -71,7 +71,7 @@ def require_masses(arm: ArmData) -> None:
     """Raise :class:`ArmError` if a link has no inertial data; massless links pass.
 
     Raises:
-        ArmError: The first such link.
+        ArmError: The message names the first such link.
     """
     for joint, link in zip(arm.joints, arm.links, strict=True):
         if link is None:
@@ -85,7 +85,7 @@ def require_possible_inertia(arm: ArmData) -> None:
     """Raise :class:`ArmError` if a link has no inertial data or an impossible inertia; points and massless links pass.
 
     Raises:
-        ArmError: The first such link, and why.
+        ArmError: The message names the first such link and the problem.
     """
     require_masses(arm)
     for joint, link in zip(arm.joints, arm.links, strict=True):

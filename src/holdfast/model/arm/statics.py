@@ -1,13 +1,13 @@
 """Symbolic statics and inertia of a serial arm: holding torques and the inertia about each joint.
 
-Joint i carries a *composite body*: the links after it and the payload, as if they were welded together. English and
-Maciejewski 1998 give its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in
-the axes of its own link, where joint axes and link data are constant numbers. Measured for the Panda: all three
-susceptibilities with their gradients take 1,600 operations that way and 3,900 as sums in one common frame.
+Joint i carries a *composite body*: the following links and the payload, as if they were welded together. English and
+Maciejewski 1998 compute its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in the
+axes of its own link, where joint axes and link data are constant numbers. For the Panda (measured) all three susceptibilities
+with their gradients take 1,600 operations in this form, and 3,900 as sums in one common frame.
 
 The paper's closed-form derivatives, eq. (14)-(17) and (31)-(35), need all vectors in one frame: :func:`express_in_world`.
 
-Source: English, Maciejewski 1998. The paper's upward vector g is minus the arm's gravity: the sign is changed here only.
+Source: English, Maciejewski 1998. The paper's upward vector g is minus the arm's gravity; the sign changes only here.
 """
 
 from __future__ import annotations
@@ -34,17 +34,17 @@ from holdfast.model.arm.soundness import require_masses, require_possible_inerti
 class CompositeBodies:
     """Composite body of every joint, as functions of q; entry i belongs to joint i.
 
-    Vectors are in the axes of link i, or all in the world's after :func:`express_in_world`. O is the origin of the joint's
-    frame, a point on its axis that the joint itself does not move.
+    Vectors are in the axes of link i, or all in those of the world after :func:`express_in_world`. O is the origin of the
+    joint's frame, a point on its axis that the joint itself does not move.
 
     Attributes:
         axes: Unit vectors (3,) of the joint axes.
-        masses: kg, eq. (9).
+        masses: Masses, kg, eq. (9).
         moments: First moments (3,) about O, kg m, eq. (10).
         inertias: Second moments (3, 3) about O, kg m^2, eq. (26), (27).
         gravity: Upward vectors g (3,), m/s^2.
-        rotations: (3, 3) of each link in the world.
-        points: O (3,) in the world, m.
+        rotations: Rotation (3, 3) of each link in the world.
+        points: Points O (3,) in the world, m.
     """
 
     axes: list[SX]
@@ -60,7 +60,7 @@ def composite_bodies(arm: ArmData, q: SX) -> CompositeBodies:
     """Compute the composite body of every joint, each in the axes of its own link.
 
     Raises:
-        ArmError: A link of which nothing is known.
+        ArmError: The mass of a link is unknown.
     """
     require_masses(arm)
     n = arm.n
@@ -68,7 +68,7 @@ def composite_bodies(arm: ArmData, q: SX) -> CompositeBodies:
     body_frames, joint_frames = body_and_joint_frames(arm, steps)
     rotations, points = [rotation for rotation, _ in body_frames[1:]], [position for _, position in joint_frames]
     gravity: list[SX] = []
-    upward = constant_matrix(-arm.base[:3, :3].T @ arm.gravity)  # in the base's axes, so that a tilted base costs nothing
+    upward = constant_matrix(-arm.base[:3, :3].T @ arm.gravity)  # in the base's axes, so that a tilted base adds no operations
     for joint, step in zip(arm.joints, steps, strict=True):
         upward = step[0].T @ (split_transform(joint.origin)[0].T @ upward)
         gravity.append(upward)
@@ -83,14 +83,14 @@ def composite_bodies(arm: ArmData, q: SX) -> CompositeBodies:
         mass = mass + link.mass
         moment = moment + constant_matrix(link.mass * link.com)
         inertia = inertia + constant_matrix(link.inertia + link.mass * unit_second_moment(link.com))
-        moment, inertia = _shift_moments(mass, moment, inertia, steps[i][1])  # a prismatic joint's link has left O
+        moment, inertia = _shift_moments(mass, moment, inertia, steps[i][1])  # a prismatic joint has moved its link away from O
         masses[i], moments[i], inertias[i] = mass, moment, inertia
     axes = [constant_matrix(joint.axis) for joint in arm.joints]
     return CompositeBodies(axes, masses, moments, inertias, gravity, rotations, points)
 
 
 def links_with_payload(arm: ArmData) -> list[Link]:
-    """Return the links of an arm whose links are all known, with the payload joined to the last link."""
+    """Return the links of an arm with known links, with the payload merged into the last link."""
     links = [link for link in arm.links if link is not None]
     if arm.payload is not None:
         links[-1] = Link.merge([links[-1], arm.payload])
@@ -111,10 +111,9 @@ def gravity_torques(arm: ArmData, c: CompositeBodies) -> SX:
 
 
 def first_moment_rate(arm: ArmData, c: CompositeBodies, i: int) -> SX:
-    """Return the rate (3,) of the first moment behind joint i with that joint: ``z x s`` if it is revolute, ``M z`` if
-    prismatic; (15), (17).
+    """Return the rate (3,) of the first moment beyond joint i: ``z x s`` for a revolute joint, ``M z`` for a prismatic one.
 
-    Its product with g is the torque: ``z . (s x g) = (z x s) . g``.
+    Its product with g is the torque, ``z . (s x g) = (z x s) . g``; eq. (15), (17).
     """
     return c.masses[i] * c.axes[i] if arm.joints[i].prismatic else ca.cross(c.axes[i], c.moments[i])
 
@@ -123,7 +122,7 @@ def inertia_diagonal(arm: ArmData, c: CompositeBodies) -> SX:
     """Return the diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28).
 
     Raises:
-        ArmError: A link whose inertia no body has.
+        ArmError: The inertia of a link is impossible for a body.
     """
     require_possible_inertia(arm)
     entries = []

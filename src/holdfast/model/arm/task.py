@@ -27,13 +27,14 @@ class Task(Presentable):
     """Rows of the end effector's twist (linear; angular) that the task prescribes.
 
     Attributes:
-        name: ``pose`` (6 rows), ``pointing`` (5: position, and direction of the tool's z axis; turning about it is free,
-            as for a drill, a torch or a camera), ``position`` (3), ``planar`` (2: position in the arm's plane),
-            ``planar-pose`` (3: with its angle), or a name of your own.
+        name: ``pose`` (6 rows), ``pointing`` (5: position, and direction of the tool's z axis; rotation about it is free, as
+            for a drill, a torch or a camera), ``position`` (3), ``planar`` (2: position in the arm's plane), ``planar-pose``
+            (3: with its angle), or a custom name.
         rows: (m, 6) orthonormal rows; the task velocity is ``rows @ twist``.
-        frame: The frame of the twist: ``base`` (the world axes) or ``tool``.
-        length: Characteristic length, m. Linear rows are divided by it, so that indices which mix metres and radians
-            have a meaning; it is printed with every result. 1 m by default.
+        frame: Frame of the twist: ``base`` (the world axes) or ``tool``.
+        length: Characteristic length, m. Linear rows are divided by it, so that indices which mix metres and radians have a
+            meaning; it is printed with every result. Default: 1 m.
+        angular: True if a row has angular components; set by the class.
     """
 
     name: str
@@ -63,7 +64,7 @@ class Task(Presentable):
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Task:
-        """Return the task of :meth:`to_dict`; raise KeyError or TypeError if something is missing."""
+        """Return the task from ``data``, the JSON data of :meth:`to_dict`; raise KeyError or TypeError if it is incomplete."""
         return cls(data["name"], np.array(data["rows"]), data["frame"], length=data["length"])
 
     @property
@@ -77,31 +78,31 @@ class Task(Presentable):
         return self.m == 6
 
     def error(self, twist: SX, tool_rotation: SX) -> SX:
-        """Return the task rows (m,) of a world-frame error or twist (6,), linear rows in meters."""
+        """Return the task rows (m,) of a world-frame error or ``twist`` (6,), m and rad, for ``tool_rotation`` (3, 3)."""
         if self.frame == "tool":
             twist = ca.vertcat(tool_rotation.T @ twist[:3], tool_rotation.T @ twist[3:])
         return ca.sparsify(ca.SX(ca.DM(self.rows))) @ twist
 
     def scale(self, length: float) -> FloatArray:
-        """Return the matrix (m, m) that divides the linear rows of a twist by a length, m, in terms of the task's rows."""
+        """Return the matrix (m, m) that divides the linear rows of a twist by ``length``, m, in terms of the task's rows."""
         return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
 
     def jacobian(self, arm: ArmData, q: SX) -> SX:
-        """Return the task Jacobian (m, n), linear rows divided by the characteristic length."""
+        """Return the task Jacobian (m, n) of ``arm`` for symbols ``q`` (n,), linear rows divided by ``length``."""
         full_jacobian = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.world_jacobian(arm, q)
         return self.select(full_jacobian)
 
     def select(self, full_jacobian: SX) -> SX:
-        """Return the task rows of a Jacobian (6, n) in the task's frame, linear rows divided by the length."""
+        """Return the task rows of ``full_jacobian`` (6, n) in the task's frame, linear rows divided by the length."""
         scale = np.diag([1 / self.length] * 3 + [1.0] * 3)
         return ca.sparsify(ca.SX(ca.DM(self.rows @ scale))) @ full_jacobian
 
     def same_rows(self, other: Task) -> bool:
-        """Return True if both tasks prescribe the same rows in the same frame; names and lengths may differ."""
+        """Return True if the task ``other`` prescribes the same rows in the same frame; names and lengths may differ."""
         return self.frame == other.frame and self.rows.shape == other.rows.shape and np.allclose(self.rows, other.rows)
 
     def describe(self) -> str:
-        """Describe the task in one phrase."""
+        """Return a phrase with the name, the number of rows and, if it matters, the characteristic length."""
         text = f"{self.name} ({self.m} rows)"
         has_length = self.angular and float(np.abs(self.rows[:, :3]).max()) > 0
         return text + (f", characteristic length {self.length:g} m" if has_length else "")
@@ -116,10 +117,10 @@ TaskSpec = str | Task | Sequence[str]
 def task_from_rows(
     rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None
 ) -> Task:
-    """Return a task of chosen rows, for example ``task_from_rows(["vx", "vy", "wz"], frame="tool")``.
+    """Return a task with selected rows, for example ``task_from_rows(["vx", "vy", "wz"], frame="tool")``.
 
     Raises:
-        TaskError: A row that is not one of vx, vy, vz, wx, wy, wz, or that appears twice.
+        TaskError: A row is not one of vx, vy, vz, wx, wy, wz, or appears twice.
     """
     unknown = [row_name for row_name in rows if row_name not in TASK_ROW_NAMES]
     if unknown:
@@ -133,11 +134,11 @@ def task_from_rows(
 
 
 def plane_normal(arm: ArmData) -> FloatArray | None:
-    """Return the unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in a plane.
+    """Return the unit normal (3,), world frame, of the plane in which the arm moves; None for a spatial arm.
 
-    All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
+    All revolute axes must be parallel to the normal and all prismatic axes perpendicular to it.
     """
-    # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
+    # Earlier joints rotate about the normal, which keeps parallel axes parallel, so q = 0 decides for every q.
     revolute_axes, prismatic_axes = arm.axes_at_zero[~arm.prismatic], arm.axes_at_zero[arm.prismatic]
     if not len(revolute_axes):
         return None
@@ -158,10 +159,10 @@ def default_path_task(arm: ArmData, oriented: bool) -> str:
 
 
 def as_task(arm: ArmData, task: str | Task | Sequence[str], length: float | None = None) -> Task:
-    """Return the task of an arm from its name, a list of rows, or a task.
+    """Return the ``task`` of ``arm`` from its name, a list of row names, or a Task; ``length`` replaces the length, m.
 
     Raises:
-        TaskError: Unknown name, or a planar task for an arm that does not move in a plane.
+        TaskError: The name is unknown, or the task is planar but the arm does not move in a plane.
     """
     if isinstance(task, Task):
         return task if length is None else Task(task.name, task.rows, task.frame, length=length)
@@ -195,14 +196,14 @@ def as_task(arm: ArmData, task: str | Task | Sequence[str], length: float | None
 
 
 def target_poses(task: Task, target: ArrayLike) -> tuple[FloatArray, FloatArray | None]:
-    """Return targets as poses (M, 4, 4), and as task rows (M, m) where they were given as rows.
+    """Return targets as poses (M, 4, 4), and as task rows (M, m) if they were given as rows.
 
     Args:
-        task: What must be met.
-        target: (m,) or (M, m), m, for tasks without angular rows; for any task (4, 4) or (M, 4, 4) poses in the world.
+        task: Task to be met.
+        target: (m,) or (M, m) rows, m, for tasks without angular rows; for any task (4, 4) or (M, 4, 4) poses in the world.
 
     Raises:
-        InputError: Another shape, invalid poses, or rows for a task with turns.
+        InputError: The shape is wrong, a pose is invalid, or rows are given for a task with angular rows.
     """
     array = np.asarray(target, dtype=np.float64)
     if array.ndim in (2, 3) and array.shape[-2:] == (4, 4):
@@ -224,7 +225,7 @@ def target_pose(task: Task, target: ArrayLike) -> FloatArray:
     """Return one target, (m,) or (4, 4), as a pose (4, 4); see :func:`target_poses`.
 
     Raises:
-        InputError: More than one target, NaN or infinity, or as :func:`target_poses`.
+        InputError: There are several targets, a number is not finite, or :func:`target_poses` raises an error.
     """
     poses, rows = target_poses(task, target)
     if np.ndim(target) != (2 if rows is None else 1):

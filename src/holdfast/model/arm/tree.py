@@ -1,4 +1,4 @@
-"""Tree of bodies read from a file, and the single chain in it that is the arm."""
+"""Tree of bodies read from a file, and the chain of the tree that is the arm."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TIP_ADVICE = "name one with --tip (tip= in Python)"
 
 @dataclass(frozen=True)
 class TreeJoint:
-    """Moving or fixed joint that carries one link of the tree; types that no arm can have keep the file's name."""
+    """Moving or fixed joint that carries one link of the tree; types that no arm can have keep the name of the file."""
 
     name: str
     type: str
@@ -40,7 +40,7 @@ class TreeJoint:
     friction: float
     mimic: tuple[str, float, float] | None = None  # master, multiplier, offset
     armature: float = 0.0
-    rest: float = 0.0  # where it is beside the chain, as far as its limits allow
+    rest: float = 0.0  # value next to the chain, within its limits
 
     @property
     def is_moving(self) -> bool:
@@ -59,10 +59,10 @@ class LinkTree:
     name: str
     bodies: dict[str, Link | None]
     joints: dict[str, TreeJoint]
-    limits_required: bool = True  # the format wants limits of every revolute and prismatic joint
-    tied: frozenset[str] = frozenset()  # joints that move together with others, as fingers do
+    limits_required: bool = True  # the format requires limits of revolute and prismatic joints
+    tied: frozenset[str] = frozenset()  # joints coupled to others, such as fingers
     joint_above: dict[str, TreeJoint] = field(default_factory=dict)  # link -> joint that carries it
-    joints_below: dict[str, list[TreeJoint]] = field(default_factory=dict)  # link -> joints that hang on it
+    joints_below: dict[str, list[TreeJoint]] = field(default_factory=dict)  # link -> joints attached to it
 
     def __post_init__(self) -> None:
         if not self.bodies:
@@ -100,7 +100,7 @@ class LinkTree:
         """Return the joints from base down to tip.
 
         Raises:
-            ArmError: The tip does not hang on the base.
+            ArmError: The tip is not a descendant of the base.
         """
         joints: list[TreeJoint] = []
         link = tip
@@ -117,7 +117,7 @@ class LinkTree:
         return joints
 
     def is_fixed(self, joint: TreeJoint, hold: Mapping[str, float]) -> bool:
-        """Return whether the joint is fixed, or held at a value, or mimics such a joint, so that its value never changes."""
+        """Return whether the joint is fixed, held at a value, or mimics such a joint, so that its value never changes."""
         followers: set[str] = set()
         while joint.is_moving and joint.name not in hold and joint.name not in followers:
             followers.add(joint.name)
@@ -127,14 +127,14 @@ class LinkTree:
         return not joint.is_moving or joint.name in hold
 
 
-# ---- where the chain may begin and end ---------------------------------------------------------------------------
+# ---- possible ends of the chain ----------------------------------------------------------------------------------
 
 
 def require_single_tip(tree: LinkTree, base: str) -> str:
     """Return the tip if there is only one candidate.
 
     Raises:
-        ArmError: There are several, which are listed, or none.
+        ArmError: There are several candidates, which are listed, or none.
     """
     candidates = possible_tips(tree, base)
     if len(candidates) == 1:
@@ -150,12 +150,12 @@ def require_single_tip(tree: LinkTree, base: str) -> str:
 def possible_tips(tree: LinkTree, base: str) -> list[str]:
     """Return the links at which an arm mounted on ``base`` could end, the farthest from the base first.
 
-    Those are the links that carry nothing, fingers being left off, and a link that carries what may be a finger. A flange
-    and the frames beside it are as good as the end of the longest chain. An object that only floats is no end.
+    These are the links without descendants, except fingers, and links that carry a possible finger. A flange and the frames
+    next to it rank as the end of the longest chain. A free-floating object is no end.
     """
     only_fingers_below: dict[
         str, tuple[bool, bool]
-    ] = {}  # link: whether fingers at most, or what may be fingers at most, move behind it
+    ] = {}  # link: whether at most fingers, or at most possible fingers, move beyond it
     for link in reversed(list(tree.links_from(base))):
         only_fingers_below[link] = (
             all(
@@ -168,7 +168,7 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
                 for child_joint in tree.joints_below[link]
             ),
         )
-    moving_joint_counts = {base: 0}  # link: how many joints move it, fingers left off
+    moving_joint_counts = {base: 0}  # link: number of joints that move it, without fingers
     tips: dict[str, int] = {}
     for link in tree.links_from(base):
         if link not in moving_joint_counts:
@@ -204,7 +204,7 @@ def _is_finger(joint: TreeJoint) -> bool:
 
 
 def _may_be_finger(tree: LinkTree, joint: TreeJoint) -> bool:
-    """Return whether a joint may be a finger: by name, or with siblings, if tied to a joint or one of two prismatic ones."""
+    """Return whether a joint may be a finger: by name, or with siblings, if coupled to a joint or one of two prismatic ones."""
     siblings = [sibling for sibling in tree.joints_below[joint.parent] if sibling is not joint]
     has_prismatic_sibling = joint.type == "prismatic" and any(sibling.type == "prismatic" for sibling in siblings)
     return bool(
@@ -263,18 +263,18 @@ def build_chain(
     source: str,
     base_pose: FloatArray | None = None,
 ) -> ArmData:
-    """Build the arm from link ``base`` down to link ``tip``, and merge every body that does not move relative to a link into
-    that link.
+    """Build the arm from link ``base`` to link ``tip``, and merge every body that does not move relative to a link into that
+    link.
 
     Args:
-        tree: The links and joints of the file.
-        base: The root if not given.
-        tip: May be left out if there is only one end.
-        hold: Value, rad or m, at which joints are held, on the chain or beside it; those are then no joints of the arm.
+        tree: Links and joints of the file.
+        base: Link on which the arm is mounted; default: the root.
+        tip: Link whose frame is the tool; optional if there is only one end.
+        hold: Values, rad or m, of joints that are held, on the chain or next to it; held joints are no joints of the arm.
         name: Name of the arm.
         gravity: (3,) acceleration in the world, m/s^2; None: that of the earth, down along z of the file's root.
-        source: Where the tree comes from.
-        base_pose: (4, 4) pose of the base link in the world; the identity if not given.
+        source: Origin of the tree.
+        base_pose: (4, 4) pose of the base link in the world, m; default: the identity.
 
     Raises:
         ArmError: There is no single serial chain from base to tip.
@@ -300,7 +300,7 @@ def build_chain(
                 f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
                 "choose a base and tip with independent joints in between"
             )
-        # Beside the chain such a joint is harmless: it is held at 0.
+        # Next to the chain such a joint has no effect, because it is held at 0.
         if tree.limits_required and joint.type in LIMITED_TYPES and not np.isfinite(joint.lower):
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
@@ -309,7 +309,7 @@ def build_chain(
 
     joints: list[Joint] = []
     links: list[Link | None] = []
-    pending = np.eye(4)  # frame of the link reached so far, in the last joint's moving frame
+    pending = np.eye(4)  # frame of the current link, in the last joint's moving frame
     on_path = {joint.name for joint in moving}
     for joint in path:
         if joint.name not in on_path:
@@ -334,7 +334,7 @@ def _advise_base(moving: Sequence[TreeJoint]) -> str:
     """Return advice for a chain with unsupported joints: the link after the last of them, if joints follow."""
     last_unsupported = max(index for index, joint in enumerate(moving) if joint.type not in MOVING_TYPES)
     is_followed = last_unsupported < len(moving) - 1
-    return f"; mount the arm on the link behind it: --base {moving[last_unsupported].child}" if is_followed else ""
+    return f"; mount the arm on the link after it: --base {moving[last_unsupported].child}" if is_followed else ""
 
 
 def _reject_mimic_joints(tree: LinkTree, base: str, locked_joints: LockedJoints) -> None:
@@ -387,12 +387,12 @@ def _merge_rigid_descendants(tree: LinkTree, link: str, on_path: set[str], locke
             if joint.name not in on_path
         ]
     if len(bodies) == 1 and tree.bodies[link] is not None:
-        return tree.bodies[link]  # untouched, also where a mass of 0 would make the centre of mass meaningless
+        return tree.bodies[link]  # unchanged, also if a mass of 0 makes the centre of mass meaningless
     return Link.merge(bodies, link) if bodies else None
 
 
 class LockedJoints:
-    """Values of the joints that are not degrees of freedom of the arm."""
+    """Values of the joints that are no degrees of freedom of the arm."""
 
     def __init__(self, tree: LinkTree, on_path: set[str], hold: Mapping[str, float]) -> None:
         movable_names = [tree_joint.name for tree_joint in tree.joints.values() if tree_joint.type in MOVING_TYPES]
@@ -417,7 +417,7 @@ class LockedJoints:
         return pose
 
     def joint_value(self, joint: TreeJoint, mimic_trail: tuple[str, ...] = ()) -> float:
-        """Return the value of a joint, rad or m; without meaning for joints that neither slide nor rotate about one axis."""
+        """Return the value of a joint, rad or m; meaningless for joints that neither slide nor rotate about one axis."""
         if joint.name in mimic_trail:
             raise ArmError(
                 f"the joints {list_names(mimic_trail)} mimic each other in a circle; one of them must be independent"

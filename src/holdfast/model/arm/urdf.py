@@ -1,8 +1,8 @@
-"""Read arms from URDF files: one chain of a tree of links, with everything else merged into its links.
+"""Read arms from URDF files: one chain of a tree of links, with all other bodies merged into its links.
 
-Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read here; transmissions and simulator tags are skipped, shapes
-are read when they are asked for (:mod:`holdfast.model.shapes`). The only other file that is opened is an SRDF file, for the
-configurations that it names.
+Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read here. Transmissions and simulator tags are skipped, and
+shapes are read on request (:mod:`holdfast.model.shapes`). The only other file that is opened is an SRDF file, for its named
+configurations.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from holdfast.model.arm.tree import LIMITED_TYPES, MOVING_TYPES, LinkTree, TreeJ
 
 _MAX_FILE_BYTES = 64 << 20  # bytes
 JOINT_TYPES = (*MOVING_TYPES, "fixed", "floating", "planar")
-XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself, so that a leftover does no harm
+XACRO_DEFINITIONS = ("property", "arg", "macro")  # elements that create nothing by themselves, so that leftovers have no effect
 XACRO_TERM = re.compile(r"\$[{(]")
 
 
@@ -43,34 +43,34 @@ def load_urdf(
 ) -> ArmData:
     """Return the serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
-    Fixed joints are folded away. Bodies that hang on the chain without being part of it (tools, covers, grippers, whatever
-    follows the tip) become part of the link they hang on, with their own joints held still. What hangs on
-    the base does not move and is left out.
+    Fixed joints are merged. Bodies that are attached to the chain without being part of it (tools, covers, grippers, links
+    after the tip) become part of the link to which they are attached, with their own joints held. Bodies attached to the base
+    do not move and are left out.
 
-    ``links[i]`` is given in the URDF frame of the child link of joint i, and ``tool`` is the frame of ``tip``. Angles
-    within 1e-9 rad of a quarter turn are taken as exact. A ``velocity`` or ``effort`` of 0, like a missing one, means 'not
-    given' (infinite), because many files carry 0 as a placeholder; ``<dynamics damping>`` is the friction. A missing
-    ``<inertial>`` gives None in ``links``, unless a body with one hangs on that link; a mass of 0 is kept.
+    ``links[i]`` is given in the URDF frame of the child link of joint i, and ``tool`` is the frame of ``tip``. Angles within
+    1e-9 rad of a quarter turn count as exact. A ``velocity`` or ``effort`` of 0, like a missing one, means 'not given'
+    (infinite), because many files use 0 as a placeholder; ``<dynamics damping>`` is the friction. A missing ``<inertial>``
+    gives None in ``links``, unless a body with one is attached to that link; a mass of 0 is kept.
 
     Args:
-        path: The file.
-        base: Name of the link on which the arm is mounted; the root if not given.
-        tip: Name of the link whose frame is the tool; may be left out if only one link carries nothing, the fingers of a
-            gripper left off.
-        hold: Value, rad or m, at which joints are held, on the chain or beside it; those on the chain are then no joints of the
-            arm. By default all on the chain move, and those beside it are held at 0, or the limit nearest to it. A joint with
-            ``<mimic>`` follows its master unless it is named here; one that mimics a held joint is held too.
-        name: Name of the arm; the file's robot name if not given.
-        gravity: (3,) acceleration, m/s^2, in the frame of ``base``; by default 9.81 m/s^2 down along z of the file's root,
-            whatever ``base`` is.
-        srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm, and whose
-            ``<disable_collisions>`` are pairs of links that its shape leaves unchecked; if not given, the file of the same name
-            that ends in ``.srdf``, where there is one.
-        meshes: Folder in which the files of meshes are looked for before the usual places
-            (``package://``, ``ROS_PACKAGE_PATH``), once the shape of the arm is asked for.
+        path: URDF file.
+        base: Name of the link on which the arm is mounted; default: the root.
+        tip: Name of the link whose frame is the tool; optional if only one link, apart from the fingers of a gripper, has no
+            descendants.
+        hold: Values, rad or m, of joints that are held, on the chain or next to it; held joints on the chain are no joints of
+            the arm. By default all joints on the chain move, and those next to it are held at 0, or the limit nearest to it. A
+            joint with ``<mimic>`` follows its master unless it is named here; a joint that mimics a held joint is held too.
+        name: Name of the arm; default: the robot name in the file.
+        gravity: (3,) acceleration, m/s^2, in the frame of ``base``; default: 9.81 m/s^2 down along z of the file's root, for
+            any ``base``.
+        srdf: SRDF file. Its ``<group_state>`` that name every joint of the arm become ``states``, and its
+            ``<disable_collisions>`` are pairs of links that the collision model does not check. Default: the file of the same
+            name that ends in ``.srdf``, if it exists.
+        meshes: Folder that is searched for mesh files before the usual locations (``package://``, ``ROS_PACKAGE_PATH``), once
+            the shape of the arm is requested.
 
     Returns:
-        What :meth:`holdfast.Arm.from_urdf` makes an arm of; its ``base`` is the identity, its ``source`` the name of the file.
+        Data for :meth:`holdfast.Arm.from_urdf`; ``base`` is the identity, ``source`` the name of the file.
 
     Raises:
         ArmError: The file cannot be read, is not a sound URDF tree, or has no single serial chain from base to tip.
@@ -114,12 +114,12 @@ def xacro_advice(path: Path) -> str:
 
 
 def _parse_robot(path: Path, kind: str) -> ElementTree.Element:
-    """Return the ``<robot>`` of a file; prefixes of tags stay as they are, declared or not, as in the readers of ROS."""
+    """Return the ``<robot>`` of a file; prefixes of tags stay unchanged, declared or not, as in the readers of ROS."""
     with reading.guard_reading(advice=f"give the path of a {kind} file", error_type=ArmError):
         content = reading.read_bytes(path, _MAX_FILE_BYTES)
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = builder.start, builder.end, builder.data
-    # The only place where an XML file can define entities that blow up or reach other files.
+    # Only here can an XML file define entities that expand without limit or read other files.
     parser.StartDoctypeDeclHandler = _reject_doctype
     parser.buffer_text = True
     try:
@@ -185,7 +185,7 @@ def read_tree(robot: ElementTree.Element, default_name: str) -> LinkTree:
     """Return the links and joints of a ``<robot>``; ``default_name`` is its name if it has none.
 
     Raises:
-        ArmError: It is not a sound tree.
+        ArmError: The links and joints do not form a valid tree.
     """
     bodies: dict[str, Link | None] = {}
     for element in robot.findall("link"):
@@ -232,7 +232,7 @@ def _read_joint(element: ElementTree.Element) -> TreeJoint:
         if end_element is None:
             raise ArmError(f'{label} has no <{role}>; it needs <{role} link="..."/>')
         link_names[role] = _require_attribute(end_element, "link", f"{label}: <{role}>")
-    axis = np.array([1.0, 0.0, 0.0])  # the default of the format
+    axis = np.array([1.0, 0.0, 0.0])  # default of the format
     axis_element = element.find("axis")
     if joint_type in MOVING_TYPES and axis_element is not None:
         axis = np.array(_parse_numbers(_require_attribute(axis_element, "xyz", f"{label}: <axis>"), 3, f"{label}: axis"))
@@ -264,13 +264,13 @@ def _read_joint(element: ElementTree.Element) -> TreeJoint:
 
 
 def _read_limits(element: ElementTree.Element, joint_type: str, label: str) -> tuple[float, float, float, float]:
-    """Return lower limit, upper limit, velocity, and effort of a joint; infinite where there is none."""
+    """Return lower limit, upper limit, velocity, and effort of a joint; infinite if not given."""
     limit = element.find("limit")
     if limit is None:
         return -np.inf, np.inf, np.inf, np.inf
     lower, upper = -np.inf, np.inf
     if joint_type in LIMITED_TYPES and (limit.get("lower") is not None or limit.get("upper") is not None):
-        # The format says that the one left out is 0.
+        # According to the format a missing limit is 0.
         lower, upper = (_parse_numbers(limit.get(key, "0"), 1, f"{label}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
             raise ArmError(f"{label}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
@@ -286,7 +286,7 @@ def _read_nonnegative(element: ElementTree.Element, key: str, label: str) -> flo
 
 
 def read_origin(element: ElementTree.Element, label: str) -> FloatArray:
-    """Return the pose (4, 4) of the ``<origin xyz rpy>`` of an element; ``label`` names it in error messages."""
+    """Return the pose (4, 4) of the ``<origin xyz rpy>`` of an element; ``label`` is its name in error messages."""
     pose = np.eye(4)
     origin = element.find("origin")
     if origin is None:

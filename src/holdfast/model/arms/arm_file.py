@@ -1,4 +1,4 @@
-"""Write an arm to a file from which the same arm can be read."""
+"""Write an arm to a file that can be read back as the same arm."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def write_arm(arm: Arm, file: Path) -> Path:
 
 
 def quantities_lost_in_urdf(arm: Arm) -> list[str]:
-    """Name the numbers of an arm that a URDF file cannot hold."""
+    """Return the names of the numbers of an arm that a URDF file cannot store."""
     one_sided = any(np.isfinite(joint.lower) != np.isfinite(joint.upper) for joint in arm.joints)
     losses = {
         "the gravity vector": not np.array_equal(arm.gravity, GRAVITY),

@@ -1,4 +1,4 @@
-"""Built-in arms: textbook arms in code, real arms as stripped URDF files with their provenance."""
+"""Built-in arms: textbook arms in code, and real arms as stripped URDF files with their provenance."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class Builtin:
     """Facts about a built-in arm that are available without loading it.
 
     Attributes:
-        name: As in :func:`load`.
+        name: Name for :func:`load`.
         n: Number of joints.
         summary: One line for lists.
-        source: Where its numbers come from, and what is assumed.
-        licence: SPDX identifier of the file it is read from; ``MIT``, holdfast's own, for arms in code.
-        home: (n,) a configuration inside the limits and away from singularities, rad or m.
-        task: The task that suits the arm, ``pose`` or ``planar``; see :func:`holdfast.model.arm.as_task`.
+        source: Origin of the numbers, and assumptions.
+        licence: SPDX identifier of the file; ``MIT``, holdfast's own, for arms in code.
+        home: (n,) configuration inside the limits and away from singularities, rad or m.
+        task: Default task of the arm, ``pose`` or ``planar``; see :func:`holdfast.model.arm.as_task`.
     """
 
     name: str
@@ -51,10 +51,10 @@ def names() -> list[str]:
 
 @check_arguments
 def about(name: str) -> Builtin:
-    """Return the facts about a built-in arm.
+    """Return the facts about the built-in arm with this ``name``.
 
     Raises:
-        ArmError: There is no such arm; the message lists those there are.
+        ArmError: There is no such arm; the message lists all built-in arms.
     """
     return _find_entry(name)[0]
 
@@ -62,10 +62,10 @@ def about(name: str) -> Builtin:
 @check_arguments
 @cache
 def load(name: str) -> Arm:
-    """Return a built-in arm, the same object each time.
+    """Return the built-in arm with this ``name``, the same object each time.
 
     Raises:
-        ArmError: There is no such arm; the message lists those there are.
+        ArmError: There is no such arm; the message lists all built-in arms.
     """
     entry, make = _find_entry(name)
     return replace(make(), name=name, source=entry.source, states={"home": np.array(entry.home)})

@@ -21,21 +21,21 @@ TABLE_ENDINGS = (".yaml", ".yml")
 
 
 def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None) -> Arm:
-    """Return the arm that a person names on the command line.
+    """Return the arm that a user names on the command line.
 
     Args:
-        spec: A built-in name (see :func:`names`), a path of a URDF or MJCF file ending in ``.urdf``, ``.mjcf`` or ``.xml``
-            (then its outermost element decides), or a path of a DH table ending in ``.yaml`` or ``.yml`` (see
+        spec: Built-in name (see :func:`names`); path of a URDF or MJCF file ending in ``.urdf``, ``.mjcf`` or ``.xml`` (then
+            the outermost element decides); or path of a DH table ending in ``.yaml`` or ``.yml`` (see
             :mod:`holdfast.model.arms.dh_file`).
         base: Link of a URDF file or body of an MJCF file on which the arm is mounted; see
             :func:`holdfast.model.arm.urdf.load_urdf` and :func:`holdfast.model.arm.mjcf.load_mjcf`.
         tip: Link of a URDF file, or body or site of an MJCF file, whose frame is the tool.
-        hold: Value, rad or m, at which joints of a URDF or MJCF file are held.
+        hold: Values, rad or m, of held joints of a URDF or MJCF file.
 
     Raises:
-        ArmError: There is no such arm, the file is wrong, or base, tip or hold are given for something that is neither a URDF
+        ArmError: There is no such arm, the file is wrong, or base, tip or hold are given although ``spec`` is neither a URDF
             nor an MJCF file.
-        HoldfastError: It is an MJCF file and MuJoCo is not installed.
+        HoldfastError: The file is an MJCF file and MuJoCo is not installed.
     """
     if not isinstance(spec, (str, PathLike)) or "\0" in str(spec):
         raise ArmError(f"the arm is {spec!r}; give a built-in name or the path of a file")
@@ -71,7 +71,7 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold:
 
 
 def command_words(arm: Arm) -> tuple[str, list[str], str]:
-    """Return how a command line names an arm: ARM, its options, and a remark on the parts that the reader must insert."""
+    """Return the command-line words for ``arm``: ARM, its options, and a remark on the parts that the reader must insert."""
     if arm.name in names() and load(arm.name).fingerprint == arm.fingerprint:
         return arm.name, [], ""
     is_file = arm.source.lower().endswith((*URDF_ENDINGS, *MJCF_ENDINGS, *TABLE_ENDINGS)) and "\n" not in arm.source

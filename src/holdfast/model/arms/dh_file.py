@@ -1,6 +1,6 @@
-"""Read and write arms as YAML files that hold a Denavit-Hartenberg table.
+"""Read and write arms as YAML files with a Denavit-Hartenberg table.
 
-An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, must be there::
+An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, are required::
 
     name: my arm              # default: the file's name
     convention: standard      # or modified; see holdfast.model.arm.dh.DH
@@ -46,7 +46,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.urdf import rpy_rotation
 from holdfast.model.arms.dh_rows import DHTable
 
-_MAX_PLAUSIBLE_ANGLE_RAD = 2 * np.pi  # rad: an angle of more than a turn is probably in degrees
+_MAX_PLAUSIBLE_ANGLE_RAD = 2 * np.pi  # rad: a larger angle is probably in degrees
 
 
 @check_arguments
@@ -54,13 +54,13 @@ def load_dh_file(path: str | Path) -> Arm:
     """Return the arm of a YAML file in the format of this module.
 
     Args:
-        path: The file.
+        path: YAML file.
 
     Returns:
         The arm, in rad and m.
 
     Raises:
-        ArmError: The file cannot be read, or an entry is wrong; the sentence names its place, as in ``rows[2].alpha``.
+        ArmError: The file cannot be read, or an entry is wrong; the message names the entry, such as ``rows[2].alpha``.
     """
     path = Path(path)
     try:
@@ -83,15 +83,15 @@ def format_dh_file(
     """Return a table as a file in the format of this module, in m and degrees.
 
     Args:
-        table: The rows with their limits, the base and the tool.
-        name: Of the arm.
-        gravity: (3,) in the world, m/s^2.
-        source: Where the numbers come from.
-        links: One per row, each in its row's frame, None where nothing is known; no masses are written if there are none.
-        payload: In the last row's frame.
+        table: Rows with their limits, base and tool.
+        name: Name of the arm.
+        gravity: (3,) acceleration in the world, m/s^2.
+        source: Origin of the numbers.
+        links: One body per row, each in its row's frame, None if unknown; without links no masses are written.
+        payload: Body held by the end effector, in the last row's frame.
 
     Returns:
-        YAML. What is read from it again has the numbers of the table to 1e-14.
+        YAML text that gives the numbers of the table to 1e-14 when it is read back.
     """
     source_line = [f"source: {_format_scalar(source)}"] if source else []
     lines = [f"name: {_format_scalar(name)}", *source_line, "angles: deg", "rows:"]
@@ -110,7 +110,7 @@ def format_dh_file(
 
 
 def _format_body(link: Link | None) -> str:
-    """Format a body as one line of YAML, with all digits, because a small inertia has as many as a large one."""
+    """Format a body as one line of YAML with all digits, because a small inertia has as many digits as a large one."""
     if link is None:
         return "null"
     inertia = link.inertia
@@ -224,7 +224,7 @@ class ArmFile(Strict):
 
 
 def build_arm(table: ArmFile, path: Path) -> Arm:
-    """Build the arm of such keys; it is named after the file where they contain no name.
+    """Build the arm of these keys; without a name it is named after the file.
 
     Raises:
         ArmError: A row, body or pose is wrong.

@@ -12,9 +12,9 @@ from holdfast.model.arm.dh import DH
 from holdfast.model.arm.machine import Link, snap_rounding_noise
 from holdfast.model.arm.model import Arm
 
-# Axes this near to parallel, rad, count as parallel: where a file says 3.14159 for pi their common normal is kilometres away.
+# Axes whose angle is smaller than this, rad, count as parallel: with 3.14159 for pi their common normal is kilometres away.
 _PARALLEL_SINE = 1e-5
-_EQUALITY_TOLERANCE = 1e-9  # lengths, m, and cosines that count as equal
+_EQUALITY_TOLERANCE = 1e-9  # lengths, m, and cosines that differ by less are equal
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +23,8 @@ class DHTable:
 
     Attributes:
         rows: One :class:`holdfast.DH` per joint, with its limits, in rad and m.
-        base: (4, 4) pose of the first row's frame in the world.
-        tool: (4, 4) pose of the tool in the last row's frame.
+        base: (4, 4) pose of the first row's frame in the world, m.
+        tool: (4, 4) pose of the tool in the last row's frame, m.
     """
 
     rows: tuple[DH, ...]
@@ -39,34 +39,34 @@ class DHTable:
 def dh_table(arm: Arm) -> DHTable:
     """Return the standard Denavit-Hartenberg table of any serial arm.
 
-    The joint variables stay what they are: the same q, sign and limits. Masses are not in a table.
+    The joint variables are unchanged: q has the same zero, sign and limits. A table contains no masses.
 
-    Where the geometry leaves a choice:
+    If the geometry leaves a choice:
 
-    - The first frame is the arm's base if the first axis is its z; else it sits at the first joint, and ``base`` takes up the
+    - The first frame is the arm's base if the first axis is its z; else it is at the first joint, and ``base`` contains the
       rest.
-    - Between skew or crossing axes x lies along the common normal. It points as the x of the joint's own frame does where that
-      lies along the normal too, so that an arm made by :meth:`holdfast.Arm.from_dh` gives its own rows back; else so that a is
-      positive; and where the axes cross, so that theta is at most a quarter turn.
-    - Between parallel axes the normal is the one through the next joint's origin. Along one and the same axis x is that of the
-      joint's own frame, or else the one before.
-    - A prismatic joint has a direction and no place: its axis is taken through its origin.
-    - The last frame is that of the arm's own last row, or the last joint's own frame; ``tool`` takes up the rest.
+    - Between skew or intersecting axes x lies along the common normal. It has the sign of the x axis of the joint's own frame
+      if that is along the normal, so that an arm made by :meth:`holdfast.Arm.from_dh` returns its own rows; else the sign that
+      makes a positive; and for intersecting axes the sign that makes theta at most a quarter turn.
+    - Between parallel axes the normal passes through the next joint's origin. For coincident axes x is that of the joint's own
+      frame, or else the previous x.
+    - A prismatic joint has a direction and no position, so its axis passes through its origin.
+    - The last frame is that of the arm's own last row, or the last joint's own frame; ``tool`` contains the rest.
 
     Args:
-        arm: Any serial arm.
+        arm: Serial arm.
 
     Returns:
-        The table. Its arm has the same forward kinematics to 1e-12, unless two neighbouring axes are parallel but for less
-        than 1e-5 rad, as where a URDF file says 3.14159 for pi: their normal is then that of parallel axes, which may move the
-        tool by that angle times the length of the arm.
+        The table. Its arm has the same forward kinematics to 1e-12, unless two neighbouring axes are almost parallel, within
+        1e-5 rad, for example because a URDF file has 3.14159 for pi. Their normal is then that of parallel axes, which may move
+        the tool by that angle times the length of the arm.
 
     Source: Denavit and Hartenberg 1955; the choices above are ours.
     """
     arm_at_origin = arm.with_base(np.eye(4))
     joints, axes = arm_at_origin.frames_at_zero[:-1], arm_at_origin.axes_at_zero
     points = [joint_frame[:3, 3] for joint_frame in joints]
-    # The x axes that from_dh gave; a URDF joint may have any.
+    # The x axes of from_dh; a URDF joint may have any.
     own_x_axes = [frame[:3, 0] if joint.axis[2] == 1.0 else None for frame, joint in zip(joints, arm.joints, strict=True)]
 
     first_frame = _first_frame(axes[0], points[0])
@@ -93,7 +93,7 @@ def bodies_in_row_frames(arm: Arm, table: DHTable) -> tuple[list[Link | None], L
 def _first_frame(z: FloatArray, p: FloatArray) -> FloatArray:
     if z[2] > 1 - 1e-15 and np.hypot(p[0], p[1]) < _EQUALITY_TOLERANCE:
         return np.eye(4)
-    # The base's x, or its y if the axis points along x, as far as it is across the axis.
+    # The component, perpendicular to the axis, of the base's x, or of its y if the axis is along x.
     reference_axis = np.eye(3)[0 if abs(z[0]) < 0.9 else 1]
     return _frame_from_axes(reference_axis, z, p)
 
@@ -114,7 +114,7 @@ def _next_frame(
         x_axis = x_axis / np.linalg.norm(x_axis)
     else:
         x_axis = normal / sine_of_twist
-        # Where the next axis comes nearest to this one.
+        # The point of the next axis that is closest to this one.
         origin = p_next + (np.cross(displacement, z) @ normal / sine_of_twist**2) * z_next
     return _frame_from_axes(_orient_normal(x_axis, float(displacement @ x_axis), x, own_x_axis), z_next, origin)
 
@@ -133,7 +133,7 @@ def _orient_normal(normal: FloatArray, signed_length: float, x: FloatArray, own_
 def _last_frame(arm: Arm, frame: FloatArray, joint: FloatArray, z: FloatArray) -> FloatArray:
     if arm.joints[-1].axis[2] != 1.0:
         return _frame_from_axes(frame[:3, 0], z, joint[:3, 3])
-    # Of the form Tz(d) Tx(a) Rx(alpha), or no part of the table.
+    # Either of the form Tz(d) Tx(a) Rx(alpha), or not part of the table.
     has_row_form = abs(arm.flange[0, 0] - 1) < _EQUALITY_TOLERANCE and abs(arm.flange[1, 3]) < _EQUALITY_TOLERANCE
     return joint @ arm.flange if has_row_form else joint
 

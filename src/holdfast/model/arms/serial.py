@@ -14,7 +14,7 @@ _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature"
 
 
 def to_dict(arm: Arm) -> dict[str, Any]:
-    """Return everything that defines the arm, as JSON types; infinite limits become null."""
+    """Return all data that define the arm, as JSON types; infinite limits become null."""
     return {
         "name": arm.name,
         "source": arm.source,

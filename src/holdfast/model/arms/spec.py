@@ -20,9 +20,9 @@ class ArmSpec:
 
     Attributes:
         spec: Built-in name or file; see :func:`holdfast.model.arms.resolve`.
-        base, tip: Links of the file, if chosen.
-        hold: Joints of the file that are held, and where, rad or m.
-        name: What it is called; the built-in name or the arm's own if not given.
+        base, tip: Links of the file, or None.
+        hold: Held joints of the file with their values, rad or m.
+        name: Name of the arm; default: the built-in name or the arm's own name.
     """
 
     spec: str
@@ -49,7 +49,7 @@ def arm_specs_from_options(
     """Return several arms; --base, --tip, and --hold are given once for all arms, or once for each arm, '-' for none.
 
     Raises:
-        InputError: A number of options that is neither, or two arms of one name.
+        InputError: An option is given another number of times, or two arms have one name.
     """
     hold_option = [",".join(hold)] if hold and len(specs) == 1 else hold
     options = {"--base": base, "--tip": tip, "--hold": hold_option, "--name": name}
@@ -72,7 +72,7 @@ def arm_specs_from_options(
 
 
 def parse_held_joints(text: str, option: str = "--hold") -> dict[str, float]:
-    """Read ``joint=number`` pairs separated by commas; the joints are those of a file that is not read yet."""
+    """Read ``joint=number`` pairs separated by commas; the joints belong to a file that is not read yet."""
     values_by_joint: dict[str, float] = {}
     for assignment in text.split(","):
         joint, equals, value = (side.strip() for side in assignment.rpartition("="))
@@ -95,7 +95,7 @@ def default_task(spec: str, arm: Arm) -> str:
 
 
 def read_task(text: str | None, spec: str, arm: Arm, option: str = "--task") -> str | Task:
-    """Return a task in the form that the library takes; ``option`` is its name in error messages."""
+    """Return a task in the form that the library accepts; ``option`` is its name in error messages."""
     if text is None:
         return default_task(spec, arm)
     from holdfast.model.arm.task import task_from_rows

@@ -11,7 +11,7 @@ from holdfast.model.arm.urdf import rpy_rotation
 
 
 def tool_pose_from_numbers(numbers: ArrayLike) -> FloatArray:
-    """Return the pose (4, 4) of six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
+    """Return the pose (4, 4) for six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
     values = np.asarray(numbers, dtype=np.float64)
     pose = np.eye(4)
     pose[:3, 3] = values[:3]
@@ -20,7 +20,7 @@ def tool_pose_from_numbers(numbers: ArrayLike) -> FloatArray:
 
 
 def format_tool_pose(arm: Arm) -> str:
-    """Return the six numbers of an arm's tool in the last link's own frame, separated by commas, to 12 digits."""
+    """Return the six numbers of an arm's tool in the last link's own frame, comma-separated, to 12 digits."""
     from scipy.spatial.transform import Rotation
 
     pose = np.linalg.inv(arm.flange) @ arm.tool

@@ -10,18 +10,18 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.arm.machine import Joint, Link
 from holdfast.model.arm.model import Arm
 
-_ROD_RADIUS_FRACTION = 0.02  # radius of a link that is drawn, of the arm's length
+_ROD_RADIUS_FRACTION = 0.02  # radius of a drawn link, relative to the arm's length
 
 
 def urdf_text(arm: Arm) -> str:
-    """Return the arm as URDF: joints with their limits, masses where they are known, and a rod from each joint to the next.
+    """Return the arm as URDF: joints with their limits, masses if they are known, and a rod from each joint to the next.
 
-    The rods are a drawing, no shape of the arm: visual where masses are known, else for collisions, too, so that a simulator
-    that needs masses makes some. The fixed frame ``base`` is the world, ``tool`` the end effector's. Limits of speed and effort
-    that are not given are 0, which :meth:`holdfast.Arm.from_urdf` reads as not given.
+    The rods are only a drawing. They are visual elements if masses are known, and otherwise collision elements as well, so that
+    a simulator that needs masses can derive some. The fixed frame ``base`` is the world, ``tool`` that of the end effector.
+    Limits of speed and effort that are not given are 0, which :meth:`holdfast.Arm.from_urdf` reads as not given.
 
     Args:
-        arm: Any arm; gravity, payload, rotor inertias and states have no place in the format.
+        arm: Arm model; the format cannot store gravity, payload, rotor inertias and states.
     """
     next_origins = [*(joint_after.origin for joint_after in arm.joints[1:]), arm.tool]
     radius = _ROD_RADIUS_FRACTION * sum(float(np.linalg.norm(origin[:3, 3])) for origin in next_origins) or _ROD_RADIUS_FRACTION
@@ -103,7 +103,7 @@ def _origin_element(pose: FloatArray) -> str:
     rotation = pose[:3, :3]
     cosine_of_pitch = float(np.hypot(rotation[0, 0], rotation[1, 0]))
     pitch = np.arctan2(-rotation[2, 0], cosine_of_pitch)
-    # Looking along z only one of the two other angles counts.
+    # At a pitch of +-90 degrees only one of the two other angles counts.
     is_regular = cosine_of_pitch > 1e-9
     roll = np.arctan2(rotation[2, 1], rotation[2, 2]) if is_regular else 0.0
     yaw = np.arctan2(rotation[1, 0], rotation[0, 0]) if is_regular else np.arctan2(-rotation[0, 1], rotation[1, 1])

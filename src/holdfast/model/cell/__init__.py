@@ -1,4 +1,4 @@
-"""Work cell: the objects around an arm that it must not touch. The data depend on no arm."""
+"""Work cell: the objects around an arm that it must not touch. The data do not depend on the arm."""
 
 from holdfast.core._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Work cell with the objects around an arm and the margins to keep from them."""
+"""Work cell with the objects around an arm and the distances that the arm must keep from them."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ from holdfast.model.cell.solids import Solid
 @check_constructor
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Static objects in the world.
+    """Static objects in the world, and objects that the arm holds.
 
     Attributes:
-        objects: In any order, each with a name of its own.
-        name: For people and files.
-        margin: What an arm keeps from each of them at least, m.
-        may_touch: Pairs of an object and a link, by the joint that moves it or ``base``, that are not checked.
-        held: What moves with the tool, as a part in the gripper: boxes, cylinders, capsules and spheres with their poses in the
-            tool's frame.
-        shape: Of the arm in this cell: ``meshes`` of its own file, ``assumed`` capsules along its links, or a capsule file; the
-            best that there is if empty.
-        spheres_to: How far the spheres that cover the arm may reach beyond it, m; None for what is usual.
-        hold: Where joints outside the arm's chain are, rad or m, by name.
+        objects: Objects in any order, each with its own name.
+        name: Name for people and files.
+        margin: Smallest distance that an arm must keep from each object, m.
+        may_touch: Pairs of an object and a link that are not checked; the link is named by its joint, or ``base``.
+        held: Objects that move with the tool, such as a part in the gripper: boxes, cylinders, capsules and spheres with their
+            poses in the tool's frame.
+        shape: Collision model of the arm in this cell: ``meshes`` of its own file, ``assumed`` capsules along its links, or a
+            capsule file; default: the best one available.
+        spheres_to: Mean distance by which the spheres around the arm may extend beyond it, m; None: the default of the cover.
+        hold: Values of joints outside the arm's chain, rad or m, by name.
 
     Raises:
-        InputError: Two objects of one name, or a margin below 0 or not finite.
+        InputError: Two objects have the same name, or a margin is below 0 or not finite.
     """
 
     objects: Sequence[Solid]
@@ -76,10 +76,10 @@ class Cell:
         """Return the same cell with some of its objects at other poses.
 
         Args:
-            poses: (4, 4) in the world, m, by the name of the object.
+            poses: Poses (4, 4) in the world, m, by the name of the object.
 
         Raises:
-            InputError: It has no such object.
+            InputError: The cell has no such object.
         """
         names = [solid.name for solid in self.objects]
         unknown = next((name for name in poses if name not in names), None)
@@ -94,7 +94,7 @@ class Cell:
         return f"cell '{self.name}': {summary or 'no objects'}" + (f"; margin {self.margin:g} m" if self.margin else "")
 
     def margin_of(self, solid: Solid) -> float:
-        """Return the margin to keep from an object, m: the larger of its own margin and the cell's."""
+        """Return the distance to keep from the object ``solid``, m: the larger of its own margin and the cell's."""
         return max(self.margin, solid.margin)
 
     # ---- files -------------------------------------------------------------------------------------------------
@@ -102,14 +102,13 @@ class Cell:
     @classmethod
     @check_arguments
     def load(cls, path: str | Path) -> Cell:
-        """Return the cell of a YAML file, see :mod:`holdfast.model.cell.cell_file`, or of a URDF or MJCF file, recognized by
-        its content.
+        """Return the cell in the file ``path``: YAML (:mod:`holdfast.model.cell.cell_file`), URDF or MJCF, by its content.
 
-        Of a URDF or MJCF file with several ends, :meth:`from_urdf` and :meth:`from_mjcf` take the one that is the arm's.
+        For a URDF or MJCF file with several ends use :meth:`from_urdf` or :meth:`from_mjcf`, which take the end of the arm.
 
         Raises:
-            InputError: The file cannot be read, or an entry is wrong; the sentence says where.
-            HoldfastError: It needs an extra that is not installed.
+            InputError: The file cannot be read, or an entry is wrong; the message names it.
+            HoldfastError: An extra that the file needs is not installed.
         """
         from holdfast.model.cell import cell_file
 
@@ -132,22 +131,21 @@ class Cell:
         hold: Mapping[str, float] | None = None,
         meshes: str | Path | None = None,
     ) -> Cell:
-        """Return the objects that a URDF file holds in addition to an arm: the ``<collision>`` of every link that does not move
-        with it.
+        """Return the objects around an arm in a URDF file: the ``<collision>`` of every link that does not move with the arm.
 
-        The links from ``base`` to the first joint that moves are the arm's. Poses are in the frame of ``base``, as those of the
-        arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its hull. What
-        the base touches it may touch: neither moves.
+        The links from ``base`` to the first joint that moves belong to the arm. Poses are in the frame of ``base``, as those of
+        the arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its convex
+        hull. Objects that touch the base may touch it, because neither moves.
 
         Args:
-            path: The file.
-            base: Link on which the arm is mounted; the root if not given.
+            path: URDF file.
+            base: Link on which the arm is mounted; default: the root.
             tip: Link whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_urdf`; not needed if nothing moves.
-            hold: Value, rad or m, at which joints are held that are not the arm's.
-            meshes: Folder with the files of meshes, if they are not where the file says.
+            hold: Values, rad or m, of held joints that do not belong to the arm.
+            meshes: Folder with the mesh files, if they are not where the file states.
 
         Raises:
-            InputError: The file cannot be read, has no such links, or a shape that cannot be read.
+            InputError: The file or a shape in it cannot be read, or it has no such links.
         """
         from holdfast.model.cell import cell_file, surroundings
 
@@ -162,20 +160,19 @@ class Cell:
     def from_mjcf(
         cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
     ) -> Cell:
-        """Return the objects that an MJCF file holds in addition to an arm: the colliding geoms of the world and of bodies that
-        do not move with it.
+        """Return the objects around an arm in an MJCF file: colliding geoms of bodies that do not move with the arm.
 
-        The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
-        has it. What the base touches it may touch: neither moves. Needs ``holdfast-arms[physics]``.
+        The bodies from ``base`` to the first joint that moves belong to the arm, except the world. A mesh becomes its convex
+        hull, as in MuJoCo. Objects that touch the base may touch it, because neither moves. Needs ``holdfast-arms[physics]``.
 
         Args:
-            path: The file.
-            base: Body on which the arm is mounted; ``world`` if not given.
+            path: MJCF file.
+            base: Body on which the arm is mounted; default: ``world``.
             tip: Body whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_mjcf`; not needed if nothing moves.
-            hold: Value, rad or m, at which joints are held that are not the arm's.
+            hold: Values, rad or m, of held joints that do not belong to the arm.
 
         Raises:
-            InputError: MuJoCo cannot read the file, it has no such bodies, or a geom of which no distance is known.
+            InputError: MuJoCo cannot read the file, it has no such bodies, or a geom has no distance formula.
             HoldfastError: MuJoCo is not installed.
         """
         from holdfast.model.cell import cell_file, surroundings
@@ -187,24 +184,24 @@ class Cell:
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], folder: str | Path = ".") -> Cell:
-        """Return the cell of :meth:`to_dict`, or of the keys and values of a file.
+        """Return the cell from JSON data of :meth:`to_dict`, or from the keys and values of a file.
 
         Args:
-            data: The keys and values.
-            folder: Where the files are that it names.
+            data: Keys and values.
+            folder: Folder of the files that the data name.
 
         Raises:
-            InputError: An entry is wrong; the sentence says where.
+            InputError: An entry is wrong; the message names it.
         """
         from holdfast.model.cell import cell_file
 
         return cls(**cell_file.cell_arguments_from_data(data, Path(folder)))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything as JSON types: the keys and values of a file, with the full paths of other files.
+        """Return all data as JSON types: the keys and values of a file, with the full paths of other files.
 
         Raises:
-            InputError: An object of a kind of your own, which no file can hold.
+            InputError: An object has a user-defined class, which a file cannot store.
         """
         from holdfast.model.cell import cell_file
 
@@ -220,16 +217,16 @@ class Cell:
 
     @check_arguments
     def save(self, path: str | Path) -> list[Path]:
-        """Write the cell as a YAML file that :meth:`load` reads, with every digit.
+        """Write the cell to the YAML file ``path``, which :meth:`load` reads, with all digits.
 
-        Meshes and clouds that came from files stay there and are named as seen from the new file; others are written beside it.
+        Mesh and point files stay in place and are named relative to the new file; arrays are written to files next to it.
 
         Returns:
-            The YAML file and what was written beside it.
+            The YAML file and the files written next to it.
 
         Raises:
-            StoreError: It cannot be written.
-            InputError: An object of a kind of your own, which no file can hold.
+            StoreError: A file cannot be written.
+            InputError: An object has a user-defined class, which a file cannot store.
         """
         import io
 
@@ -259,13 +256,13 @@ class Cell:
         output.replace_file(file, cell_file.format_cell(data), "cell to")
         return [file, *companions]
 
-    # ---- what it is made of ------------------------------------------------------------------------------------
+    # ---- data -------------------------------------------------------------------------------------------------
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the geometry and margins, triangles and points included, without names and paths of files.
+        """SHA-256 of the geometry and margins, with triangles and points, without names and paths of files.
 
-        The same shape from a file of another kind, or from arrays, has the same one. Of a capsule file the bytes count.
+        The same shape from a file of another format, or from arrays, has the same digest. For a capsule file its bytes count.
 
         Raises:
             InputError: The capsule file cannot be read.
@@ -294,16 +291,16 @@ class Cell:
 
     @property
     def sources(self) -> dict[str, Source]:
-        """Files that objects were read from, by the name of the object."""
+        """Files from which objects were read, by the name of the object."""
         return {
             solid.name: solid.source for solid in self.objects if isinstance(solid, (Mesh, Points)) and solid.source is not None
         }
 
     def require_unchanged(self) -> None:
-        """Raise an error if a file of a mesh or cloud has changed since it was read; a run calls this before it writes.
+        """Raise an error if the file of a mesh or point cloud has changed since it was read; a run calls this before it writes.
 
         Raises:
-            InputError: One is not; the sentence names it.
+            InputError: A file has changed; the message names it.
         """
         for name, source in self.sources.items():
             if source.changed():
@@ -320,7 +317,7 @@ _KIND_NAMES = {"HalfSpace": "half space", "Points": "point cloud"} | {
 
 
 def as_cell(cell: Cell | str | Path | None) -> Cell | None:
-    """Return a cell from a cell or from the path of its file.
+    """Return ``cell`` itself, or the cell in the file with this path; None for None.
 
     Raises:
         InputError: The file cannot be used.

@@ -1,6 +1,6 @@
 """Read and write cells as YAML files.
 
-An example with every key; only ``objects``, and one kind in each object, must be there::
+An example with every key; only ``objects``, and one kind in each object, are required::
 
     name: bench               # default: the file's name
     margin: 0.01              # what is kept from everything at least, m; default 0
@@ -22,9 +22,9 @@ An example with every key; only ``objects``, and one kind in each object, must b
       - [ball, panda_joint7]
     arm: {shape: meshes, spheres_to: 0.01, hold: {panda_finger_joint1: 0.04}}
 
-``arm`` says what shape the arm has: ``meshes`` of its own file, ``assumed`` capsules, or a capsule file beside this one; how
-far its spheres may reach beyond it, m; and where joints outside its chain are, rad or m. A pose may also be 4 rows of 4
-numbers, a mesh ``{vertices: [...], faces: [...]}`` and points a list.
+``arm`` describes the collision model of the arm: ``meshes`` of its own file, ``assumed`` capsules, or a capsule file next to
+this file; the mean distance by which its spheres may extend beyond it, m; and the values of joints outside its chain, rad or m.
+A pose may also be 4 rows of 4 numbers, a mesh ``{vertices: [...], faces: [...]}`` and points a list.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ Positive = Annotated[Number, Field(gt=0)]
 Least = Annotated[Number, Field(ge=0)]
 
 EXAMPLE_MODULE = "holdfast.model.cell.cell_file"
-SHAPE_WORDS = ("", "meshes", "assumed")  # of the arm; every other is a capsule file
+SHAPE_WORDS = ("", "meshes", "assumed")  # of the arm; any other text is a capsule file
 OBJECT_KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh", "points")
 _HOLDABLE_KINDS = OBJECT_KINDS[:4]
 _QUATERNION_NORM_TOLERANCE = 1e-2  # files may round the numbers of a unit quaternion
@@ -123,7 +123,7 @@ def read_cell_file(path: Path) -> dict[str, Any]:
     """Return the unchecked keys and values of a file.
 
     Raises:
-        InputError: It cannot be read or is not YAML.
+        InputError: The file cannot be read or is not YAML.
     """
     return {"name": path.stem} | read_mapping(path, EXAMPLE_MODULE, "objects")
 
@@ -132,11 +132,11 @@ def cell_arguments_from_data(data: dict[str, Any], folder: Path) -> dict[str, An
     """Return the arguments of :class:`holdfast.Cell` from the keys and values of a file.
 
     Args:
-        data: The keys and values.
-        folder: Where the files that it names are.
+        data: Keys and values.
+        folder: Folder of the files that the data name.
 
     Raises:
-        InputError: A key is unknown, missing or wrong, or a file that it names; the sentence says where.
+        InputError: A key or a named file is unknown, missing or wrong; the message names it.
     """
     try:
         parsed = CellFile.model_validate(data)
@@ -245,10 +245,10 @@ def format_cell(data: dict[str, Any]) -> str:
 
 
 def object_to_dict(solid: Solid) -> dict[str, Any]:
-    """Return an object's keys and values with every digit; a file is named by its full path.
+    """Return an object's keys and values with all digits; a file is named by its full path.
 
     Raises:
-        InputError: It is no kind that a file can hold.
+        InputError: A file cannot store an object of this kind.
     """
     match solid:
         case Box():
@@ -269,7 +269,7 @@ def object_to_dict(solid: Solid) -> dict[str, Any]:
             entry = {"points": solid.centres.tolist() if solid.source is None else str(solid.source.path)}
             entry |= {"radius": float(solid.radius)}
         case _:
-            raise InputError(f"object '{solid.name}' is a {type(solid).__name__}, which no file can hold")
+            raise InputError(f"object '{solid.name}' is a {type(solid).__name__}, which a file cannot store")
     if not np.array_equal(solid.pose, np.eye(4)):
         is_rotated = not np.array_equal(solid.pose[:3, :3], np.eye(3))
         entry["pose"] = solid.pose.tolist() if is_rotated else {"xyz": solid.pose[:3, 3].tolist()}

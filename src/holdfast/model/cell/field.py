@@ -31,14 +31,14 @@ from holdfast.model.cell.outside import (
     tabulate_outside_distances,
 )
 
-# Grid, signed distances of its nodes, and what is seen from outside.
+# Grid, signed distances of its nodes, and the table for points outside.
 FieldData = tuple[NodeGrid, FloatArray, NDArray[np.float32], float]
 
-_CACHE_FORMAT = 3  # of what is on the disk; another number where the making changes
+_CACHE_FORMAT = 3  # of the files in the cache; it changes with the computation
 _MAX_NODES = 1_000_000
 _MIN_NODE_SPACING_M = 1e-3  # m
 _RIM_WIDTHS = 2.0  # widths
-_MAX_EDGE_WIDTHS = 4.0  # widths: edge of the triangles that nodes are compared with
+_MAX_EDGE_WIDTHS = 4.0  # widths: longest edge of the triangles to which nodes are compared
 _BATCH_POINTS = 1 << 13  # points
 
 
@@ -47,20 +47,20 @@ class DistanceField:
     """Lower bound of a signed distance, from its values at the nodes of a grid and, outside the grid's box, on enlarged copies
     of its faces.
 
-    Two bounds are interpolated in the grid. A signed distance changes by at most 1 m per m, so what is between the nodes
-    differs from their mean, weighted as trilinear interpolation does, by at most half a diagonal of the grid's cubes. And
-    ``|p|^2 - d^2`` is convex, being the largest of ``2 p.s - |s|^2`` over the surface; so outside ``d^2`` is at least its mean
-    less the mean of the squares of how far the nodes are, ``w^2 sum t (1 - t)``. The second is the better one but next to the
-    surface, where it counts by and by, so that the bound has no step. Nor has it where the grid ends, see
-    :mod:`holdfast.model.cell.outside`: within the outermost width one passes over into the other.
+    Two bounds are interpolated in the grid. A signed distance changes by at most 1 m per m, so a value between the nodes
+    differs from their mean, weighted as in trilinear interpolation, by at most half a diagonal of the grid's cubes. And ``|p|^2
+    - d^2`` is convex, because it is the maximum of ``2 p.s - |s|^2`` over the surface, so outside ``d^2`` is at least its mean
+    minus the mean of the squared distances of the nodes, ``w^2 sum t (1 - t)``. The second bound is the better one except next
+    to the surface, where the first takes over gradually, so that the bound has no step. Nor does it have one at the edge of the
+    grid, because within the outermost width one table passes over to the other; see :mod:`holdfast.model.cell.outside`.
 
     Attributes:
-        grid: The nodes, in the object's own frame.
-        values: What the signed distance of each node is at least, m.
-        outside: (6, ACROSS, ACROSS, AWAY) what is seen from outside, see
+        grid: Nodes, in the object's own frame.
+        values: Lower bound of the signed distance of each node, m.
+        outside: (6, ACROSS, ACROSS, AWAY) table for points outside the grid, see
             :func:`holdfast.model.cell.outside.tabulate_outside_distances`.
-        enclosing_radius: How far any of it is from the middle of the grid, m.
-        offset: Taken away from the distance at the end, m: the radius of the balls of a cloud.
+        enclosing_radius: Largest distance of the object from the centre of the grid, m.
+        offset: Length that is subtracted from the distance, m: the radius of the balls of a cloud.
     """
 
     grid: NodeGrid
@@ -82,7 +82,7 @@ class DistanceField:
     def distance_and_gradient(self, points: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the bound (...,), m, and its gradient (..., 3) at points (..., 3), all in the object's own frame.
 
-        It is never below the distance from the ball about ``center`` that has all of it, less ``offset``.
+        The bound is never below the distance from the ball about ``center`` that contains the object, minus ``offset``.
         """
         point_array = np.asarray(points, dtype=np.float64)
         flat_points = point_array.reshape(-1, 3)
@@ -92,7 +92,7 @@ class DistanceField:
 
     @cached_property
     def tables(self) -> FieldTables:
-        """Tables of the field, as the look-up takes them."""
+        """Tables of the field, as inputs of the interpolation."""
         grid = self.grid
         last_node = np.array(grid.shape) - 1.0
         parameters = np.array(
@@ -109,17 +109,17 @@ class DistanceField:
 
 
 def surface_field(surface: Triangles, digest: str) -> DistanceField:
-    """Return the field of the volume inside a closed surface, from the disk if it was made before.
+    """Return the field of the volume inside a closed surface, from the cache if it was computed before.
 
     Args:
         surface: Triangles that face outward, m.
-        digest: SHA-256 of them.
+        digest: SHA-256 of the triangles.
     """
     return _load_or_compute(digest, lambda: _compute_surface_field(surface), 0.0)
 
 
 def cloud_field(centers: FloatArray, radius: float, digest: str) -> DistanceField:
-    """Return the field of balls: the distance from the nearest center (N, 3), less the radius, m."""
+    """Return the field of balls: the distance from the nearest center (N, 3), minus the radius, m."""
     return _load_or_compute(digest, lambda: _compute_cloud_field(centers), radius)
 
 
@@ -130,8 +130,8 @@ def _compute_surface_field(surface: Triangles) -> FieldData:
     )
     below, above = node_distance_bounds(grid, triangle_parts(corners, _MAX_EDGE_WIDTHS * grid.width))
     is_inside = find_inside_nodes(grid, surface.vertices, surface.faces, below)
-    # The foot of a point on the surface is in a cut triangle. A corner of that which is in the same plane, or on the same edge,
-    # is within the longest edge over the root of 3 of the foot, and farther from the point by Pythagoras.
+    # The foot of a point on the surface is in a split triangle. A corner in the same plane, or on the same edge, is within the
+    # longest edge over the root of 3 of the foot, and farther from the point by Pythagoras.
     max_edge = half_edges(grid).max() / FACE_NODES
     outside = tabulate_outside_distances(grid, split_triangles(corners, max_edge).reshape(-1, 3), max_edge / np.sqrt(3))
     return grid, np.where(is_inside, -above, below), *outside
@@ -143,7 +143,7 @@ def _compute_cloud_field(centers: FloatArray) -> FieldData:
 
 
 def _load_or_compute(digest: str, compute: Callable[[], FieldData], offset: float) -> DistanceField:
-    """Return the field from the disk, or compute and store it."""
+    """Return the field from the cache, or compute and store it."""
     cache_key = cache.cache_key(digest, "field", _CACHE_FORMAT, _MAX_NODES, _MIN_NODE_SPACING_M, FACE_NODES, RADIAL_NODES)
     cached = cache.load_entry(cache_key)
     if cached is not None:

@@ -1,6 +1,7 @@
 """Interpolate a field and its gradient with two kernels that are compiled once for all fields, whose tables are inputs.
 
-A point is looked up in two tables, the grid and what is seen from outside: one kernel says where, the other what is there.
+A point is looked up in two tables, the grid and the table for points outside: one kernel computes the indices, the other the
+value.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from holdfast.kernels.program import SX
 from holdfast.model.cell.nodes import HALF_DIAGONAL
 from holdfast.model.cell.outside import FACE_NODES, RADIAL_NODES
 
-PARAMETER_COUNT = 10  # of a field: origin (3), width, last node (3), largest 1 / r, rim, reach
+PARAMETER_COUNT = 10  # of a field: origin (3), width, last node (3), largest 1 / r, rim, radius
 _MAX_NODE_INDEX = 1 << 20  # more nodes than any table has in a row
 
 
@@ -29,12 +30,12 @@ class FieldCoordinates(NamedTuple):
     """Coordinates of a point in the two tables of a field.
 
     Attributes:
-        grid: (3,) in the grid, widths from its first node.
-        table: (3,) in what is seen from outside, steps from the first node of a face.
-        face: Which.
-        outside_distance: How far outside the box of the grid, m; below 0 within.
-        shifted_distance: r, m.
-        centered: (3,) from the middle of the grid, m.
+        grid: (3,) coordinates in the grid, in widths from its first node.
+        table: (3,) coordinates in the table for points outside, in steps from the first node of a face.
+        face: Number of the face.
+        outside_distance: Distance outside the box of the grid, m; below 0 inside.
+        shifted_distance: Distance r of the table, m.
+        centered: (3,) coordinates relative to the centre of the grid, m.
         half_edges: (3,) half the edges of the grid, m.
     """
 
@@ -52,9 +53,9 @@ class FieldTables:
     """Numbers of one field.
 
     Attributes:
-        parameters: (FACTS,).
-        values: (X, Y, Z) of the nodes of its grid.
-        outside: (6, ACROSS, ACROSS, AWAY) of what is seen from outside.
+        parameters: (FACTS,) parameters of the kernels.
+        values: (X, Y, Z) values at the nodes of the grid.
+        outside: (6, ACROSS, ACROSS, AWAY) values of the table for points outside.
     """
 
     parameters: FloatArray
@@ -63,7 +64,7 @@ class FieldTables:
 
 
 def interpolate_bounds(points: FloatArray, tables: Sequence[FieldTables], points_per_table: Sequence[int]) -> FloatArray:
-    """Return the bound and its gradient, (N, 4), at points (N, 3): ``counts[i]`` in turn belong to field i, in its frame."""
+    """Return bound and gradient, (N, 4), at points (N, 3), of which ``points_per_table[i]`` in turn belong to field i."""
     parameters = (
         np.repeat([field.parameters for field in tables], points_per_table, axis=0) if len(tables) > 1 else tables[0].parameters
     )
@@ -122,7 +123,7 @@ def _bound_kernel() -> Kernel:
         (distance_coordinate * distance_coordinate - distance_node * distance_node) / (2 * distance_node + 1),
     ]
     outside_bound = _bound_from_outside(ca.vertsplit(corners[8:]), outside_fractions, coordinates, parameters[8])
-    weight = 1 + coordinates.outside_distance / width  # of what is seen from outside
+    weight = 1 + coordinates.outside_distance / width  # of the table for points outside
     value = ca.if_else(
         weight <= 0, grid_bound, ca.if_else(weight >= 1, outside_bound, grid_bound + weight * (outside_bound - grid_bound))
     )
@@ -144,7 +145,7 @@ def _field_coordinates(point: SX, parameters: SX) -> FieldCoordinates:
         return ca.if_else(on_first_axis, v[k], ca.if_else(on_second_axis, v[(k + 1) % 3], v[(k + 2) % 3]))
 
     outside_distance = pick_axis(overhang, 0)
-    face_distance = ca.if_else(outside_distance > -width, outside_distance, -width)  # deeper within nothing is looked up
+    face_distance = ca.if_else(outside_distance > -width, outside_distance, -width)  # deeper inside the table is not used
     face_coordinates = [pick_axis(centered, axis) / (pick_axis(half_edges, axis) + face_distance) for axis in (1, 2)]
     shifted_distance = face_distance + width + 1 / parameters[7]
     table = [
@@ -178,7 +179,7 @@ def _bound_from_outside(corners: Vector, fractions: Vector, coordinates: FieldCo
     distance = _safe_root(
         _sum_of_squares(coordinates.centered) - coordinates.shifted_distance * _interpolate_cube(corners, fractions)
     )
-    # All of it is in a smaller box, too.
+    # A smaller box contains all of it as well.
     overhang = [ca.fabs(coordinates.centered[axis]) - coordinates.half_edges[axis] + rim_width for axis in range(3)]
     box_distance = _safe_root(_sum_of_squares([ca.if_else(overlap > 0, overlap, 0.0) for overlap in overhang]))
     return ca.if_else(distance < box_distance, box_distance, distance)

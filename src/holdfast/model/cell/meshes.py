@@ -22,24 +22,24 @@ from holdfast.model.cell.solids import Solid
 
 Kind = Literal["exact", "hull"]
 
-MAX_OBJECT_SIZE_M = 50.0  # m: an object beyond that is in another unit
+MAX_OBJECT_SIZE_M = 50.0  # m: a larger object is in another unit
 _MAX_COORDINATE_M = 1e6  # m
 
 
 @dataclass(frozen=True)
 class Source:
-    """File that an object was read from.
+    """File from which an object was read.
 
     Attributes:
-        path: Where it was.
-        sha256: Of its bytes.
+        path: Path of the file.
+        sha256: SHA-256 of its bytes.
     """
 
     path: Path
     sha256: str
 
     def changed(self) -> bool:
-        """Return whether the file is missing or has other bytes now."""
+        """Return whether the file is missing or its bytes have changed."""
         try:
             return hashlib.sha256(reading.read_bytes(self.path)).hexdigest() != self.sha256
         except OSError:
@@ -56,11 +56,11 @@ class GriddedSolid(Solid):
         raise NotImplementedError
 
     def signed_distance(self, points: ArrayLike) -> FloatArray:
-        """Return a lower bound of the distance in m of points (..., 3) in the world from the surface, below 0 inside."""
+        """Return a lower bound of the distance of points (..., 3) in the world from the surface, m, below 0 inside."""
         return self.distance_and_gradient(points)[0]
 
     def distance_and_gradient(self, points: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Return the bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
+        """Return the bound (...,), m, and its gradient (..., 3) in the world, at points (..., 3) in the world, m."""
         distance, gradient = self.field.distance_and_gradient(self.to_object_frame(points))
         return distance, gradient @ self.pose[:3, :3].T
 
@@ -69,7 +69,7 @@ class GriddedSolid(Solid):
         return np.asarray((np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3])
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the fields of the data class alone; the distance field is computed again or read from the disk."""
+        """Return only the fields of the data class; the distance field is computed again or read from the cache."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
@@ -79,16 +79,16 @@ class Mesh(GriddedSolid):
     """Closed surface of triangles with the volume inside it.
 
     Attributes:
-        shape: File (STL, OBJ, GLB or PLY; needs the extra ``cell``), or ``(vertices, faces)``: (V, 3) numbers and (F, 3)
-            positions in them.
-        scale: Metres in one unit of the file: 0.001 for millimetres.
+        shape: File (STL, OBJ, GLB or PLY; needs the extra ``cell``), or ``(vertices, faces)``: (V, 3) coordinates and (F, 3)
+            row numbers of the corners.
+        scale: Metres per unit of the file; 0.001 for millimetres.
         solid: ``exact`` is the surface itself, which must be closed; ``hull`` is its convex hull.
-        surface: The triangles, in m, in the mesh's own frame; of the hull for ``hull``. They face outward.
-        source: The file; None for arrays.
+        surface: Outward triangles in the mesh's own frame, m; those of the convex hull for ``hull``.
+        source: File of the mesh; None for arrays.
 
     Raises:
-        InputError: A file that is missing, empty or damaged, a surface that is not closed, or one in millimetres by its size.
-        HoldfastError: A file, and the extra ``cell`` is not installed.
+        InputError: The file is missing, empty or damaged, the surface is not closed, or its size suggests millimetres.
+        HoldfastError: A file is given and the extra ``cell`` is not installed.
     """
 
     shape: str | Path | tuple[ArrayLike, ArrayLike]
@@ -123,7 +123,7 @@ class Mesh(GriddedSolid):
         if self.solid == "hull":
             return _convex_hull(triangles, self.name)
         if not triangles.is_closed:
-            raise InputError(f"object '{self.name}': its mesh is not closed, so it has no inside; close it, or say solid: hull")
+            raise InputError(f"object '{self.name}': its mesh is not closed, so it has no inside; close it, or use solid: hull")
         return triangles if triangles.volume > 0 else mesh.Triangles(triangles.vertices, triangles.faces[:, ::-1].copy())
 
     @cached_property
@@ -133,22 +133,22 @@ class Mesh(GriddedSolid):
 
     @cached_property
     def field(self) -> DistanceField:
-        """Distance field in the mesh's own frame; computed on first use and stored on the disk."""
+        """Distance field in the mesh's own frame; computed on first use and cached on the disk."""
         return surface_field(self.surface, self.digest)
 
 
 @check_constructor
 @dataclass(frozen=True, eq=False)
 class Points(GriddedSolid):
-    """Cloud of points, as a scanner produces it, in which each point is a ball.
+    """Cloud of points, as produced by a scanner, in which each point is a ball.
 
     Attributes:
-        points: (N, 3) m, in the cloud's own frame, or the .npy file that holds them.
-        radius: Of every ball, m: at least half of what lies between neighbours on the thing that was scanned.
-        source: The file; None for an array.
+        points: (N, 3) points in the cloud's own frame, m, or the .npy file with them.
+        radius: Radius of every ball, m: at least half the distance between neighbouring points on the scanned surface.
+        source: File of the points; None for an array.
 
     Raises:
-        InputError: A file that is missing or damaged, no points, points that are not finite, or in millimetres by their size.
+        InputError: The file is missing or damaged, there are no points, or they are not finite or seem to be in millimetres.
     """
 
     points: FloatArray | str | Path
@@ -187,7 +187,7 @@ class Points(GriddedSolid):
 
     @cached_property
     def field(self) -> DistanceField:
-        """Distance field in the cloud's own frame; computed on first use and stored on the disk."""
+        """Distance field in the cloud's own frame; computed on first use and cached on the disk."""
         return cloud_field(self.centres, self.radius, self.digest)
 
 
@@ -231,9 +231,9 @@ def _read_array(path: Path, name: str) -> tuple[Any, bytes]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            # Without pickle: a file of points runs no code.
+            # Without pickle, so that a file of points cannot run code.
             return np.load(io.BytesIO(content), allow_pickle=False), content
-    except Exception as error:  # its header is Python, which fails in every way
+    except Exception as error:  # the header is Python code, which can raise any error
         raise InputError(f"object '{name}': '{path.name}' is damaged or not a .npy file; write it with numpy.save") from error
 
 

@@ -1,7 +1,7 @@
 """Distances of the nodes of a grid from a surface or from points: exact nearby, bounded from below and above far away.
 
-Near by, each triangle is compared with the nodes about it. Far away, the distance transform of a grid of half the width tells
-the distance from its nodes that are nearest to the surface, which lies within half a diagonal of these.
+Nearby, each triangle is compared with the nodes around it. Far away, the distance transform of a grid of half the width gives
+the distance to the nodes closest to the surface, which lies within half a diagonal of these nodes.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels import Kernel
 
-HALF_DIAGONAL = np.sqrt(3) / 2  # of a cube of edge 1, half of it
+HALF_DIAGONAL = np.sqrt(3) / 2  # half the diagonal of a cube of edge 1
 _BATCH_PAIRS = 1 << 19  # pairs of a part and a node, which fit into the cache of a processor
 _MAX_PAIRS = 1 << 24
-_BAND_WIDTHS = (3.0, 2.0, 1.5, 1.0)  # widths: how far from a part distances are exact, the first that is not too much work
+_BAND_WIDTHS = (3.0, 2.0, 1.5, 1.0)  # widths: range of exact distances; the first that is not too much work is used
 
 
 @dataclass(frozen=True)
@@ -28,9 +28,9 @@ class NodeGrid:
     """Regular grid of nodes.
 
     Attributes:
-        origin: (3,) its first node, m.
-        width: Between neighbours, m.
-        shape: Nodes along x, y and z.
+        origin: (3,) position of the first node, m.
+        width: Distance between neighbours, m.
+        shape: Number of nodes along x, y and z.
     """
 
     origin: FloatArray
@@ -68,8 +68,8 @@ class DistanceParts:
     """Points or triangles from which distances are computed.
 
     Attributes:
-        lower, upper: (M, 3) the boxes around them, m.
-        squared_distances: Squares of the distances, m^2, of points (P, 3) from the parts of numbers (P,).
+        lower, upper: (M, 3) corners of the boxes around the parts, m.
+        squared_distances: Function that returns squared distances, m^2, of points (P, 3) from the parts with numbers (P,).
     """
 
     lower: FloatArray
@@ -90,7 +90,7 @@ def point_parts(centers: FloatArray) -> DistanceParts:
 def triangle_parts(corners: FloatArray, max_edge: float) -> DistanceParts:
     """Return parts that are triangles (N, 3, 3), split until no edge is longer than ``max_edge``, m.
 
-    Each is looked at in a frame of its own: a in the origin, b on the first axis, c above it.
+    Each triangle has its own frame: corner a at the origin, b on the first axis, c above it.
     """
     corners = split_triangles(corners, max_edge)
     origins, first_edges, second_edges = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -120,7 +120,7 @@ def _triangle_distance_kernel() -> Kernel:
     x, y, z = (ca.dot(relative, triangle[3 + 3 * axis : 6 + 3 * axis]) for axis in range(3))
     base_length, apex_x, apex_y = triangle[12], triangle[13], triangle[14]
     side_bc = apex_y * (base_length - x) - y * (base_length - apex_x)  # of the edge from b to c
-    side_ca = apex_y * x - y * apex_x  # of that from c to a
+    side_ca = apex_y * x - y * apex_x  # of the edge from c to a
     projects_inside = ca.logic_and(y >= 0, ca.logic_and(side_bc >= 0, side_ca >= 0))
     edge_distance = ca.fmin(
         _segment_distance(x, y, base_length, 0),
@@ -148,7 +148,7 @@ def _normalize_rows(rows: FloatArray, fallback: FloatArray) -> FloatArray:
 
 
 def split_triangles(corners: FloatArray, max_edge: float) -> FloatArray:
-    """Split triangles at their longest edge until no edge is longer than ``max_edge``; the surface stays the same."""
+    """Split triangles at their longest edge until no edge is longer than ``max_edge``; the surface is unchanged."""
     finished = []
     while len(corners):
         edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
@@ -174,7 +174,7 @@ def node_distance_bounds(grid: NodeGrid, parts: DistanceParts) -> tuple[FloatArr
     fine_grid = grid.finer_grid
     half_diagonal = HALF_DIAGONAL * fine_grid.width
     is_seed = _distances_within_band(fine_grid, parts, half_diagonal * (1 + 1e-9)) <= half_diagonal * (1 + 1e-9)
-    # Where the nearest seed of each node is; asked for distances, it would tell those of seven times as many nodes.
+    # The nearest seed of each node; with distances, the transform would return seven times as many.
     nearest = distance_transform_edt(~is_seed, sampling=fine_grid.width, return_distances=False, return_indices=True)
     offsets = fine_grid.width * (nearest[:, ::2, ::2, ::2] - 2 * np.indices(grid.shape))
     far_distance = np.sqrt((offsets * offsets).sum(axis=0))
@@ -241,16 +241,16 @@ def _part_node_pairs(
 
 
 def find_inside_nodes(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, lower_distance: FloatArray) -> BoolArray:
-    """Return the nodes inside a closed surface, and those for which rounding leaves a doubt.
+    """Return the nodes inside a closed surface, and the nodes for which rounding leaves a doubt.
 
     The triangles above a node are counted with their orientation, along z and, as a check, along x. Neighbours that are both
-    further from the surface than half a width are on the same side of it: they vote.
+    farther from the surface than half a width are on the same side of it, so they vote.
 
     Args:
-        grid: The nodes.
-        vertices: (V, 3) m.
+        grid: Grid of the nodes.
+        vertices: (V, 3) vertices, m.
         faces: (F, 3) triangles that face outward.
-        lower_distance: What the distance of each node is at least, m.
+        lower_distance: Lower bound of the distance of each node, m.
     """
     from scipy.ndimage import label
 
@@ -266,7 +266,7 @@ def find_inside_nodes(grid: NodeGrid, vertices: FloatArray, faces: IndexArray, l
 
 
 def _winding_numbers(grid: NodeGrid, vertices: FloatArray, faces: IndexArray) -> NDArray[np.int32]:
-    """Return, negated, how often the surface is passed outward less inward on the way up along z to each node."""
+    """Return, negated, how often the surface is crossed outward minus inward along z up to each node."""
     corners = vertices[faces]
     flat_grid = NodeGrid(grid.origin * [1, 1, 0], grid.width, (grid.shape[0], grid.shape[1], 1))
     lower, upper = corners.min(axis=1) * [1, 1, 0], corners.max(axis=1) * [1, 1, 0]
@@ -279,7 +279,7 @@ def _winding_numbers(grid: NodeGrid, vertices: FloatArray, faces: IndexArray) ->
         sides = []
         weights = []
         for corner in range(3):
-            # Both triangles at an edge see it from the same end, so that a line through it passes exactly one of them.
+            # Both triangles at an edge see it from the same end, so that a line through it crosses exactly one of them.
             edge_start, edge_end = faces[part_indices, corner], faces[part_indices, (corner + 1) % 3]
             forward = edge_start < edge_end
             start, end = vertices[np.where(forward, edge_start, edge_end)], vertices[np.where(forward, edge_end, edge_start)]

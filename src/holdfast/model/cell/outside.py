@@ -1,13 +1,15 @@
-"""The distance from a surface or a point cloud for points outside its box, at any distance, from a small table.
+"""Distance from a surface or a point cloud at any distance outside its box, from a small table.
 
-A point p, the box's centre the origin, is on a larger box: all faces of the first one, with half edges b, moved outward by z.
-On face k ``p_k = +-(b_k + z)``, and along it ``p_i = a_i (b_i + z)`` with ``|a_i| <= 1``. With ``r = z + e`` for a length e
+A point p, with the box's centre as origin, is on a larger box whose faces are those of the first one, with half edges b, moved
+outward by z. On face k ``p_k = +-(b_k + z)``, and along it ``p_i = a_i (b_i + z)`` with ``|a_i| <= 1``. With ``r = z + e`` for
+a length e,
 
     E = (|p|^2 - d^2) / r = max_s (2 s.p / r - |s|^2 / r)
 
-over all s of the surface is convex in ``p / r`` and ``1 / r``, being a maximum of affine functions. Both are affine in each of
-``a_i`` and ``1 / r``, so trilinear interpolation in these has the right mean; what it says of E is never below it (Jensen), and
-the distance that follows never above the true one. The two are equal wherever the same s is the nearest to all nodes of a cell.
+over all s of the surface is convex in ``p / r`` and ``1 / r``, because it is a maximum of affine functions. Both are affine in
+each of ``a_i`` and ``1 / r``, so trilinear interpolation in these has the right mean. Its value of E is never too small
+(Jensen), and the resulting distance never too large. The two are equal wherever the same s is the nearest to all nodes of a
+cell.
 """
 
 from __future__ import annotations
@@ -19,8 +21,8 @@ from holdfast.core.typing import FloatArray
 from holdfast.model.cell.nodes import HALF_DIAGONAL, NodeGrid
 
 FACE_NODES = 33  # nodes along the edges of a face
-RADIAL_NODES = 17  # nodes of 1 / r, from 0, as far apart as squares
-_MAX_SURFACE_POINTS = 1 << 16  # points that a search is quick among
+RADIAL_NODES = 17  # nodes of 1 / r, from 0, with quadratic spacing
+_MAX_SURFACE_POINTS = 1 << 16  # points among which a search is fast
 _CUBES_PER_EDGE = 1 << 10  # cubes along an edge
 
 
@@ -45,10 +47,10 @@ def tabulate_outside_distances(grid: NodeGrid, samples: FloatArray, sample_gap: 
     E, (6, ACROSS, ACROSS, AWAY), m, is rounded up: faces (low x, high x, low y, ...), the two coordinates that follow, 1 / r.
 
     Args:
-        grid: Its box is the one looked at from outside.
+        grid: Grid with the box.
         samples: (N, 3) points of the surface, m, in the frame of the grid. The square of the distance from the nearest of them
-            exceeds that from the surface by at most ``apart**2``.
-        sample_gap: m.
+            exceeds that from the surface by at most ``sample_gap**2``.
+        sample_gap: Bound for the gap between samples, m.
     """
     from scipy.spatial import cKDTree
 
@@ -74,7 +76,7 @@ def tabulate_outside_distances(grid: NodeGrid, samples: FloatArray, sample_gap: 
             table[face, :, radial_index] = inverse_distance * (
                 (points * points).sum(axis=1) - np.maximum(distance * distance - sample_gap * sample_gap, 0.0)
             )
-    # Infinitely far away: what E can be more there than at the next node.
+    # Infinitely far away: the largest excess of E over its value at the next node.
     table[:, :, 0] = table[:, :, 1] + inverse_distances[1] * enclosing_radius * (
         2 * np.linalg.norm(half_sizes - offset) + enclosing_radius
     )

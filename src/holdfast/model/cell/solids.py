@@ -14,7 +14,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_constructor, require_real_numbers
 from holdfast.model.arm.machine import check_transform
 
-_UNBOUNDED_HALF_SIZE_M = 1e9  # m: half a size that no arm reaches
+_UNBOUNDED_HALF_SIZE_M = 1e9  # m: half a size beyond the reach of any arm
 
 
 @check_constructor
@@ -23,9 +23,9 @@ class Solid:
     """Static object in the world.
 
     Attributes:
-        name: Unique in its cell.
-        pose: (4, 4) of its own frame in the world, m; where it is not turned, its position (3,) will do.
-        margin: What an arm keeps from it at least, m; the cell's own margin counts where that is larger.
+        name: Name, unique in its cell.
+        pose: (4, 4) pose of its own frame in the world, m; a position (3,) if it is not rotated.
+        margin: Smallest distance that an arm must keep, m; the larger of this and the cell's margin counts.
     """
 
     name: str
@@ -39,13 +39,13 @@ class Solid:
             raise InputError(f"the margin of object '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
 
     def moved_to(self, pose: ArrayLike) -> Self:
-        """Return the same object at another pose (4, 4) in the world, m, or position (3,); data of its shape are kept."""
+        """Return the same object at another ``pose`` (4, 4) in the world, or position (3,), m; data of its shape are kept."""
         moved = copy(self)
         object.__setattr__(moved, "pose", _resolve_pose(pose, self.name))
         return moved
 
     def signed_distance(self, points: ArrayLike) -> FloatArray:
-        """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside, never above the true."""
+        """Return the distance of ``points`` (..., 3) in the world from the surface, m, below 0 inside, never too large."""
         raise NotImplementedError
 
     def _require_length(self, value: float, quantity: str) -> None:
@@ -56,23 +56,22 @@ class Solid:
 @check_constructor
 @dataclass(frozen=True, eq=False)
 class PrimitiveSolid(Solid):
-    """Object whose signed distance is a formula: a box with rounded edges, or one of its limiting cases.
+    """Object with a formula for its signed distance: a box with rounded edges, or one of its limiting cases.
 
-    With ``y`` a point in the object's own frame, half sizes ``b`` and ``d = |y| - b``, the signed distance is
-    ``||max(d, 0)|| + min(max_k d_k, 0) - rounding``. A cylinder has ``hypot(y1, y2)`` in place of ``|y1|``, a half space ``y3``
-    in place of ``|y3|``; what they do not bound has a half size that no arm reaches.
+    With ``y`` a point in the object's own frame, half sizes ``b`` and ``d = |y| - b``, the signed distance is ``||max(d, 0)|| +
+    min(max_k d_k, 0) - rounding``. A cylinder has ``hypot(y1, y2)`` instead of ``|y1|``, and a half space ``y3`` instead of
+    ``|y3|``; in unbounded directions the half size is beyond the reach of any arm.
     """
 
     def formula(self) -> tuple[tuple[float, float, float], float, bool, bool]:
-        """Return half sizes (3,) m, the rounding in m, whether it is round about z, and whether it is open below its z."""
+        """Return half sizes (3,), m, the rounding, m, whether it is round about z, and whether it is open below its z."""
         raise NotImplementedError
 
     def numbers(self, extra: float = 0.0) -> FloatArray:
-        """Return the inputs (18,) of the compiled bound: rotation (9) and translation (3) into the own frame, half sizes,
-        rounding, two flags.
+        """Return the inputs (18,) of the compiled bound: rotation (9) and translation (3), half sizes, rounding, flags.
 
         Args:
-            extra: Added to the rounding, m: the distance is less by it.
+            extra: Length added to the rounding, m, which reduces the distance.
         """
         half_sizes, rounding, round_, open_ = self.formula()
         to_object = self.pose[:3, :3].T
@@ -82,7 +81,7 @@ class PrimitiveSolid(Solid):
         )
 
     def signed_distance(self, points: ArrayLike) -> FloatArray:
-        """Return the distance in m of points (..., 3) in the world from the surface, below 0 inside."""
+        """Return the distance of points (..., 3) in the world from the surface, m, below 0 inside."""
         half_sizes, rounding, round_, open_ = self.formula()
         local_points = (np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3]
         absolute = np.abs(local_points)

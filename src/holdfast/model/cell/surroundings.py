@@ -1,4 +1,4 @@
-"""Cells from URDF and MJCF files: the shapes in them that do not move with the arm."""
+"""Cells from URDF and MJCF files: the shapes that do not move with the arm."""
 
 from __future__ import annotations
 
@@ -25,12 +25,11 @@ from holdfast.model.shapes.urdf_pieces import collect_urdf_shapes as collected_e
 def cell_arguments_from_urdf(
     path: Path, base: str | None, tip: str | None, hold: Mapping[str, float], meshes: Path | None
 ) -> dict[str, Any]:
-    """Return the arguments of :class:`holdfast.Cell` from a URDF file; poses are in the frame of the arm's base, which is its
-    world.
+    """Return the arguments of :class:`holdfast.Cell` from a URDF file; poses are in the frame of the arm's base, the world.
 
     Raises:
-        ArmError: The file is no sound tree, or has no such links or joints.
-        InputError: A shape that cannot be read.
+        ArmError: The file is no valid tree, or has no such links or joints.
+        InputError: A shape cannot be read.
     """
     robot = robot_element(path)
     tree = read_tree(robot, path.stem)
@@ -46,17 +45,16 @@ def cell_arguments_from_urdf(
 
 
 def cell_arguments_from_mjcf(path: Path, base: str | None, tip: str | None, hold: Mapping[str, float]) -> dict[str, Any]:
-    """Return the arguments of :class:`holdfast.Cell` from an MJCF file; meshes are replaced by their convex hulls, as in
-    MuJoCo.
+    """Return the arguments of :class:`holdfast.Cell` from an MJCF file; meshes become their convex hulls, as in MuJoCo.
 
     Raises:
         ArmError: MuJoCo cannot read the file, or it has no such bodies or joints.
-        InputError: A geom of which no distance is known.
+        InputError: A geom has no distance formula.
         HoldfastError: MuJoCo is not installed.
     """
     model, tree = mjcf.compile_tree(path)
     _, arm_links, place_link = _separate_arm_links(tree, base, tip, hold)
-    arm_links = arm_links - {tree.root}  # the world, which is never of the arm
+    arm_links = arm_links - {tree.root}  # the world, which never belongs to the arm
     pieces, missing = collected_geoms(
         model, "collision", lambda body: None if body in arm_links else place_link(body), world=True
     )
@@ -94,13 +92,13 @@ def _cell_arguments(
 ) -> dict[str, Any]:
     """Return the arguments of a cell whose objects the base may touch, because neither moves."""
     if missing:
-        raise InputError(f"a shape in it cannot be read: {missing[0].what}; mend or remove it, so that nothing is overlooked")
+        raise InputError(f"a shape in it cannot be read: {missing[0].what}; repair or remove it, so that no object is missed")
     objects = [_build_solid(label, piece, solid) for label, piece in zip(_unique_names(pieces, world), pieces, strict=True)]
     return {"objects": objects, "name": name, "may_touch": [(member.name, "base") for member in objects]}
 
 
 def _unique_names(pieces: list[Piece], world: str) -> list[str]:
-    """Return the names of the pieces: their own, else those of owners or, in the world, of kinds, with a number if taken."""
+    """Return the names of the pieces: their own, else those of owners or, in the world, of kinds, numbered if taken."""
     taken = {piece.label for piece in pieces}
     names = []
     for piece in pieces:
@@ -126,4 +124,4 @@ def _build_solid(name: str, piece: Piece, solid: Callable[[Triangles], str]) -> 
         case "mesh":
             solid_kind: Any = solid(Triangles(piece.vertices, piece.faces))
             return Mesh(name, (piece.vertices, piece.faces), solid=solid_kind, pose=piece.pose)
-    raise InputError(f"object '{name}' is an {piece.kind}, and no distance from one is known; make it a capsule or a mesh")
+    raise InputError(f"object '{name}' is an {piece.kind}, which has no distance formula; make it a capsule or a mesh")

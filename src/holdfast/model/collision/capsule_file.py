@@ -34,7 +34,7 @@ def read_capsule_file(path: Path) -> dict[str, Any]:
     """Read the keys and values of a file without validation.
 
     Raises:
-        InputError: It cannot be read or is not YAML.
+        InputError: The file cannot be read or is not YAML.
     """
     return read_mapping(path, "holdfast.model.collision.capsules", "radius or links")
 

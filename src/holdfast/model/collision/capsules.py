@@ -1,7 +1,7 @@
-"""Capsules on the links of an arm: by default, or from a file.
+"""Capsules on the links of an arm, by default or from a file.
 
-A capsule is all that lies within ``radius`` of a line segment; a segment of no length makes a sphere. An example of a file
-with every key; lengths in m, at least ``radius`` or ``links`` must be there::
+A capsule contains all points within ``radius`` of a line segment; a segment of length 0 makes a sphere. An example of a file
+with every key; lengths in m, ``radius`` or ``links`` is required::
 
     radius: 0.06              # of links that are not named below, and of capsules below without one of their own
     links:                    # by the joint that moves them, or base; points in the frame that moves with that joint
@@ -16,7 +16,7 @@ with every key; lengths in m, at least ``radius`` or ``links`` must be there::
       - [base, panda_joint4 (2)]
     source: measured by hand  # optional; said in reports
 
-A link that is not named has the capsule of :meth:`Capsules.along` if ``radius`` is given, else none.
+A link that is not named has the capsule of :meth:`Capsules.along_links` if ``radius`` is given, else none.
 """
 
 from __future__ import annotations
@@ -42,28 +42,28 @@ if TYPE_CHECKING:
 Point = tuple[float, float, float]
 
 BASE_LINK = -1
-"""The link that is still, in ``Capsule.link``."""
+"""The link that does not move, in ``LinkCapsule.link``."""
 
 COVER_PREFIX = "cover of the collision shapes of "
-"""How ``source`` begins of capsules that were made to contain the shapes of a file."""
+"""First words of ``source`` for capsules that contain the shapes of a file."""
 
-_RADIUS_FRACTION = 1 / 20  # default radius over the sum of the link lengths: an assumption
+_RADIUS_FRACTION = 1 / 20  # default radius relative to the sum of the link lengths, an assumption
 _NUMBER_SUFFIX = re.compile(r" \(\d+\)$")
 _POINT_LENGTH_M = 1e-9  # m: a link shorter than this has no length
 
 
 @dataclass(frozen=True)
 class LinkCapsule:
-    """A cylinder with round ends that moves with a link.
+    """Cylinder with round ends that moves with a link.
 
     Attributes:
         link: Index from 0 of the joint that moves the link; -1 for the base.
-        start, end: (3,) ends of its axis, m, in the frame that moves with that joint, as ``arm.links``; for the base, in
-            the arm's base frame. Equal for a sphere.
-        radius: m, above 0.
+        start, end: (3,) ends of its axis, m, in the frame that moves with that joint, as ``arm.links``; for the base, in the
+            arm's base frame. Equal for a sphere.
+        radius: Radius, m, above 0.
 
     Raises:
-        ArmError: An invalid link, point or radius.
+        ArmError: The link, a point or the radius is invalid.
     """
 
     link: int
@@ -92,15 +92,15 @@ class LinkCapsule:
 
 @dataclass(frozen=True)
 class Capsules:
-    """Collision model of an arm for collisions with itself.
+    """Collision model of an arm for collisions with itself and with objects.
 
     Attributes:
-        parts: Any number per link.
+        parts: Capsules, any number per link.
         ignore: Pairs of links, the smaller index first, that are never checked against each other.
         apart: Pairs of positions in ``parts``, the smaller first, that are never checked against each other.
-        source: Where they come from, for people; empty for those that were given or assumed.
-        shape: What they cover, if that is known; else they are the shape itself. Files and results do not hold it.
-        held: How many of the last parts are no part of the arm but something that it holds.
+        source: Origin, for people; empty for given or assumed capsules.
+        shape: Shape that the capsules contain, if known; else they are the shape itself. Files and results do not store it.
+        held: Number of last parts that belong to held objects, not to the arm.
     """
 
     parts: tuple[LinkCapsule, ...]
@@ -115,7 +115,7 @@ class Capsules:
         if any(not 0 <= index < len(self.parts) for pair in self.apart for index in pair):
             raise ArmError(f"apart names a capsule by number; there are 0 to {len(self.parts) - 1}")
         apart, ignore = _order_pairs(self.apart), _order_pairs(self.ignore)
-        # Links of which no two capsules are checked are a pair of links, as files have it.
+        # Links without any checked pair of capsules are a pair of links, as in files.
         for pair in {_order_pairs([(self.parts[first].link, self.parts[second].link)])[0] for first, second in apart}:
             first_parts, second_parts = ([index for index, part in enumerate(self.parts) if part.link == link] for link in pair)
             all_pairs = _order_pairs(product(first_parts, second_parts))
@@ -134,16 +134,16 @@ class Capsules:
     @classmethod
     @check_arguments
     def along_links(cls, arm: Arm, radius: float | None = None) -> Capsules:
-        """Make one capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
+        """Make one capsule along each link: from the frame that moves with its joint to the next joint, or to the tool point.
 
-        The base reaches from its own frame to the first joint. A link of no length lies within the round end of its
-        neighbour and has none, except on a prismatic joint, which takes it away from there: that gets a sphere. The rod on
-        which a joint slides is not covered.
+        The capsule of the base extends from its own frame to the first joint. A link of length 0 lies within the round end of
+        its neighbour and has no capsule; on a prismatic joint, which moves it away from there, it has a sphere. The rod of a
+        prismatic joint is not covered.
 
         Args:
-            arm: The arm.
-            radius: m; if not given, 1/20 of the sum of the link lengths (0.07 m for a Panda), which is an assumption about
-                arms in general and no fact about this one.
+            arm: Arm model.
+            radius: Radius, m. Default: 1/20 of the sum of the link lengths (0.07 m for a Panda), an assumption about arms in
+                general and no fact about this one.
 
         Raises:
             ArmError: The radius is not above 0, or the arm has no length.
@@ -158,7 +158,7 @@ class Capsules:
         return replace(self, parts=self.parts[: len(self.parts) - self.held], held=0) if self.held else self
 
     def radius_along(self, arm: Arm) -> float | None:
-        """Return the radius, m, if the arm's own capsules are those of :meth:`along_links`, none ignored; else None."""
+        """Return the radius, m, if the own capsules of ``arm`` are those of :meth:`along_links`, none ignored; else None."""
         radius = self.parts[0].radius if self.parts else None
         is_default = (
             radius is not None
@@ -173,27 +173,27 @@ class Capsules:
         return self.source.startswith(COVER_PREFIX)
 
     def is_assumed(self, arm: Arm) -> bool:
-        """Return True if the radius along the links is the one that :meth:`along_links` assumes."""
+        """Return True if the radius along the links of ``arm`` is the one that :meth:`along_links` assumes."""
         radius = self.radius_along(arm)
         return radius is not None and radius == assumed_radius(arm)
 
     def describe(self, arm: Arm) -> str:
-        """Describe the capsules and their source."""
+        """Return a phrase on the capsules of ``arm`` and their source."""
         own_count = len(self) - self.held
         radius = self.radius_along(arm)
         text = f"{own_count} capsule{'' if own_count == 1 else 's'}, as given"
         if radius is not None:
             text = f"{'assumed' if self.is_assumed(arm) else 'given'} radius {radius:.3g} m along each link"
-        held_phrase = f"; {self.held} more about what is held" if self.held else ""
+        held_phrase = f"; {self.held} more around held objects" if self.held else ""
         return (self.source or text) + held_phrase
 
     @classmethod
     @check_arguments
     def load(cls, path: str | Path, arm: Arm) -> Capsules:
-        """Read the capsules in a YAML file; see :mod:`holdfast.model.collision.capsules`.
+        """Read the capsules of ``arm`` in the YAML file ``path``; see :mod:`holdfast.model.collision.capsules`.
 
         Raises:
-            ArmError: The file cannot be read, or an entry is wrong or names no link of the arm; the sentence says where.
+            ArmError: The file cannot be read, or an entry is wrong or names no link of the arm; the message names it.
         """
         from holdfast.model.collision.capsule_file import read_capsule_file
 
@@ -204,10 +204,10 @@ class Capsules:
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], arm: Arm) -> Capsules:
-        """Make the capsules that :meth:`to_dict` wrote, or those of a file's keys and values.
+        """Make the capsules of ``arm`` from ``data``, the JSON data of :meth:`to_dict` or a file's keys and values.
 
         Raises:
-            ArmError: An entry is wrong or names no link of the arm; the sentence says where.
+            ArmError: An entry is wrong or names no link of the arm; the message names it.
         """
         from holdfast.model.collision.capsule_file import parse_capsules
 
@@ -239,7 +239,7 @@ class Capsules:
         return cls(tuple(parts), tuple(links), apart=tuple(apart), source=data_model.source)
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
-        """Return the arm's own capsules as JSON types, links by name: a file's keys and values."""
+        """Return the own capsules of ``arm`` as JSON types, links by name: a file's keys and values."""
         if self.held:
             return self.without_held.to_dict(arm)
         links: dict[str, list[dict[str, Any]]] = {}
@@ -252,14 +252,14 @@ class Capsules:
         return {"links": links, "ignore": ignore, **source_entry}
 
     def label(self, arm: Arm, part: int) -> str:
-        """Return the link of a capsule, by position in ``parts``, with the number of the capsule where the link has several."""
+        """Return the link of ``arm`` with capsule ``part`` (position in ``parts``), numbered if the link has several."""
         links = [capsule.link for capsule in self.parts]
         name = link_name(arm, links[part])
         return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
 
 
 def assumed_radius(arm: Arm) -> float:
-    """Return the radius, m, of :meth:`Capsules.along` where none is given.
+    """Return the default radius, m, of :meth:`Capsules.along_links`.
 
     Raises:
         ArmError: The arm has no length.
@@ -276,8 +276,8 @@ class IgnoredPair:
 
     Attributes:
         pair: Positions in ``capsules.parts``.
-        name: As in ``pair_names``.
-        reason: Why, for people.
+        name: Name as in ``pair_names``.
+        reason: Reason, for people.
     """
 
     pair: tuple[int, int]
@@ -325,7 +325,7 @@ def _link_ends(arm: Arm) -> list[FloatArray]:
 
 
 def capsule_along_link(arm: Arm, link: int, radius: float) -> list[LinkCapsule]:
-    """Return the capsule of :meth:`Capsules.along` for one link, if it has one."""
+    """Return the capsule of :meth:`Capsules.along_links` for one link, if it has one."""
     end = _link_ends(arm)[link + 1]
     if np.linalg.norm(end) >= _POINT_LENGTH_M:
         return [LinkCapsule(link, (0.0, 0.0, 0.0), _to_point(end), radius=radius)]

@@ -24,17 +24,17 @@ CHECKED_CONFIGURATIONS = 512  # configurations
 
 @dataclass(frozen=True, kw_only=True)
 class CheckedObject:
-    """An object of a cell, as found by a check.
+    """Object of a cell, with the results of a check.
 
     Attributes:
-        name: Its name.
+        name: Name of the object.
         kind: box, cylinder, capsule, sphere, half space, mesh, hull, or point cloud.
-        parts: How many triangles or points it has; 0 for what a formula describes.
-        width: Of its grid, m; 0 for what a formula describes.
-        excess: How much nearer it seems than it is at most, close to it, m; 0 for what a formula describes.
-        margin: What is kept from it, m.
-        touching: Fraction of the sampled configurations in which a link touches it, its margin not counted; NaN without an arm.
-        file: What it was read from and the SHA-256 of that; empty for none.
+        parts: Number of triangles or points; 0 for an object with a distance formula.
+        width: Width of its grid, m; 0 for an object with a distance formula.
+        excess: Largest underestimate of its distance, close to it, m; 0 for an object with a distance formula.
+        margin: Distance to keep from it, m.
+        touching: Fraction of the sampled configurations in which a link touches it, without its margin; NaN without an arm.
+        file: File from which it was read, and the SHA-256 of the file; empty for none.
     """
 
     name: str
@@ -52,17 +52,17 @@ class CellCheck(Result):
     """Result of the check of a cell.
 
     Attributes:
-        cell: Its name.
-        digest: SHA-256 of everything that counts in it.
+        cell: Name of the cell.
+        digest: SHA-256 of the cell's geometry and margins.
         arm: Name of the arm; empty for none.
-        objects: One for each object, in its order.
-        base: Objects that the base touches, or is nearer to than their margin, though they are not in ``may_touch``.
+        objects: Results for each object, in the order of the cell.
+        base: Objects that touch the base, or are closer to it than their margin, and are not in ``may_touch``.
         always: Pairs of a link and an object that touch in all sampled configurations.
-        colliding: Fraction of the sampled configurations in which anything touches; NaN without an arm.
-        samples: Configurations within the limits of the arm, the first points of the Sobol sequence.
-        spheres: How many cover the links of the arm that move.
-        reach: How far they reach beyond the capsules that they cover at most, m.
-        shape: What the arm's shape is, in words.
+        colliding: Fraction of the sampled configurations with any contact; NaN without an arm.
+        samples: Number of configurations within the limits of the arm, the first points of the Sobol sequence.
+        spheres: Number of spheres that cover the moving links of the arm.
+        reach: Largest distance by which the spheres extend beyond the capsules that they cover, m.
+        shape: Description of the arm's collision model.
     """
 
     cell: str
@@ -88,12 +88,12 @@ def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Cl
     """Check a cell for contacts, and for the resolution of its object distances.
 
     Args:
-        cell: The cell or its file.
-        arm: The arm in it; without one only the objects are looked at.
-        clearance: The shape of the arm; :meth:`Clearance.by_default` if not given.
+        cell: Cell or its file.
+        arm: Arm in the cell; without an arm only the objects are checked.
+        clearance: Collision model of the arm; default: :meth:`Clearance.by_default`.
 
     Raises:
-        InputError: The cell cannot be read, or ``may_touch`` names nothing of it or of the arm.
+        InputError: The cell cannot be read, or ``may_touch`` names no object of the cell or no link of the arm.
     """
     loaded_cell = as_cell(cell)
     assert loaded_cell is not None

@@ -1,4 +1,4 @@
-"""Bounds of how fast distances on an arm can change, from lengths alone, for proofs about whole motions."""
+"""Bounds of how fast distances on an arm can change, from lengths only, for proofs about whole motions."""
 
 from __future__ import annotations
 
@@ -15,18 +15,19 @@ Pairs = NDArray[np.int64]
 def pair_lipschitz_bounds(
     arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: FloatArray, upper: FloatArray
 ) -> FloatArray:
-    """Bound how much the distance of each pair of capsules changes per rad and m of each joint, (P, n).
+    """Bound the change of the distance of each pair of capsules per rad and m of each joint, (P, n).
 
-    A joint between the two links of a pair turns one capsule about an axis that the other does not feel, so the distance
-    changes by no more than the farthest point of either capsule from that axis, per rad; by 1 m per m along a slide. The
-    farthest point is no farther than the lengths along the chain: a Lipschitz bound for every configuration within the box.
+    A joint between the two links of a pair rotates one capsule about an axis and leaves the other at rest, so per rad the
+    distance changes by at most the distance of the farthest point of either capsule from that axis, and by 1 m per m for a
+    prismatic joint. The lengths along the chain bound the farthest point: a Lipschitz bound for every configuration within the
+    box.
 
     Args:
-        arm: The arm.
-        capsules: Its shape.
+        arm: Arm model.
+        capsules: Collision model of the arm.
         pairs: Positions in ``capsules.parts``, the capsule nearer to the base first.
         lower: (n,) lower corner of the box, finite, rad and m.
-        upper: (n,) upper corner.
+        upper: (n,) upper corner of the box, finite, rad and m.
     """
     extensions, offsets = _joint_extents(arm, lower, upper)
     bounds = np.zeros((len(pairs), arm.n))
@@ -34,7 +35,7 @@ def pair_lipschitz_bounds(
         first, second = capsules.parts[first_index], capsules.parts[second_index]
         end_distances = [max(float(np.linalg.norm(point)) for point in (part.start, part.end)) for part in (first, second)]
         for joint in range(first.link + 1, second.link + 1):
-            # Outwards from axis k to the second capsule; inwards from it to the first.
+            # Outwards from axis k to the second capsule, and inwards from the axis to the first.
             outward = _bound_outward_distance(extensions, offsets, joint, second.link) + end_distances[1]
             inward = offsets[first.link + 1 : joint + 1].sum() + extensions[first.link + 1 : joint].sum() + end_distances[0]
             pair_bounds[joint] = 1.0 if arm.prismatic[joint] else min(outward, inward)
@@ -44,14 +45,14 @@ def pair_lipschitz_bounds(
 def link_lipschitz_bounds(
     arm: Arm, links: Pairs, max_distances: FloatArray, lower: FloatArray, upper: FloatArray
 ) -> FloatArray:
-    """Bound as :func:`pair_lipschitz_bounds` the distances between links and fixed objects, (L, n).
+    """Bound the change of the distances between links and fixed objects, (L, n); see :func:`pair_lipschitz_bounds`.
 
     Args:
-        arm: The arm.
-        links: (L,) by the joint that moves each, from 0.
-        max_distances: (L,) farthest centre of the spheres of each link from its own frame, m.
+        arm: Arm model.
+        links: (L,) index from 0 of the joint that moves each link.
+        max_distances: (L,) largest distance of the sphere centres of each link from its own frame, m.
         lower: (n,) lower corner of the box, finite, rad and m.
-        upper: (n,) upper corner.
+        upper: (n,) upper corner of the box, finite, rad and m.
     """
     extensions, offsets = _joint_extents(arm, lower, upper)
     bounds = np.zeros((len(links), arm.n))

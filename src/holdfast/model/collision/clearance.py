@@ -1,4 +1,4 @@
-"""The clearance of an arm from itself and from a cell: the smallest distance between bodies that could collide."""
+"""Clearance of an arm from itself and from a cell: the smallest distance between bodies that could collide."""
 
 from __future__ import annotations
 
@@ -36,50 +36,50 @@ if TYPE_CHECKING:
 Pair = tuple[int, int]
 
 _OVERLAP_SAMPLES = 512  # configurations
-_ALWAYS_FRACTION = 0.95  # pairs that overlap in this share of them touch by construction
+_ALWAYS_FRACTION = 0.95  # pairs that overlap in this fraction of the configurations touch by construction
 
 
 class Clearance:
     """Smallest distance, m, between the capsules of an arm and the objects of its cell; below 0 in a collision.
 
-    Between two capsules a negative value is minus the depth: the distance between the axes less the two radii. The distance
-    from an object of the cell is a lower bound: that of the spheres that cover the capsules of a link.
+    A negative distance between two capsules is minus the penetration depth: the distance between the axes minus the two radii.
+    The distance from an object of the cell is a lower bound, computed from the spheres that cover the capsules of a link.
 
-    Not checked are capsules of one link, of adjacent links and of links under ``ignore`` (what is held is checked against all
-    links but the last), and capsules that touch by construction: those that overlap in at least 95 % of 512 configurations
-    within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These
-    are pairs with nothing but short links between them, such as the two sides of an elbow: that they meet says nothing. The
-    default collision matrix of the MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software
+    Some pairs of capsules are not checked: those of one link, of adjacent links, of links under ``ignore`` (held objects are
+    checked against all links except the last), and pairs that touch by construction, which overlap in at least 95 % of 512
+    configurations within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m if there is no
+    limit). Such pairs have only short links between them, for example the two sides of an elbow, so their overlap has no
+    meaning. The default collision matrix of the MoveIt Setup Assistant has the same criterion (Coleman et al. 2014, J. Software
     Eng. Robotics 5(1)).
 
     Args:
-        arm: The arm.
-        capsules: Its shape; if not given, a cover of the collision shapes of the arm's file
-            (:func:`holdfast.model.collision.cover.choose_capsules`), and :meth:`Capsules.along_links`, whose radius is an
-            assumption, where there are none. What the cell says to be held is added to the last link.
-        cell: The objects around it; none if not given. Objects are never adjacent to a link and never left out: only
-            ``may_touch`` of the cell takes a pair away.
-        itself: Look at the arm's own links as well, one against the other.
+        arm: Arm model.
+        capsules: Collision model of the arm. Default: a cover of the collision shapes of the arm's file
+            (:func:`holdfast.model.collision.cover.choose_capsules`) or, without such shapes, :meth:`Capsules.along_links`,
+            whose radius is an assumption. Held objects of the cell are added to the last link.
+        cell: Objects around the arm; default: none. Objects are never adjacent to a link and never left out; only ``may_touch``
+            of the cell excludes a pair.
+        itself: Check the arm's own links against each other.
 
     Attributes:
-        arm, capsules, cell: As given.
-        obstacles: The objects of the cell as the arm meets them, or None.
-        margins: (P,) what each pair keeps at least, m: 0 between links, the object's or the cell's margin otherwise.
-        pairs: Positions in ``capsules.parts`` of the capsules that are checked, the one nearer to the base first.
-        pair_names: Of all P pairs, their links, ``base & joint3``, by the joints that move them, with the number of the capsule
-            where a link has several; then each link with each object, ``joint3 & table``.
-        ignored: The pairs on different links that are not checked, and why.
+        arm, capsules, cell: Arguments of the constructor.
+        obstacles: Objects of the cell as obstacles of the arm, or None.
+        margins: (P,) required distance of each pair, m: 0 between links, the object's or the cell's margin otherwise.
+        pairs: Positions in ``capsules.parts`` of the checked capsules, the one nearer to the base first.
+        pair_names: Names of all P pairs: links, ``base & joint3``, by the joints that move them, with the number of the capsule
+            if a link has several; then each link with each object, ``joint3 & table``.
+        ignored: Pairs on different links that are not checked, with the reason.
 
     Raises:
-        ArmError: A capsule on a link that the arm does not have.
-        InputError: The base touches an object, or ``may_touch`` names nothing of the cell or the arm.
+        ArmError: A capsule belongs to a link that the arm does not have.
+        InputError: The base touches an object, or ``may_touch`` names no object of the cell or no link of the arm.
     """
 
     @check_arguments
     def __init__(self, arm: Arm, capsules: Capsules | None = None, cell: Cell | None = None, *, itself: bool = True) -> None:
         self.arm = arm
         if capsules is None or (cell is not None and cell.held):
-            from holdfast.model.collision.cover import capsules_in_cell  # takes long to import
+            from holdfast.model.collision.cover import capsules_in_cell  # slow to import
 
             capsules = capsules_in_cell(arm, cell, capsules)
         self.capsules = capsules.without_held if cell is None or not cell.held else capsules
@@ -103,7 +103,7 @@ class Clearance:
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if obstacles is None else obstacles.margins])
 
     def with_cell(self, cell: Cell | None) -> Clearance:
-        """Return the clearance in another cell; the arm's own pairs are chosen again only if the held objects differ."""
+        """Return the clearance in another ``cell``; the arm's own pairs are chosen again only if the held objects differ."""
         same_held = getattr(self.cell, "held", ()) == getattr(cell, "held", ())
         return self._copy_with_cell(cell) if same_held else Clearance(self.arm, self.capsules, cell, itself=self.itself)
 
@@ -115,15 +115,15 @@ class Clearance:
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
-        """Return the default clearance: the arm's own shape, as ``capsules`` has it where they are not given.
+        """Return the default clearance of ``arm`` in ``cell``: with the default of ``capsules``.
 
-        The links of an arm that moves in a plane lie beside each other, not in one plane: they are not checked against each
-        other, and without a cell there is nothing to keep: None.
+        The links of a planar arm lie next to each other, not in one plane, so they are not checked against each other. Without
+        a cell there is then nothing to check, and the result is None.
         """
         is_planar = plane_normal(arm) is not None
         return None if is_planar and cell is None else cls(arm, cell=cell, itself=not is_planar)
 
-    # ---- which pairs -------------------------------------------------------------------------------------------
+    # ---- choice of pairs ---------------------------------------------------------------------------------------
 
     @property
     def _capsule_links(self) -> list[int]:
@@ -134,7 +134,7 @@ class Clearance:
         links = self._capsule_links
         by_link = sorted(range(len(links)), key=links.__getitem__)
         different = [(first, second) for first, second in combinations(by_link, 2) if links[first] != links[second]]
-        first_held = len(links) - self.capsules.held  # from there on; what is said about links was not said about that
+        first_held = len(links) - self.capsules.held  # first held object; the rules for links do not apply to it
         for first, second in different:
             if second >= first_held:
                 continue
@@ -160,7 +160,7 @@ class Clearance:
         lower, upper = sampling_limits(self.arm)
         q = lower + (upper - lower) * sobol_points(_OVERLAP_SAMPLES, self.arm.n)
         symbols = kinematics.joint_symbols(self.arm)
-        # Used once: the virtual machine needs no compilation.
+        # Used once, so the virtual machine, which needs no compilation, is faster.
         values = Kernel(
             "overlaps", [symbols], [ca.vertcat(*self._pair_distances(self._capsule_axes(symbols), pairs))], backend="casadi"
         ).rows(q)
@@ -173,7 +173,7 @@ class Clearance:
 
     @property
     def _reference_link(self) -> int:
-        """The link whose frame all expressions use, in the middle of the arm: equal distances by shorter code."""
+        """Link whose frame all expressions use, in the middle of the arm, which gives equal distances by shorter code."""
         return self.arm.n // 2
 
     def _capsule_axes(self, q: SX) -> list[LineSegment]:
@@ -207,7 +207,7 @@ class Clearance:
         ]
 
     def distances(self, q: SX) -> list[SX]:
-        """Return the distance of every checked pair, m, for use in other programs; the smallest one is the clearance.
+        """Return the distance of every checked pair, m, for other programs; the smallest one is the clearance.
 
         Args:
             q: (n,) symbols or expressions, rad and m.
@@ -215,10 +215,11 @@ class Clearance:
         return self._pair_distances(self._capsule_axes(q), self.pairs)
 
     def slopes(self, q: SX, directions: Sequence[SX]) -> list[Vector]:
-        """Return the derivatives of :meth:`distances` along each direction (n,), one list per pair.
+        """Return the derivatives of :meth:`distances` at ``q`` (n,) along each of the ``directions`` (n,), one list per pair.
 
-        Only the joints between two links move one against the other. Exact, and shorter and better behaved than the
-        derivative of the code of the distances, where the feet of nearly parallel capsules give huge numbers that cancel.
+        Only the joints between two links move one relative to the other. The result is exact, and its code is shorter and more
+        stable than the derivative of the distances, in which the feet of nearly parallel capsules give huge numbers that
+        cancel.
         """
         screws = self._joint_screws(q)
         derivatives = []
@@ -229,7 +230,7 @@ class Clearance:
         return derivatives
 
     def smallest_with_slopes(self, q: SX, directions: Sequence[SX]) -> tuple[SX, Vector]:
-        """Return the clearance and its derivatives along each direction (n,): those of the closest pair."""
+        """Return the clearance at ``q`` (n,) and its derivatives along the ``directions`` (n,): those of the closest pair."""
         best_distance: SX = None
         best_derivatives: Vector = []
         for value, derivatives in zip(self.distances(q), self.slopes(q, directions), strict=True):
@@ -243,7 +244,7 @@ class Clearance:
 
     @cached_property
     def self_only(self) -> Clearance:
-        """The clearance without the cell, from which kernels are compiled, so that a changed cell needs no new kernel."""
+        """Clearance without the cell, from which kernels are compiled, so that a changed cell needs no new kernel."""
         return self if self.cell is None else self._copy_with_cell(None)
 
     @cached_property
@@ -277,23 +278,23 @@ class Clearance:
         ]
         return Kernel("clearance gradient", [q], [ca.vertcat(*gradient)])
 
-    # ---- what a user asks --------------------------------------------------------------------------------------
+    # ---- evaluation --------------------------------------------------------------------------------------------
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """Return the smallest distance in m, (N,), or a scalar for one configuration; infinite if there is no pair to check.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Raises:
-            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+            InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         return self._evaluate_rows(
             q, lambda rows: self._smallest_value(rows, None if self.obstacles is None else self.obstacles.smallest_distance)
         )
 
     def by_pair(self, q: ArrayLike) -> FloatArray:
-        """Return the distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
+        """Return the distance of every pair, m, (N, P) or (P,), in the order of ``pair_names``, at ``q`` (N, n) or (n,)."""
         rows, single = as_configurations(self.arm, q)
         values = self.self_only._pair_distances_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         if self.obstacles is not None:
@@ -301,7 +302,7 @@ class Clearance:
         return values[0] if single else values
 
     def margin_left(self, q: ArrayLike) -> FloatArray:
-        """Return the smallest distance above the margin of its pair (``margins``), m, (N,) or a scalar."""
+        """Return the smallest distance beyond the pair's margin (``margins``), m, (N,) or a scalar, at ``q`` (N, n) or (n,)."""
         return self._evaluate_rows(
             q, lambda rows: self._smallest_value(rows, None if self.obstacles is None else self.obstacles.smallest_margin)
         )
@@ -312,26 +313,26 @@ class Clearance:
 
     @cached_property
     def exactness(self) -> ExactQueries:
-        """Exact collision queries, answered by a library."""
+        """Exact collision queries, computed by a library."""
         ignored = [ignored_pair.pair for ignored_pair in self.ignored]
         self_clearance = self.self_only
         held_objects = () if self.cell is None else self.cell.held
-        from holdfast.model.collision.exact.exactness import ExactQueries  # takes long to import
+        from holdfast.model.collision.exact.exactness import ExactQueries  # slow to import
 
         return ExactQueries(
             self.arm, self.capsules, (self_clearance, self_clearance.by_pair), self.pairs, ignored, self.obstacles, held_objects
         )
 
     def sign(self, q: ArrayLike) -> BoolArray:
-        """Return whether no checked link touches another or an object, (N,) or a scalar: exact, of the bodies that the capsules
-        cover.
+        """Return whether no checked link touches another or an object at ``q`` (N, n) or (n,), (N,) or a scalar.
 
-        Margins do not count, less than 1e-6 m may, and a row that is not finite is not clear. Needs python-fcl or coal.
+        The result is exact for the bodies that the capsules contain. Margins do not count, and gaps below 1e-6 m may count as
+        contact. A row that is not finite is not collision-free. Needs python-fcl or coal.
         """
         return self._evaluate_rows(q, self.exactness.check_collision_free)
 
     def exact(self, q: ArrayLike) -> FloatArray:
-        """Return the smallest exact distance, m, (N,) or a scalar; 0 in contact; ``exact_by`` gives its accuracy."""
+        """Return the smallest exact distance, m, (N,) or a scalar, 0 in contact, at ``q`` (N, n) or (n,). Cf. ``exact_by``."""
         return self._evaluate_rows(q, self.exactness.smallest_distances)
 
     def _evaluate_rows(self, q: ArrayLike, evaluate: Callable[[FloatArray], NDArray[Any]]) -> NDArray[Any]:
@@ -341,13 +342,13 @@ class Clearance:
 
     @property
     def exact_by(self) -> str:
-        """Library of :meth:`exact` and its accuracy: ``coal 3.0.3, to 0.001 mm``."""
+        """Library of :meth:`exact` and its accuracy, such as ``coal 3.0.3, to 0.001 mm``."""
         return self.exactness.library_description
 
     def closest_pair(self, q: ArrayLike) -> IndexArray:
-        """Return the position in ``pair_names`` of the pair with the smallest margin, the first of several, (N,) or a scalar.
+        """Return the position in ``pair_names`` of the smallest margin, (N,) or a scalar, at ``q`` (N, n) or (n,).
 
-        It is -1 where q is not finite and if there is no pair to check.
+        Of several pairs it is the first. It is -1 where q is not finite and if there is no pair to check.
         """
         rows, single = as_configurations(self.arm, q)
         closest = np.full(len(rows), -1, dtype=np.int64)
@@ -357,16 +358,15 @@ class Clearance:
         return closest[0] if single else closest
 
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Return the exact gradient of the margin, (N, n) or (n,), m per rad and m; of the clearance where all margins are
-        equal.
+        """Return the exact gradient of :meth:`margin_left` at ``q`` (N, n) or (n,), of the same shape, m per rad and m.
 
-        Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
-        axes cross, which is a kink, and NaN where q is.
+        If two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two axes intersect,
+        which is a kink, and NaN where q is not finite.
         """
         return self._evaluate_rows(q, lambda rows: self.nearest(rows)[1])
 
     def nearest(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the margin (N,) m and its gradient (N, n) of configurations (N, n)."""
+        """Return the smallest distance beyond its margin (N,), m, and its gradient (N, n) at ``q`` (N, n), rad and m."""
         margin, gradient = _constant_if_finite(q, np.inf), np.repeat(_constant_if_finite(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
             margin, gradient = self.self_only._value_kernel.rows(q)[:, 0], self.self_only._gradient_kernel.rows(q)
@@ -377,16 +377,16 @@ class Clearance:
         return margin, gradient
 
     def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Bound how much the distance of each pair changes per rad and m of each joint in a box, (P, n), for proofs.
+        """Bound the change of the distance of each pair per rad and m of each joint in a box, (P, n), for proofs.
 
         Args:
             low: (n,) lower corner of the box, finite, rad and m.
-            high: (n,) upper corner.
+            high: (n,) upper corner of the box, finite, rad and m.
         """
         bounds = pair_lipschitz_bounds(self.arm, self.capsules, self.pairs, low, high)
         return bounds if self.obstacles is None else np.concatenate([bounds, self.obstacles.lipschitz_bounds(low, high)])
 
-    # ---- words -------------------------------------------------------------------------------------------------
+    # ---- phrases -----------------------------------------------------------------------------------------------
 
     @property
     def others(self) -> str:
@@ -396,15 +396,15 @@ class Clearance:
 
     @property
     def everything(self) -> str:
-        """The phrase of :attr:`others` with ``and``."""
+        """Phrase of :attr:`others` with ``and``."""
         return self.others.replace(" or ", " and ")
 
     def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
-        """Return the phrase for an arm whose clearance is below the margin.
+        """Return a phrase for an arm whose clearance is below the margin.
 
         Args:
-            margin: m.
-            q: (n,) rad and m, to say what is too close there: the pair with the least room and its distance.
+            margin: Required distance, m.
+            q: (n,) configuration, rad and m; the phrase then has the pair with the smallest margin and its distance.
         """
         obstacle_phrase, location_phrase, has_own_margin = self.others, "", bool(self.margins.any())
         if q is not None:

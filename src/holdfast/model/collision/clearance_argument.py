@@ -1,4 +1,4 @@
-"""Resolution of the arguments ``clearance=`` and ``cell=`` for every function that takes them."""
+"""Interpretation of the arguments ``clearance=`` and ``cell=`` for every function that has them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from holdfast.model.collision.shape import CollisionModel
 
 CellLike: TypeAlias = Cell | str | Path
-"""A cell, or the file that holds it."""
+"""Cell, or the path of its file."""
 
 
 @check_arguments
@@ -27,14 +27,14 @@ def chosen_clearance(
     """Return the clearance that an arm must respect, or None for none.
 
     Args:
-        arm: The arm.
-        clearance: Its shape and what it keeps clear of, maybe with a cell; None: :meth:`holdfast.Clearance.by_default`;
-            True: the default shape, of an arm that moves in a plane too; False: the arm is not looked at beside itself.
-        cell: Objects around it, or their file; they count whatever ``clearance`` says.
-        looks: Without a clearance and a cell the default is looked at; else nothing is.
+        arm: Arm model.
+        clearance: Collision model, possibly with a cell; None: :meth:`holdfast.Clearance.by_default`; True: the default model,
+            also for a planar arm; False: the arm is not checked against itself.
+        cell: Environment, or its file; it counts for any ``clearance``.
+        looks: Without a clearance and a cell, True uses the default clearance and False none.
 
     Raises:
-        InputError: A clearance of another arm, or with another cell than the one given.
+        InputError: The clearance belongs to another arm, or contains another cell than the given one.
         HoldfastError: The cell cannot be read, or does not fit the arm.
     """
     if isinstance(clearance, Clearance) and clearance.arm.fingerprint != arm.fingerprint:
@@ -69,12 +69,12 @@ def decode_clearance(arm: Arm, data: dict[str, Any], shape: CollisionModel | Non
     """Make the clearance that :func:`encode_clearance` encoded; None if the data contain none.
 
     Args:
-        arm: The arm.
-        data: As stored.
-        shape: What the capsules cover, if that is known; else they are the shape itself.
+        arm: Arm model.
+        data: Stored data.
+        shape: Shape that the capsules contain, if known; else they are the shape itself.
 
     Raises:
-        InputError: A file that the cell names is gone, or not as it was.
+        InputError: A file that the cell names is missing or has changed.
     """
     stored_clearance, stored_cell = data.get("clearance"), data.get("cell")
     if stored_clearance is None:
@@ -83,6 +83,6 @@ def decode_clearance(arm: Arm, data: dict[str, Any], shape: CollisionModel | Non
     if stored_cell is not None:
         cell = Cell.from_dict(stored_cell["data"])
         if stored_cell["sha256"] != cell.digest:
-            raise InputError(f"the cell '{cell.name}' is not as it was when the run began: a file that it names changed")
+            raise InputError(f"the cell '{cell.name}' has changed since the run began: a file that it names is different")
     capsules = replace(Capsules.from_dict(stored_clearance["capsules"], arm), shape=shape)
     return Clearance(arm, capsules, cell, itself=stored_clearance.get("itself", True))

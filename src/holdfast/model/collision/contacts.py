@@ -12,26 +12,26 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.engines import is_library_installed
 
-MAX_JOINT_SPACING = 0.05  # rad and m: how far a joint goes between two instants at most before anything is said
-MIN_DISTANCE_CHANGE_M = 5e-4  # m: between instants with less change than this nothing more is looked for
-TIME_TOLERANCE = 1e-9  # of the duration: how well the time of a contact is known
-_MAX_BISECTIONS = 60  # halvings
-_EXACT_BISECTIONS = 12  # of half a millimetre, for when the bodies touch
+MAX_JOINT_SPACING = 0.05  # rad and m: largest motion of a joint between two instants
+MIN_DISTANCE_CHANGE_M = 5e-4  # m: instants with a smaller possible change between them are not refined
+TIME_TOLERANCE = 1e-9  # of the duration: accuracy of the time of a contact
+_MAX_BISECTIONS = 60  # maximum number of bisections
+_EXACT_BISECTIONS = 12  # bisections of half a millimetre, for the time at which the bodies touch
 _BATCH_INSTANTS = 64  # instants
 
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
-    """The first touch of a link and an object, or of two links, on a motion.
+    """First contact of a link and an object, or of two links, on a motion.
 
     Attributes:
-        run: Which of several motions, from 0.
-        time: When, in the unit of the motion's time: the bound of the distance is 0 there for the first time.
-        link: By the joint that moves it, with the number of the capsule where two links meet and one has several.
-        object: Of the cell; or the other link.
-        depth: How far below 0 the bound goes on the motion, m, to half a millimetre: the arm is no deeper in the object.
-        exact_time: When the bodies themselves first touch, by an exact library: infinite if they do not on the motion; None
-            where none is installed.
+        run: Number of the motion, from 0.
+        time: Time in the unit of the motion, at which the lower bound of the distance is 0 for the first time.
+        link: Joint that moves the link, with the number of the capsule if two links meet and one has several.
+        object: Name of the object of the cell, or of the other link.
+        depth: Largest amount by which the bound is below 0 on the motion, m, to half a millimetre; the arm is no deeper.
+        exact_time: Time, in the same unit, at which the bodies themselves first touch, by an exact library: infinite if they
+            do not touch on the motion; None without a library.
     """
 
     run: int = 0
@@ -42,17 +42,18 @@ class Contact:
     exact_time: float | None = None
 
     def sentence(self, unit: str = "s") -> str:
-        """Describe the contact; the unit is that of the time."""
+        """Return a sentence on the contact; ``unit`` is the unit of the time, such as ``s``."""
         return f"{_format_instant(self.time, unit)} {self.link} touches {self.object}{self.confirmation(unit)}"
 
     def confirmation(self, unit: str = "s") -> str:
-        """Return the phrase on the exact contact that follows the sentence, if an exact library was used."""
+        """Return the phrase on the exact contact after the sentence, with times in ``unit``; empty without an exact library."""
         if self.exact_time is None:
             return ""
         if np.isinf(self.exact_time):
-            return ", by the bound; exactly, it does not"
+            return ", by the lower bound; by exact distances there is no contact"
         moments = [_format_instant(instant, unit) for instant in (self.time, self.exact_time)]
-        return ", exactly" if moments[0] == moments[1] else f", by the bound; exactly, {moments[1]}"
+        exact_phrase = ", by exact distances"
+        return exact_phrase if moments[0] == moments[1] else f", by the lower bound;{exact_phrase[1:]} {moments[1]}"
 
 
 def _format_instant(time: float, unit: str) -> str:
@@ -64,17 +65,17 @@ def find_first_contacts(
 ) -> list[Contact]:
     """Find the first contact of every pair that touches on a motion, in order of time.
 
-    The motion is taken to be straight in joint space between instants at most 0.05 rad or m apart. A pair that is d_1 and d_2
-    away at two of them comes no closer between them than ``(d_1 + d_2 - L) / 2``, L the most that its distance can change on
-    the way (:meth:`Clearance.lipschitz_bounds`). Where that is below 0 the instant in the middle is looked at too, until L is
-    below half a millimetre: a touch that is less than a quarter of a millimetre deep may go unseen, no other. Depths are known
-    to half a millimetre in the same way.
+    The motion is assumed to be straight in joint space between instants at most 0.05 rad or m apart. A pair whose distances at
+    two instants are d_1 and d_2 comes no closer between them than ``(d_1 + d_2 - L) / 2``, where L bounds the change of its
+    distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the instant in the middle is checked as well, until L is
+    below half a millimetre. Only a contact that is less than a quarter of a millimetre deep may be missed. Depths are known to
+    half a millimetre in the same way.
 
     Args:
-        clearance: What is looked at; margins are not contacts.
-        time: (T,) ascending.
-        q: (T, n) the motion then, rad and m, finite.
-        evaluate: The motion (N, n) at other times (N,); straight lines if not given.
+        clearance: Collision model; margins are not contacts.
+        time: (T,) ascending times.
+        q: (T, n) configurations of the motion, rad and m, finite.
+        evaluate: Function that returns the motion (N, n) at other times (N,); default: straight lines.
     """
     if not clearance.pair_names:
         return []

@@ -1,9 +1,9 @@
-"""Capsules that contain the shape of an arm: a guarantee, not a fit.
+"""Capsules that are guaranteed to contain the shape of an arm.
 
-Every body of a link starts with one capsule about its convex hull; where that reaches too far beyond, a plane through the
-middle cuts it in two. Then capsules of one link are joined where one about both is good enough. How far a capsule reaches
-beyond a body is the mean over all directions of how much farther it reaches, plus, where the body is not convex, the mean
-depth of what its hull fills in.
+Every body of a link starts with one capsule around its convex hull. If the capsule extends too far beyond the body, a plane
+through the middle splits the body. Then capsules of one link are merged if one capsule around both is tight enough. The excess
+of a capsule is the mean over all directions of the distance by which it extends beyond the body, plus, if the body is not
+convex, the mean depth of the volume that its hull adds.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ from holdfast.model.shapes.pieces import Kind, Piece
 Triangles = NDArray[np.int64]
 
 MAX_MEAN_EXCESS_M = 0.01  # m
-_COMPARED_DIRECTIONS = 600  # in which two bodies are compared
-_MAX_CUTS = 3  # one after the other: at most 8 parts of a body
-_CUT_GAIN_FRACTION = 0.85  # of what a body had: a cut that leaves more is not made
+_COMPARED_DIRECTIONS = 600  # directions in which two bodies are compared
+_MAX_CUTS = 3  # successive cuts: at most 8 parts of a body
+_CUT_GAIN_FRACTION = 0.85  # of the previous excess: a cut that leaves more is not made
 _SURFACE_POINTS = 2000  # points of a surface
-_MAX_MERGED_BODIES = 12  # bodies of one link, at most, that are tried in pairs
+_MAX_MERGED_BODIES = 12  # maximum number of bodies of one link that are tried in pairs
 
 
 @check_arguments
@@ -47,13 +47,12 @@ def make_cover(shape: CollisionModel, arm: Arm, spheres_to: float = MAX_MEAN_EXC
     """Make capsules that contain every piece of a shape, and assumed capsules along links with a piece that could not be read.
 
     Args:
-        shape: What collides of the arm.
-        arm: The arm.
-        spheres_to: How far, m, they may reach beyond a body in the mean over all directions, as far as that can be had with
-            at most 8 of them.
+        shape: Collision shapes of the arm.
+        arm: Arm model.
+        spheres_to: Largest mean excess over a body in all directions, m, as far as at most 8 capsules per body can achieve it.
 
     Returns:
-        The capsules, and in ``source`` where they come from.
+        The capsules, with their origin in ``source``.
 
     Raises:
         InputError: ``spheres_to`` is not above 0.
@@ -92,7 +91,7 @@ def _are_links_unchecked(shape: CollisionModel, owners: list[str], others: list[
 def _describe_cover(shape: CollisionModel, arm: Arm, count: int, mean_excess: float, max_excess: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
     text = (
-        f"{COVER_PREFIX}{shape.source}: {capsules}, {1e3 * mean_excess:.0f} mm beyond their hulls in the mean, "
+        f"{COVER_PREFIX}{shape.source}: {capsules}, {1e3 * mean_excess:.0f} mm beyond their hulls on average, "
         f"{1e3 * max_excess:.0f} mm at most"
     )
     if shape.missing:
@@ -107,12 +106,12 @@ class _CoveredBody:
     """Triangles of a body, and the capsule around them.
 
     Attributes:
-        points: (V, 3) m.
-        faces: (F, 3) indices.
-        owners: Links of the file that it is of.
-        cuts: Unit normals (3,) and offsets, m, of the planes that cut it from a larger one.
-        excess: How far the capsule reaches beyond, m in the mean.
-        max_excess: And at most beyond the hull.
+        points: (V, 3) vertices, m.
+        faces: (F, 3) row numbers of the corners.
+        owners: Links of the file to which the body belongs.
+        cuts: Unit normals (3,) and offsets, m, of the planes that cut it from a larger body.
+        excess: Mean distance by which the capsule extends beyond the body, m.
+        max_excess: Largest distance by which the capsule extends beyond the hull, m.
     """
 
     points: FloatArray
@@ -160,7 +159,7 @@ def _piece_triangles(piece: Piece) -> tuple[FloatArray, Triangles]:
 
 
 def _cover_triangles(soups: list[tuple[FloatArray, Triangles]], owner: str, target: float) -> list[_CoveredBody]:
-    """Return bodies with tight enough capsules that together contain all triangles, one for all if that is tight enough."""
+    """Return bodies with tight enough capsules that together contain all triangles, one body if that is tight enough."""
     if not soups:
         return []
     merged = _make_body(*_merge_triangles(soups), (owner,))
@@ -183,7 +182,7 @@ def _merge_bodies(bodies: list[_CoveredBody], target: float) -> list[_CoveredBod
     while 1 < len(remaining) <= _MAX_MERGED_BODIES:
         for pair in combinations(remaining, 2):
             if pair not in merged:
-                # Where the cut between them is gone, its plane must not hide that their hull is hollow: none is kept.
+                # If the cut between them is gone, its plane must not hide that their hull is hollow, so none is kept.
                 merged_pair = [remaining[key] for key in pair]
                 owners = sorted({owner for body in merged_pair for owner in body.owners})
                 merged[pair] = _make_body(*_merge_triangles([(body.points, body.faces) for body in merged_pair]), tuple(owners))
@@ -248,7 +247,7 @@ def _make_body(
 
 def _mean_hull_gap(points: FloatArray, faces: Triangles, cuts: tuple[tuple[FloatArray, float], ...]) -> float:
     """Return the mean distance, m, of the hull's surface from the triangles; the planes of cuts do not count."""
-    from scipy import spatial  # takes long to import, and is needed once for each shape
+    from scipy import spatial  # slow to import, and needed once for each shape
 
     try:
         hull = spatial.ConvexHull(points)
@@ -260,13 +259,13 @@ def _mean_hull_gap(points: FloatArray, faces: Triangles, cuts: tuple[tuple[Float
     if not len(hull_points):
         return 0.0
     body_points = np.concatenate([_spread_points(points, faces), points])
-    # Points of one surface are about this far from each other, so from those of the other as well.
+    # This is about the distance of neighbouring points of one surface, and thus of points of the other.
     point_spacing = np.sqrt(hull.area / _SURFACE_POINTS)
     return float(np.maximum(spatial.cKDTree(body_points).query(hull_points)[0] - point_spacing, 0).mean())
 
 
 def _spread_points(points: FloatArray, faces: Triangles) -> FloatArray:
-    """Spread (_SAMPLES, 3) points over triangles evenly by area; the points are the same each time."""
+    """Spread (_SURFACE_POINTS, 3) points over triangles evenly by area; the points are the same each time."""
     a, b, c = (points[faces[:, index]] for index in range(3))
     cumulative_area = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
     index = np.arange(_SURFACE_POINTS)
@@ -280,17 +279,16 @@ def _spread_points(points: FloatArray, faces: Triangles) -> FloatArray:
 
 @check_arguments
 def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
-    """Choose the capsules of an arm where none are given: the cover of its collision shapes, else
-    :meth:`holdfast.Capsules.along_links`.
+    """Choose the default capsules of an arm: the cover of its collision shapes, else :meth:`holdfast.Capsules.along_links`.
 
     Args:
-        arm: The arm.
-        cell: May say which of the two it is to be, or name a capsule file; how far the cover may reach beyond the shape; and
-            where joints beside the chain are held.
+        arm: Arm model.
+        cell: Cell, which may choose one of the two or name a capsule file, limit the excess of the cover, and set the values of
+            joints next to the chain.
 
     Raises:
-        InputError: The cell asks for the shape of the arm's file, which gives none that can be read.
-        ArmError: The cell names a capsule file that is wrong or a joint that the arm's file lacks.
+        InputError: The cell requires the shape of the arm's file, which contains no readable shape.
+        ArmError: The cell names a wrong capsule file, or a joint that the arm's file lacks.
     """
     requested = "" if cell is None else cell.shape
     if requested == "assumed":
@@ -311,7 +309,7 @@ def choose_capsules(arm: Arm, cell: Cell | None = None) -> Capsules:
     if requested:
         raise InputError(
             f"the cell asks for the meshes of '{arm.name}', and {reason or 'no file gives it collision shapes'}; "
-            "give their folder by --meshes (meshes= in Python), or say shape: assumed"
+            "give their folder by --meshes (meshes= in Python), or use shape: assumed"
         )
     assumed = Capsules.along_links(arm)
     return replace(assumed, source=f"{assumed.describe(arm)} ({reason})") if reason else assumed
@@ -324,13 +322,13 @@ def capsules_in_cell(arm: Arm, cell: Cell | None, capsules: Capsules | None = No
 
 
 def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:
-    """Return the capsules of an arm with those of the given held objects in place of previous held objects.
+    """Return the capsules of an arm with those of the given held objects instead of previous held objects.
 
     Args:
-        capsules: The arm's.
-        arm: The arm.
+        capsules: Capsules of the arm.
+        arm: Arm model.
         held: Boxes, cylinders, capsules and spheres with their poses in the tool's frame; they move with the last link.
-        spheres_to: As :func:`make_cover` has it.
+        spheres_to: Largest mean excess, m, as for :func:`make_cover`.
     """
     arm_capsules = capsules.without_held
     if not held:
@@ -357,10 +355,10 @@ def with_held_objects(capsules: Capsules, arm: Arm, held: Sequence[Solid], spher
 
 
 def _piece_size(solid: Solid) -> tuple[float, ...]:
-    """Return the size of a held object as pieces have it.
+    """Return the size of a held object as :class:`Piece` defines it.
 
     Raises:
-        InputError: The solid is none that can be held.
+        InputError: The solid cannot be held.
     """
     if isinstance(solid, solids.Box):
         return tuple(float(edge) for edge in solid.size)

@@ -1,4 +1,4 @@
-"""The capsule around a set of points with the smallest mean excess, by nonlinear optimisation.
+"""Capsule around a set of points with the smallest mean excess, by nonlinear optimisation.
 
 A capsule is convex, so it contains a convex hull if and only if it contains its corners.
 """
@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 
-_RADIUS_SLACK_M = 1e-6  # m that the radius has beyond the farthest corner
+_RADIUS_SLACK_M = 1e-6  # m by which the radius exceeds the farthest corner
 _INITIAL_DIRECTIONS = 48  # directions in which the first points are the farthest
 _ADDED_POINTS = 12  # points that one round adds
 _MAX_ROUNDS = 6
@@ -30,16 +30,16 @@ def sphere_directions(count: int) -> FloatArray:
 
 
 def main_axes(points: FloatArray) -> FloatArray:
-    """Return (3, 3) unit vectors in rows along which points (V, 3) vary most, then less, then least."""
+    """Return (3, 3) unit vectors in rows, along which points (V, 3) vary most, then less, then least."""
     centered = points - points.mean(axis=0)
     return np.asarray(np.linalg.eigh(centered.T @ centered)[1].T[::-1])
 
 
 def enclosing_capsule(points: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Return start (3,), end (3,) and radius, m, of a capsule that contains points (V, 3), the radius by 1e-6 m.
+    """Return start (3,), end (3,) and radius, m, of a capsule that contains points (V, 3), the radius to 1e-6 m.
 
-    Minimised is ``radius + length / 4``: the mean over all directions of how far the capsule reaches, up to a constant. Started
-    from the two main axes along which the points reach farthest; the points that count are found on the way.
+    It minimises ``radius + length / 4``, which is up to a constant the mean extent of the capsule over all directions. It
+    starts from the two main axes along which the points extend farthest, and adds the relevant points step by step.
     """
     axes, center = main_axes(points), points.mean(axis=0)
     coordinates = (points - center) @ axes.T
@@ -94,7 +94,7 @@ def _improve_capsule(points: FloatArray, x: FloatArray) -> FloatArray:
         end_gradient = span / np.sqrt(span @ span + 1e-12) / 4
         return np.concatenate([-end_gradient, end_gradient, [1.0]])
 
-    from scipy.optimize import minimize  # takes long to import
+    from scipy.optimize import minimize  # slow to import
 
     constraint: Any = {"type": "ineq", "fun": constraint_values, "jac": constraint_gradients}
     result = minimize(capsule_size, x, jac=size_gradient, constraints=[constraint], method="SLSQP", options=_SLSQP_OPTIONS)

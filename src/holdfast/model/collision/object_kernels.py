@@ -1,8 +1,8 @@
 """Compiled distances between the spheres that cover an arm and a block of objects, whose parameters are inputs.
 
-A program is of an arm and its spheres; a cell that changed compiles nothing. The objects of a block share the positions of the
-spheres. Of the spheres of one radius on a link the nearest is found without a root: outside, the square of the distance from
-the object grows with it; inside, the depth is what it is.
+A program belongs to an arm and its spheres, so a changed cell compiles nothing. The objects of a block share the positions of
+the spheres. Among the spheres of one radius on a link the nearest is found without a root: outside, the squared distance from
+the object is monotonic in the distance; inside, the depth is used directly.
 """
 
 from __future__ import annotations
@@ -26,17 +26,16 @@ from holdfast.model.cell.solids import PrimitiveSolid
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.sphere_cover import SphereCover
 
-BLOCK_OBJECTS = 4  # objects that one call takes
-OBJECT_PARAMETERS = 18  # of an object: see Primitive.numbers
-FAR_AWAY_M = 1e9  # m: how far away is what is not looked at
+BLOCK_OBJECTS = 4  # objects of one call
+OBJECT_PARAMETERS = 18  # of an object: see PrimitiveSolid.numbers
+FAR_AWAY_M = 1e9  # m: distance of pairs that are not checked
 
 
 @cached_kernel
 def distance_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
-    """Compile the least distance from a block of objects, then that of each moving link from each object, (1 + L BLOCK,), link
-    by link.
+    """Compile the least distance from a block of objects, then that of each moving link from each object, (1 + L BLOCK,).
 
-    Inputs: q (n,) and the block (BLOCK, 18 + L): the numbers of each object, and what is added to its distance from each link.
+    Inputs: q (n,) and the block (BLOCK, 18 + L): the numbers of each object, and the offset of its distance from each link.
     """
     q, objects, sphere_positions = _kernel_symbols(arm, spheres)
     columns = [_distances_by_link(spheres, sphere_positions, objects[object_index, :]) for object_index in range(BLOCK_OBJECTS)]
@@ -67,9 +66,7 @@ def _moving_links(spheres: SphereCover) -> IndexArray:
 
 
 def _kernel_symbols(arm: ArmData, spheres: SphereCover) -> tuple[SX, SX, list[Vector]]:
-    """Return joint variables (n,), the block's parameters (BLOCK, 18 + L), and the position of each moving sphere, (3,) in the
-    world.
-    """
+    """Return joint variables (n,), the block's parameters (BLOCK, 18 + L), and world positions (3,) of the moving spheres."""
     q, sphere_positions = sphere_centers(arm, spheres)
     return q, ca.SX.sym("objects", BLOCK_OBJECTS, OBJECT_PARAMETERS + len(_moving_links(spheres))), sphere_positions
 
@@ -99,7 +96,7 @@ def directional_jacobian(arm: ArmData, q: SX, link: SX, point: Sequence[SX], dir
 
 @cache
 def outward_gradient_kernel() -> Kernel:
-    """Compile the gradient (3,) in the world of the signed distance at a point (3,), of an object's parameters (18,)."""
+    """Compile the gradient (3,) in the world of the signed distance at a point (3,), for an object's parameters (18,)."""
     point, numbers = ca.SX.sym("point", 3), ca.SX.sym("numbers", OBJECT_PARAMETERS)
     return Kernel(
         "direction away from an object", [point, numbers], [ca.vertcat(*_outward_gradient(numbers, ca.vertsplit(point)))]
@@ -131,12 +128,12 @@ def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], num
 
 
 def _point_in_object_frame(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vector]:
-    """Return the point in the object's frame, its distance from the center along each axis, and that less the half sizes."""
+    """Return the point in the object's frame, its distance from the center along each axis, and that minus the half sizes."""
     local_point: Vector = [
         numbers[9 + axis] + sum(numbers[3 * axis + column] * point[column] for column in range(3)) for axis in range(3)
     ]
     is_round, closed = numbers[16], 1 - 2 * numbers[17]
-    height_below = -closed * local_point[2]  # y[2] again where the object is open
+    height_below = -closed * local_point[2]  # y[2] with its sign if the object is open
     extents = [
         ca.sqrt(local_point[0] * local_point[0] + is_round * (local_point[1] * local_point[1])),
         ca.fabs(local_point[1]),
@@ -146,7 +143,7 @@ def _point_in_object_frame(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Ve
 
 
 def _squared_distance_or_depth(d: Vector) -> SX:
-    """Return the square of the distance outside, the signed distance inside, of an object without rounding."""
+    """Return the square of the distance outside, or the signed distance inside, of an object without rounding."""
     depth = _maximum(d)
     return ca.if_else(depth > 0, _outside_square(d), depth)
 
@@ -172,7 +169,7 @@ def _outward_gradient(numbers: SX, point: Sequence[SX]) -> Vector:
     local_point, extents, excess = _point_in_object_frame(numbers, point)
     depth, length = _maximum(excess), ca.sqrt(_outside_square(excess))
     outside = depth > 0
-    faces_taken: SX = 0.0  # inside, the first of the faces that are nearest
+    faces_taken: SX = 0.0  # inside, the first of the nearest faces
     components: Vector = []
     for component in excess:
         is_face = ca.if_else(ca.logic_and(component >= depth, faces_taken < 0.5), 1.0, 0.0)
@@ -203,11 +200,11 @@ class FormulaObjects:
     """Objects with a distance formula, against the spheres of an arm.
 
     Args:
-        arm: The arm.
-        spheres: The spheres that cover it.
-        objects: F of them.
-        offsets: (L, F) added to the distance of each moving link from each, m.
-        margins: (F,) what is kept from each, m; nothing if not given.
+        arm: Arm model.
+        spheres: Spheres that cover the arm.
+        objects: F objects.
+        offsets: (L, F) offset of the distance of each moving link from each object, m.
+        margins: (F,) distance to keep from each object, m; default: 0.
     """
 
     def __init__(
@@ -240,7 +237,7 @@ class FormulaObjects:
 
     def _pack_blocks(self, inflation: FloatArray) -> FloatArray:
         """Pack the kernel inputs block by block, (B, BLOCK, 18 + L), with every object inflated by its entry of (F,), m."""
-        # What is lacking to whole blocks.
+        # Padding to whole blocks.
         far_object = np.concatenate([np.zeros(OBJECT_PARAMETERS), np.full(self._links, FAR_AWAY_M)])
         numbers = [
             solid.numbers(solid_inflation) for solid, solid_inflation in zip(self.objects, inflation.tolist(), strict=True)
@@ -253,7 +250,7 @@ class FormulaObjects:
         self, kernel: Kernel, q: FloatArray, blocks: FloatArray, output_count: int | None = None
     ) -> list[FloatArray]:
         """Evaluate a kernel on each block, (N, outputs) each."""
-        if len(q) == 1:  # one call: the blocks are its rows
+        if len(q) == 1:  # one call, with the blocks as its rows
             return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=output_count)[:, None])
         return [kernel.rows(q, block, first=output_count) for block in blocks]
 
@@ -269,7 +266,7 @@ class FormulaObjects:
         return self._smallest_distance(q, self._uninflated_blocks)
 
     def smallest_margin(self, q: FloatArray) -> FloatArray:
-        """Return the least distance above the margins (N,), m."""
+        """Return the least distance beyond the margins (N,), m."""
         return self._smallest_distance(q, self._inflated_blocks)
 
     def link_distances(self, q: FloatArray) -> FloatArray:
@@ -288,14 +285,14 @@ class FormulaObjects:
         return kernels
 
     def nearest_margin_and_gradient(self, q: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
-        """Return the least distance above the margins, m, the position of its link, its object, and the gradient (N, n).
+        """Return the least distance beyond the margins, m, the position of its link, its object, and the gradient (N, n).
 
         Args:
-            q: (N, n) rad and m; a row that is not finite gets NaN.
+            q: (N, n) configurations, rad and m; a row that is not finite gets NaN.
         """
         rows = np.stack(self._evaluate_blocks(self._nearest_kernel, q, self._inflated_blocks))
         block = np.argmin(rows[:, :, 0], axis=0)  # NaN is in all of them or in none
         best = rows[block, np.arange(len(q))]
         link, object_index = np.nan_to_num(best[:, 1]).astype(np.int64), np.nan_to_num(best[:, 2]).astype(np.int64)
-        # Where all may touch, an object that is not there may be the first.
+        # If all pairs may touch, the first object may be padding.
         return best[:, 0], link, np.minimum(block * BLOCK_OBJECTS + object_index, len(self.objects) - 1), best[:, 3:]

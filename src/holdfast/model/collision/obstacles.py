@@ -1,8 +1,8 @@
-"""A lower bound of the distance between an arm and the objects of a cell, compiled once for the arm: objects are inputs.
+"""Lower bound of the distance between an arm and the objects of a cell, compiled once for the arm: objects are inputs.
 
-The arm is covered by spheres (:mod:`holdfast.model.collision.sphere_cover`), so what is said to be clear is clear. Objects are
-taken in blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are
-looked up in their grids (:mod:`holdfast.model.collision.objects.gridded`).
+Spheres cover the arm (:mod:`holdfast.model.collision.sphere_cover`), so a configuration that is found collision-free is
+collision-free. Objects are processed in blocks, which share the positions of the spheres; a changed cell compiles nothing.
+Meshes and point clouds are looked up in their grids (:mod:`holdfast.model.collision.objects.gridded`).
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from holdfast.model.collision.sphere_cover import SphereCover, make_sphere_cover
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class NearestGap:
-    """The smallest margin between an arm and an object.
+    """Smallest margin between an arm and an object.
 
     Attributes:
         pair: Position in ``pairs`` of the obstacles.
-        distance: m, of the cover of the arm: at most the true one.
-        margin: m, the distance less what must be kept.
-        on_arm, on_object: (3,) the two points in the world, m; the first on the sphere that covers the link there.
+        distance: Distance of the cover of the arm, m: at most the true one.
+        margin: Distance minus the required distance, m.
+        on_arm, on_object: (3,) the two closest points in the world, m; the first is on the sphere that covers the link there.
     """
 
     pair: int
@@ -47,21 +47,21 @@ class NearestGap:
 
 
 class Obstacles:
-    """The objects of a cell, against the spheres of an arm.
+    """Objects of a cell, against the spheres of an arm.
 
     Args:
-        arm: The arm.
-        capsules: What covers its links.
-        cell: The objects.
+        arm: Arm model.
+        capsules: Capsules that cover its links.
+        cell: Cell with the objects.
 
     Attributes:
-        arm, capsules, cell: As given.
-        spheres: The spheres that cover the capsules.
-        links: (L,) the links that have spheres and move, ascending.
+        arm, capsules, cell: Arguments of the constructor.
+        spheres: Spheres that cover the capsules.
+        links: (L,) moving links with spheres, ascending.
         pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
-        margins: (L K,) what each pair keeps at least, m.
-        names: Of the pairs, ``panda_joint4 & table``.
-        may_touch: (n + 1, K) whether a link, the base first, and an object may touch.
+        margins: (L K,) required distance of each pair, m.
+        names: Names of the pairs, ``panda_joint4 & table``.
+        may_touch: (n + 1, K) True if a link, the base first, and an object may touch.
 
     Raises:
         InputError: The base touches an object, or ``may_touch`` names no object or link.
@@ -90,13 +90,13 @@ class Obstacles:
         )
         if unsupported is not None:
             raise InputError(
-                f"object '{unsupported.name}' is a {type(unsupported).__name__}, and no distance from one is known; "
+                f"object '{unsupported.name}' is a {type(unsupported).__name__}, which has no distance formula; "
                 f"make it one of the solids of holdfast.model.cell"
             )
         self.may_touch = self._allowed_contacts()
         self._check_base_contacts()
 
-    # ---- what is looked at ---------------------------------------------------------------------------------------
+    # ---- checked pairs -------------------------------------------------------------------------------------------
 
     def _allowed_contacts(self) -> BoolArray:
         """Return (n + 1, K) True for pairs of a link, the base first, and an object that may touch."""
@@ -115,13 +115,13 @@ class Obstacles:
         """Check the contacts of the base, which does not move, so that any contact is permanent.
 
         Raises:
-            InputError: It touches an object that it may not touch.
+            InputError: The base touches an object that it may not touch.
         """
-        from holdfast.model.collision.exact.bodies import bounding_primitive  # takes long to import
+        from holdfast.model.collision.exact.bodies import bounding_primitive  # slow to import
 
         for index, solid in enumerate(self.cell):
             margin = self.cell.margin_of(solid)
-            # A box about it is asked first: for what is far away no grid need be made.
+            # A box around it is checked first, so that a distant object needs no grid.
             if self.may_touch[0, index] or base_distances(self.arm, self.spheres, [bounding_primitive(solid)])[0] >= margin:
                 continue
             (gap,) = base_distances(self.arm, self.spheres, [solid])
@@ -133,7 +133,7 @@ class Obstacles:
                 )
 
     def distance_offsets(self, links: IndexArray, objects: IndexArray) -> FloatArray:
-        """Return (L, F) offsets of the distances of links from objects, m: pairs that may touch are far away."""
+        """Return (L, F) offsets of the distances of links from objects, m; pairs that may touch are moved far away."""
         return np.where(self.may_touch[np.ix_(links + 1, objects)], FAR_AWAY_M, 0.0)
 
     @cached_property
@@ -163,13 +163,13 @@ class Obstacles:
             self.arm, self.spheres, self._formula_objects.objects, offsets, self._own_margins[self._formula_indices]
         )
 
-    # ---- what is asked -------------------------------------------------------------------------------------------
+    # ---- evaluation ----------------------------------------------------------------------------------------------
 
     def nearest_margin_and_gradient(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
-        """Return the smallest distance (N,) above the margin of its pair, m, the pair, and the gradient (N, n).
+        """Return the smallest distance (N,) beyond the margin of its pair, m, the pair, and the gradient (N, n).
 
         Args:
-            q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
+            q: (N, n) configurations, rad and m; a row that is not finite gets NaN and pair -1.
         """
         count = len(self.cell)
         margin, pair, gradient = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
@@ -193,7 +193,7 @@ class Obstacles:
         return self._formula_objects.single_row_kernels() if formulas else []
 
     def smallest_margin(self, q: FloatArray) -> FloatArray:
-        """Return the least distance above the margin of its pair, (N,) m."""
+        """Return the least distance beyond the margin of its pair, (N,) m."""
         margin = self._formula_objects.smallest_margin(q)
         if self._gridded_objects is not None:
             margin = np.minimum(margin, self._gridded_objects.smallest_margin(q, self._own_margins[self._grid_indices]))
@@ -209,7 +209,7 @@ class Obstacles:
         )
 
     def pair_distances(self, q: FloatArray) -> FloatArray:
-        """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m where a pair may touch."""
+        """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m if a pair may touch."""
         distances = np.empty((len(q), len(self.links), len(self.cell)))
         if len(self._formula_indices) and len(self.links):
             distances[:, :, self._formula_indices] = self._formula_objects.link_distances(q)
@@ -218,10 +218,11 @@ class Obstacles:
         return distances.reshape(len(q), len(self.pairs))
 
     def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> BoolArray:
-        """Return (N,) True where no configuration that meets a pose (N, 4, 4) of the tool to 1e-6 respects a margin, m, beyond
-        its own.
+        """Return (N,) True where every configuration that meets a tool pose (N, 4, 4) to 1e-6 violates ``margin``, m.
 
-        Proved by the places that the last two links can have, for objects with a formula; False proves nothing.
+        The margin is added to that of each object.
+
+        The proof uses the positions that the last two links can have, for objects with a formula; False is no proof.
         """
         return self._end_links.are_poses_too_close(poses, margin)
 
@@ -249,11 +250,11 @@ class Obstacles:
         )
 
     def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Bound how much the distance of each pair changes per rad and m of each joint in a box, (L K, n).
+        """Bound the change of the distance of each pair per rad and m of each joint in a box, (L K, n).
 
         Args:
             low: (n,) lower corner of the box, finite, rad and m.
-            high: (n,) upper corner.
+            high: (n,) upper corner of the box, finite, rad and m.
         """
         center_distances = np.linalg.norm(self.spheres.center, axis=1)
         max_distances = np.array([center_distances[self.spheres.link == link].max() for link in self.links])

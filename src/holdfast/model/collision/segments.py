@@ -1,4 +1,4 @@
-"""Distance between two line segments as straight-line code that is valid for parallel, touching and pointlike segments."""
+"""Distance between two line segments as straight-line code, valid for parallel and touching segments and for points."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import casadi as ca
 
 from holdfast.kernels.program import SX
 
-_PARALLEL_TOLERANCE = 1e-15  # of sin^2 of the angle: the rounding of the determinant; below it any first foot serves
-_MIN_SQUARE_DISTANCE = 1e-24  # m^2: keeps the root of the squared distance differentiable where the axes cross
+_PARALLEL_TOLERANCE = 1e-15  # of sin^2 of the angle: the rounding of the determinant; below it any first point is valid
+_MIN_SQUARE_DISTANCE = 1e-24  # m^2: keeps the root of the squared distance differentiable where the axes intersect
 
 
 @dataclass(frozen=True)
 class LineSegment:
-    """The points ``start + s span``, s from 0 to 1.
+    """Line segment with the points ``start + s span``, s from 0 to 1.
 
     Attributes:
-        start: (3,), m.
-        span: (3,), m.
+        start: (3,) start point, m.
+        span: (3,) vector to the end point, m.
         square: ``span' span``, m^2, a number because links are rigid; 0 for a point.
     """
 
@@ -34,9 +34,9 @@ class LineSegment:
 def closest_parameters(a: LineSegment, b: LineSegment) -> tuple[SX, SX]:
     """Return the parameters of the closest points: s on a, t on b, each from 0 to 1.
 
-    The closest points of the two lines, s clipped, then t for that s clipped, then s for that t clipped: the minimum of a
-    convex function over a square. Where the segments are parallel, so that the lines have no unique closest points, the
-    first s is arbitrary and the other two steps still lead to a closest pair.
+    The closest points of the two lines give s, which is clipped, then t for that s, clipped, then s for that t, clipped. This
+    is the minimum of a convex function over a square. If the segments are parallel, so that the lines have no unique closest
+    points, the first s is arbitrary and the other two steps still lead to a closest pair.
 
     Source: Ericson 2005, Real-Time Collision Detection, section 5.1.9.
     """
@@ -62,8 +62,8 @@ def distance_between_points(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
 def separating_wrench(a: LineSegment, b: LineSegment, s: SX, t: SX) -> SX:
     """Return a unit force that pushes b away from a along the line through their closest points: moment about 0, force, (6,).
 
-    The feet minimise the distance, so its derivative is that with the feet held still (envelope theorem): what the force
-    does on the way of its point. Where the axes cross there is no direction, and the force fades to 0 within 1e-12 m.
+    The closest points minimise the distance, so its derivative is that with both points fixed (envelope theorem), which is the
+    power of the force. If the axes intersect there is no direction, and the force fades to 0 within 1e-12 m.
     """
     point = b.point_at(t)
     force = (point - a.point_at(s)) / distance_between_points(a, b, s, t)

@@ -1,4 +1,4 @@
-"""The collision shapes of an arm from its file, as primitives, meshes and convex hulls of each link."""
+"""Collision shapes of an arm from its file, as primitives, meshes and convex hulls of each link."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from holdfast.model.shapes.reading import read_pieces, unchecked_pairs
 
 Triangles = NDArray[np.int64]
 
-_CYLINDER_SIDES = 32  # of the prism that stands for a cylinder
-_CONVEX_TOLERANCE = 1e-3  # of its hull's volume: what a mesh may lack of it and still count as convex
+_CYLINDER_SIDES = 32  # of the prism that replaces a cylinder
+_CONVEX_TOLERANCE = 1e-3  # relative to its hull's volume: a mesh may lack this volume and still count as convex
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PieceHull:
-    """A convex body that contains one piece of a link.
+    """Convex body that contains one piece of a link.
 
     Attributes:
-        link: The joint that moves it, from 0; -1 for the base.
+        link: Index from 0 of the joint that moves it; -1 for the base.
         owner: Name of the link in the file.
-        name: Of the piece: of its mesh in the file, or its kind.
-        vertices: (V, 3) m, in the frame that moves with the joint; all of them corners.
-        faces: (F, 3) indices, counterclockwise seen from outside.
-        volume_error: Part of its volume that the piece lacks; 0 unless the piece is a mesh.
+        name: Name of the piece: that of its mesh in the file, or its kind.
+        vertices: (V, 3) corners, m, in the frame that moves with the joint.
+        faces: (F, 3) row numbers of the corners, counterclockwise seen from outside.
+        volume_error: Fraction of its volume that the piece lacks; 0 unless the piece is a mesh.
     """
 
     link: int
@@ -52,13 +52,13 @@ class PieceHull:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CollisionModel:
-    """The collision shapes of an arm.
+    """Collision shapes of an arm.
 
     Attributes:
-        pieces: As the file has them, the base's first.
-        missing: What of it could not be read.
-        unchecked: Pairs of links of the file, each in alphabetical order, that its SRDF file leaves unchecked.
-        source: The file, for people.
+        pieces: Shapes in the order of the file, those of the base first.
+        missing: Shapes that could not be read.
+        unchecked: Pairs of links of the file, each in alphabetical order, that its SRDF file excludes from checks.
+        source: File, for people.
     """
 
     pieces: tuple[Piece, ...]
@@ -69,17 +69,17 @@ class CollisionModel:
     @classmethod
     @check_arguments
     def from_arm(cls, arm: Arm, meshes: str | Path | None = None, *, hold: Mapping[str, float] | None = None) -> CollisionModel:
-        """Read the collision shapes of the arm's file; none if it is from no file, or from one without them.
+        """Read the collision shapes in the arm's file; none if there is no file, or it has no shapes.
 
-        Bodies that hang on the chain belong to the link they hang on, their own joints held.
+        Bodies attached to the chain belong to the link to which they are attached, with their own joints held.
 
         Args:
-            arm: The arm.
-            meshes: Folder with the files of meshes.
-            hold: Where joints beside the chain are held, rad or m; as the arm was read if not given.
+            arm: Arm model.
+            meshes: Folder with the mesh files.
+            hold: Values of joints next to the chain, rad or m; default: those with which the arm was read.
 
         Raises:
-            ArmError: The file is no longer the one the arm was read from, or ``hold`` does not fit it.
+            ArmError: The file has changed since the arm was read, or ``hold`` does not fit it.
         """
         pieces, missing = read_pieces(arm, "collision", hold=hold, meshes=meshes)
         source = "" if arm.chain is None else Path(arm.chain.file).name
@@ -100,7 +100,7 @@ class CollisionModel:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of every piece, the corners of meshes included."""
+        """SHA-256 of every piece, with the corners of meshes."""
         hasher = hashlib.sha256()
         for piece in self.pieces:
             hasher.update(repr((piece.link, piece.owner, piece.kind, piece.size)).encode())
@@ -115,9 +115,9 @@ def make_hull(piece: Piece) -> PieceHull:
     """Make the convex hull of a piece, or of a polyhedron around it.
 
     Raises:
-        ArmError: It is flat.
+        ArmError: The piece is flat.
     """
-    from scipy import spatial  # takes long to import, and is needed once for each shape
+    from scipy import spatial  # slow to import, and needed once for each shape
 
     vertices, faces = corner_points(piece), piece.faces
     try:
@@ -142,7 +142,7 @@ def make_hull(piece: Piece) -> PieceHull:
 
 
 def corner_points(piece: Piece, inscribed: bool = False) -> FloatArray:
-    """Return points (V, 3) in the frame of the link whose hull contains the piece; with ``inscribed``, is contained in it.
+    """Return points (V, 3) in the frame of the link whose hull contains the piece, or, if ``inscribed``, is contained in it.
 
     The hull is the piece itself for a box and a convex mesh.
     """
@@ -179,6 +179,6 @@ def _primitive_corners(piece: Piece, inside: bool) -> FloatArray:
 
 
 def _mesh_volume(vertices: FloatArray, faces: Triangles) -> float:
-    """Compute the volume of a closed mesh (Gauss); its orientation does not matter, and a mirrored mesh counts the same."""
+    """Return the volume of a closed mesh (Gauss) for any orientation of it, also for a mirrored mesh."""
     first, second, third = (vertices[faces[:, corner]] for corner in range(3))
     return abs(float(np.einsum("ij,ij->i", first, np.cross(second, third)).sum() / 6))

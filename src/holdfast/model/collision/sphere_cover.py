@@ -1,4 +1,4 @@
-"""Capsules as chains of spheres that cover them, the geometry of the compiled distance bound."""
+"""Chains of spheres that cover capsules, the geometry of the compiled distance bound."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.collision.capsules import Capsules
 
-SPHERE_EXCESS_FRACTION = 0.06  # of the radius of a capsule: what the spheres of its chain may reach beyond it
-_MAX_SPHERES = 64  # spheres of one capsule
+SPHERE_EXCESS_FRACTION = 0.06  # of the radius of a capsule: excess of the spheres of its chain
+_MAX_SPHERES = 64  # maximum number of spheres for one capsule
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,10 +18,10 @@ class SphereCover:
     """Spheres that move with the links of an arm.
 
     Attributes:
-        link: (S,) the joint that moves each, from 0; -1 for the base. Ascending.
-        center: (S, 3) m, in the frame that moves with that joint.
-        radius: (S,) m.
-        part: (S,) position in ``capsules.parts`` of the capsule that it helps to cover.
+        link: (S,) index from 0 of the joint that moves each sphere; -1 for the base. Ascending.
+        center: (S, 3) centres in the frame that moves with that joint, m.
+        radius: (S,) radii, m.
+        part: (S,) position in ``capsules.parts`` of the capsule that the sphere helps to cover.
     """
 
     link: IndexArray
@@ -34,7 +34,7 @@ def make_sphere_cover(capsules: Capsules, excess_fraction: float = SPHERE_EXCESS
     """Make spheres that together contain every capsule.
 
     A capsule from a to b of radius r lies in the k + 1 spheres about ``a + (b - a) i / k``, both ends included, of radius
-    ``hypot(r, |b - a| / (2 k))``; k is the least with which that is at most ``(1 + wider) r``.
+    ``hypot(r, |b - a| / (2 k))``; k is the smallest number for which that is at most ``(1 + excess_fraction) r``.
     """
     rows: list[tuple[int, FloatArray, float, int]] = []
     for number, part in sorted(enumerate(capsules.parts), key=lambda item: item[1].link):

@@ -23,17 +23,17 @@ if TYPE_CHECKING:
 class Degraded:
     """Arm with joints that are locked, have a reduced range, or are slower than specified.
 
-    It is a box of limits and speeds, and is taken as ``locked=`` wherever a known lock is. In a file (:meth:`load`)::
+    It consists of position and speed limits, and ``locked=`` arguments accept it. In a file (:meth:`load`)::
 
-        locked: {panda_joint4: -1.2}              # rad or m; or [panda_joint4], locked where it is
-        range: {panda_joint2: [-0.5, 0.8]}        # it still moves, within this
-        speed: {panda_joint1: 0.3}                # the fraction of its velocity limit that is left
+        locked: {panda_joint4: -1.2}              # rad or m; or [panda_joint4], locked at its present value
+        range: {panda_joint2: [-0.5, 0.8]}        # reduced range
+        speed: {panda_joint1: 0.3}                # remaining fraction of its velocity limit
 
     Attributes:
-        arm: The healthy arm.
-        locked: ``{name: value}`` of joints that are locked, rad or m; None: where it is.
-        ranges: ``{name: (low, high)}`` of joints that still move, within this only, rad or m.
-        speeds: ``{name: fraction}`` of its velocity limit, above 0 and at most 1.
+        arm: Healthy arm.
+        locked: ``{name: value}`` of locked joints, rad or m; None means the present value.
+        ranges: ``{name: (low, high)}`` of joints that move only within this range, rad or m.
+        speeds: ``{name: fraction}`` of the velocity limit, above 0 and at most 1.
     """
 
     arm: Arm
@@ -54,14 +54,14 @@ class Degraded:
         """Describe the failures of an arm, with joints by name or index from 0.
 
         Args:
-            arm: The healthy arm.
-            locked: ``{joint: value}``, rad or m; ``{joint: None}``, or the joints alone, for where they are.
+            arm: Healthy arm.
+            locked: ``{joint: value}``, rad or m; ``{joint: None}``, or only the joints, for locks at the present value.
             ranges: ``{joint: (low, high)}``, rad or m.
-            speeds: ``{joint: fraction}``.
+            speeds: ``{joint: fraction}`` of the velocity limit, above 0 and at most 1.
 
         Raises:
-            InputError: No such joint, one given twice or both locked and moving, a range that is upside down or outside the
-                joint's limits, a fraction that is out of bounds or of a joint without a velocity limit; or nothing is degraded.
+            InputError: There is no such joint; a joint is given twice, or is locked and moves; a range is reversed or outside
+                the joint's limits; a fraction is out of bounds, or its joint has no velocity limit; or no failure is given.
         """
         stands = {arm.joint_names[k]: value for k, value in sorted(read_locks(arm, locked).items())}
         left = {name: _check_range(arm, name, ends) for name, ends in _values_by_name(arm, ranges or {}, "ranges").items()}
@@ -77,27 +77,27 @@ class Degraded:
 
     @property
     def lo(self) -> FloatArray:
-        """(n,) lower limits in force, rad or m; of a locked joint its value, NaN where that is not known (see :meth:`at`)."""
+        """Lower limits (n,) in force, rad or m; for a locked joint its value, NaN if that is not known (see :meth:`at`)."""
         return self._lower_or_upper_limits(0)
 
     @property
     def hi(self) -> FloatArray:
-        """(n,) upper limits in force, likewise."""
+        """Upper limits (n,) in force, rad or m; for a locked joint its value, NaN if that is not known."""
         return self._lower_or_upper_limits(1)
 
     @property
     def v(self) -> FloatArray:
-        """(n,) velocity limits in force, rad/s or m/s, infinite where there is none; 0 of locked joints."""
+        """Velocity limits (n,) in force, rad/s or m/s, infinite for no limit; 0 for locked joints."""
         return np.array([0.0 if j.name in self.locked else j.velocity for j in self.limited.joints], dtype=np.float64)
 
     @property
     def moves(self) -> BoolArray:
-        """(n,) True for joints that are not locked."""
+        """Flags (n,) of the joints that are not locked."""
         return np.array([name not in self.locked for name in self.arm.joint_names])
 
     @property
     def limited(self) -> Arm:
-        """The arm with the limits and speeds in force; locked joints as if healthy."""
+        """Arm with the limits and speeds in force; locked joints as if healthy."""
         if not self.ranges and not self.speeds:
             return self.arm
         joints = []
@@ -109,7 +109,7 @@ class Degraded:
         return replace(self.arm, joints=tuple(joints))
 
     def at(self, q: ArrayLike) -> Degraded:
-        """The same with joints that are locked where they are at their values in q (n,), rad and m."""
+        """Return the same failures, with present values taken from the configuration ``q`` (n,), rad and m."""
         here = self.arm.check_configurations(q)
         return replace(self, locked={self.arm.joint_names[k]: x for k, x in locks_at(self.arm, self.locked, here).items()})
 
@@ -121,9 +121,9 @@ class Degraded:
         return self
 
     def require_arm(self, arm: Arm) -> Degraded:
-        """Return the object itself, or raise :class:`holdfast.InputError` if it belongs to another arm."""
+        """Return the object itself, or raise :class:`holdfast.InputError` if it does not belong to ``arm``."""
         if self.arm.fingerprint != arm.fingerprint:
-            raise InputError(f"what is degraded belongs to '{self.arm.name}', not to '{arm.name}'; make it with this arm")
+            raise InputError(f"these failures belong to '{self.arm.name}', not to '{arm.name}'; make them with this arm")
         return self
 
     def _lower_or_upper_limits(self, side: int) -> FloatArray:
@@ -135,10 +135,10 @@ class Degraded:
     @classmethod
     @check_arguments
     def load(cls, path: str | Path, arm: Arm) -> Degraded:
-        """Read the failures of an arm from a YAML file.
+        """Read the failures of ``arm`` from the YAML file ``path``.
 
         Raises:
-            InputError: The file cannot be read, or an entry is wrong; the sentence says which.
+            InputError: The file cannot be read, or an entry is wrong; the message names it.
         """
         from pydantic import ValidationError
 
@@ -158,16 +158,16 @@ class Degraded:
             raise InputError(f"failure file '{path}': {error}") from error
 
     def to_dict(self) -> dict[str, Any]:
-        """The keys and values of a file."""
+        """Return the keys and values of a file."""
         said = {"locked": self.locked, "range": {k: list(x) for k, x in self.ranges.items()}, "speed": self.speeds}
         return {key: dict(values) for key, values in said.items() if values}
 
     @check_arguments
     def save(self, path: str | Path) -> Path:
-        """Write the file that :meth:`load` reads, with every digit.
+        """Write the YAML file ``path``, which :meth:`load` reads, with all digits.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         import yaml
 
@@ -175,7 +175,7 @@ class Degraded:
         return Path(path)
 
     def mark(self, joint: str) -> str:
-        """Return the mark of a joint in a table: ``locked``, ``less range``, ``slower``, or nothing."""
+        """Return the mark of the joint named ``joint`` in a table: ``locked``, ``less range``, ``slower``, or nothing."""
         marks = ("locked", self.locked), ("less range", self.ranges), ("slower", self.speeds)
         return ", ".join(word for word, names in marks if joint in names)
 
@@ -195,7 +195,7 @@ class Degraded:
         return " and ".join(phrases)
 
 
-# {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
+# {joint: value}, rad or m; {joint: None}, or only the joints, for present values. Joints by name or index from 0.
 _At = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float]
 LockedAt = _At | Degraded
 LockedValues = Mapping[str, ArrayLike] | Mapping[int, ArrayLike] | Mapping[str | int, ArrayLike] | Degraded  # (N,) of each
@@ -241,7 +241,7 @@ def _check_speed_fraction(arm: Arm, name: str, given: Any) -> float:
 
 
 def degraded_at(arm: Arm, locked: Locked, at: FloatArray) -> Degraded | None:
-    """Return the failures of joints locked at their values in ``at`` (n,); None if nothing has failed.
+    """Return the failures of ``arm`` with joints ``locked`` at given values or those in ``at`` (n,); None if there are none.
 
     Raises:
         InputError: As for :func:`read_locks`; a :class:`Degraded` of another arm.
@@ -253,17 +253,16 @@ def degraded_at(arm: Arm, locked: Locked, at: FloatArray) -> Degraded | None:
 
 
 def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
-    """Return the locked joints by index in the given order, each with its value in rad or m, or None for its present value.
+    """Return the ``locked`` joints of ``arm`` by index in the given order, with values in rad or m, or None (present value).
 
     Raises:
-        InputError: No such joint, one given twice, a value that is not a finite number, or a range or speed in a
-            :class:`Degraded`.
+        InputError: There is no such joint, one is given twice, a value is not finite, or ``locked`` has ranges or speeds.
     """
     if isinstance(locked, Degraded):
         others = [f"a range of '{name}'" for name in locked.ranges] + [f"a speed of '{name}'" for name in locked.speeds]
         if others:
             raise InputError(
-                f"only locked joints count here, and what is degraded has {others[0]}; leave it out, or see recover"
+                f"only locked joints count here, but the failures include {others[0]}; leave it out, or see recover"
             )
         locked = locked.require_arm(arm).locked
     if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
@@ -287,15 +286,17 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
 
 
 def locks_at(arm: Arm, locked: Locked, at: FloatArray) -> dict[int, float]:
-    """Return the locks of :func:`read_locks` in the arm's order, with the values of ``at`` (n,) for joints without one."""
+    """Return the locks of :func:`read_locks` (``arm``, ``locked``) in the arm's order, by default at values in ``at`` (n,)."""
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 
 def locks_with_values(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], FloatArray]:
-    """Return the locked joints (k,) in the given order and their values (k,), requiring a value of each and a free joint.
+    """Return the ``locked`` joints (k,) of ``arm`` in the given order and their values (k,), rad or m.
+
+    Every joint needs a value, and at least one joint must be free.
 
     Raises:
-        InputError: As for :func:`read_locks`; a joint without a value; no joint, or all.
+        InputError: As for :func:`read_locks`; a joint has no value; no joint or every joint is locked.
     """
     locks = read_locks(arm, locked)
     if not 1 <= len(locks) < arm.n:

@@ -1,7 +1,7 @@
 """Sets of joints that may fail, each alone or several together.
 
-A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
-is a locked joint as well.
+A locked joint keeps the position at which it failed. A free-swinging joint, or a joint with a failed sensor, counts as locked
+once its brake has closed.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
     """Return the sets of joints that fail together, as indices from 0.
 
     Args:
-        arm: The arm.
-        failures: ``"single"`` (each joint alone), ``"pairs"`` (every two joints), an int k (every k joints), or a list
-            of sets, each a joint or several joints by name or index from 0.
+        arm: Arm model.
+        failures: ``"single"`` (each joint), ``"pairs"`` (every two joints), an int k (every k joints), or a list of sets, each
+            a joint or several joints by name or index from 0.
 
     Raises:
-        TaskError: No failure, an empty or repeated set, more sets than can be handled.
+        TaskError: There is no failure, a set is empty or repeated, or there are too many sets.
         InputError: There is no such joint.
     """
     if isinstance(failures, str):
@@ -82,26 +82,26 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 
 
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
-    """Return names for users and files: joint names, joined by ``+``."""
+    """Return names of the ``sets`` (indices from 0) of ``arm`` for users and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
 
 
 def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:
-    """Return the joints of :func:`failure_sets` for analyses that lock one joint at a time; none for None.
+    """Return the joints of :func:`failure_sets` (``arm``, ``failures``) for single locks; an empty list for None.
 
     Raises:
-        TaskError: As for :func:`failure_sets`; a set of several joints.
+        TaskError: As for :func:`failure_sets`; a set has several joints.
         InputError: There is no such joint.
     """
     sets = () if failures is None else failure_sets(arm, failures)
     for s, name in zip(sets, failure_names(arm, sets), strict=True):
         if len(s) > 1:
-            raise TaskError(f"failure '{name}' is of several joints at once; give joints that lock one at a time")
+            raise TaskError(f"failure '{name}' locks several joints at once; give joints that lock one at a time")
     return [s[0] for s in sets]
 
 
 def read_joint(arm: Arm, text: str) -> int:
-    """Read a joint by name or number from 1, as an index from 0."""
+    """Return the index from 0 of the joint of ``arm`` that ``text`` gives by name or number from 1."""
     text = text.strip()
     if text in arm.joint_names:
         k = arm.joint_index(text)
@@ -117,11 +117,11 @@ def read_joint(arm: Arm, text: str) -> int:
 
 
 def read_failures(arm: Arm, text: str) -> FailureSpec:
-    """Read failures as users write them: ``single``, ``2``, ``joint2; joint1+joint4``."""
+    """Return the failures in ``text`` as users write them for ``arm``: ``single``, ``2``, ``joint2; joint1+joint4``."""
     text = text.strip()
     if text in FAILURE_SET_SIZES:
         return text
-    # A lone number could be a joint or how many: it is how many, as --help says.
+    # A single number could be a joint or a count; it is the count, as --help states.
     if is_count(text):
         return int(text)
     return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]

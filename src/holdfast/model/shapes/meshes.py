@@ -10,13 +10,13 @@ from pathlib import Path, PurePosixPath
 def find_mesh(name: str, file: Path, folder: Path | None = None) -> Path | None:
     """Return the path of a mesh that a URDF file names, or None.
 
-    A path is taken from the folder of the URDF file. For ``package://NAME/...``, NAME is a folder beside the URDF file or
+    A path is relative to the folder of the URDF file. For ``package://NAME/...``, NAME is a folder next to the URDF file or
     above it, or one in ``ROS_PACKAGE_PATH``, or the last folder of one of its entries.
 
     Args:
-        name: As the URDF file has it.
-        file: The URDF file.
-        folder: Where the meshes are; looked into first, for the name and for ever fewer of its last parts.
+        name: Name of the mesh in the URDF file.
+        file: URDF file.
+        folder: Folder that is searched first, for the name and then for fewer and fewer of its last parts.
     """
     scheme, mark, inside = name.partition("://")
     if not mark:
@@ -37,7 +37,7 @@ def _paths_in_folder(name: str, folder: Path | None) -> Iterator[Path]:
 
 def _package_paths(scheme: str, inside: str, file: Path) -> Iterator[Path]:
     if scheme != "package":
-        yield file.parent / inside  # an absolute path stays one
+        yield file.parent / inside  # an absolute path stays absolute
         return
     package, _, relative_path = inside.partition("/")
     listed = [Path(entry) for entry in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if entry]

@@ -17,10 +17,10 @@ from holdfast.model.shapes.pieces import Kind, LinkCarriers, Missing, Piece, Pla
 def read_mjcf_pieces(
     file: Path, arm: Arm, purpose: Purpose, hold: Mapping[str, float] | None
 ) -> tuple[list[Piece], list[Missing]]:
-    """See :func:`holdfast.model.shapes.reading.read_pieces`.
+    """Return the shapes of an MJCF file; see :func:`holdfast.model.shapes.reading.read_pieces`.
 
-    What collides are the geoms with a ``contype`` or ``conaffinity``, but for those of the world, which are around the arm;
-    what is drawn are the others, or all where there are no others on a body.
+    Collision shapes are the geoms with a ``contype`` or ``conaffinity``, except those of the world, which surround the arm.
+    Visual shapes are the other geoms of a body, or all its geoms if there are no others.
     """
     model, tree = mjcf.compile_tree(file)
     return collect_mjcf_shapes(model, purpose, LinkCarriers(tree, arm, hold).locate_link)

@@ -1,4 +1,4 @@
-"""Shape of a link and the joint of an arm that moves it."""
+"""Shape of a link, and the joint of an arm that moves the link."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from holdfast.model.arm.tree import LinkTree, LockedJoints
 
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "half space"]
 Purpose = Literal["visual", "collision"]
-Place = Callable[[str], tuple[int, FloatArray] | None]  # of a link: what moves it, -1 for nothing, and its pose (4, 4) there
+Place = Callable[[str], tuple[int, FloatArray] | None]  # of a link: its joint (-1: none), and its pose (4, 4) there
 
-_POSE_TOLERANCE = 1e-9  # m and rad: two readings of one file
+_POSE_TOLERANCE = 1e-9  # m and rad: tolerance between two readings of one file
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Piece:
-    """A shape that moves with a link.
+    """Shape that moves with a link.
 
     Attributes:
-        link: The joint that moves it, from 0; -1 for the base.
+        link: Index from 0 of the joint that moves it; -1 for the base.
         owner: Name of the link in the file.
-        kind: What it is.
-        name: What to call it: the name of its mesh in the file, or its kind.
-        size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the centres
-            of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half space below its z: nothing.
-        pose: (4, 4) in the frame that moves with the joint; for the base, in the base frame.
-        vertices: (V, 3) m, of a mesh in its own frame, scaled; (0, 3) otherwise.
-        faces: (F, 3) indices.
-        rgba: Its color, each from 0 to 1, if the file gives one.
-        label: Its own name in the file, if that is unique there; else empty.
+        kind: Kind of the shape.
+        name: Name of its mesh in the file, or its kind.
+        size: Size, m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, for a capsule between the
+            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. A mesh, or a half space below its z: empty.
+        pose: (4, 4) pose in the frame that moves with the joint; for the base, in the base frame, m.
+        vertices: (V, 3) vertices of a mesh in its own frame, scaled, m; (0, 3) otherwise.
+        faces: (F, 3) row numbers of the corners.
+        rgba: Color, each number from 0 to 1, if the file gives one.
+        label: Its own name in the file, if that is unique; else empty.
     """
 
     link: int
@@ -51,12 +51,12 @@ class Piece:
 
 
 class Missing(NamedTuple):
-    """A shape that could not be read.
+    """Shape that could not be read.
 
     Attributes:
-        link: As in :class:`Piece`.
-        what: Its name, and why.
-        is_present: Whether its file was found, so that its content is the reason.
+        link: Index from 0 of the joint that moves it; -1 for the base.
+        what: Name of the shape, and the reason.
+        is_present: True if its file was found, so that its content is the reason.
     """
 
     link: int
@@ -67,15 +67,15 @@ class Missing(NamedTuple):
 class LinkCarriers:
     """Map from links of the file's kinematic tree to the joints of an arm that move them.
 
-    Links that hang beside the chain on a moving joint are where the arm's mass has them.
+    Links attached next to the chain by a moving joint are where the arm's mass data assume them.
 
     Args:
         tree: All links and joints of the file.
-        arm: The arm.
-        hold: Where other joints beside the chain are held than the arm says, rad or m.
+        arm: Arm model.
+        hold: Values of joints next to the chain that differ from those of the arm, rad or m.
 
     Raises:
-        ArmError: The arm is not one of this tree: joints have other names or places.
+        ArmError: The arm does not belong to this tree, because joints have other names or positions.
     """
 
     def __init__(self, tree: LinkTree, arm: Arm, hold: Mapping[str, float] | None = None) -> None:
@@ -90,7 +90,7 @@ class LinkCarriers:
             place = None if there is None else self.locate_link(there.parent)
             same = place is not None and there is not None and place[0] == k - 1
             if not (same and np.allclose(place[1] @ there.origin, joint.origin, atol=_POSE_TOLERANCE)):  # type: ignore[index, union-attr]
-                raise ArmError(f"joint '{joint.name}' of '{arm.name}' is not as in the file of the arm")
+                raise ArmError(f"joint '{joint.name}' of '{arm.name}' differs from the file of the arm")
 
     def locate_link(self, link: str) -> tuple[int, FloatArray] | None:
         """Return the joint that moves a link (-1: none) and its pose (4, 4) there; None if not attached to the base."""

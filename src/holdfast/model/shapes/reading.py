@@ -21,19 +21,19 @@ def read_pieces(
     meshes: str | Path | None = None,
     open_files: bool = True,
 ) -> tuple[list[Piece], list[Missing]]:
-    """Return the shapes that the arm's file gives its links, and the shapes that could not be read.
+    """Return the shapes of the links in the arm's file, and the shapes that could not be read.
 
-    Nothing at all if the arm is from no file, or from one that is gone.
+    Both lists are empty if the arm has no file, or the file no longer exists.
 
     Args:
-        arm: The arm.
-        purpose: What is drawn, or what collides.
-        hold: Where joints beside the chain are held instead of where the arm has them, rad or m.
-        meshes: Folder with the files of meshes; the one that the arm was read with if not given.
-        open_files: Open the files of meshes; else all count as missing, and no file but the arm's is opened.
+        arm: Arm model.
+        purpose: Visual or collision shapes.
+        hold: Values of joints next to the chain instead of those of the arm, rad or m.
+        meshes: Folder with the mesh files; default: the one with which the arm was read.
+        open_files: Open the mesh files; otherwise all meshes count as missing, and only the arm's file is opened.
 
     Raises:
-        ArmError: The file is no longer the one the arm was read from, or ``hold`` does not fit it.
+        ArmError: The file has changed since the arm was read, or ``hold`` does not fit it.
     """
     if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
         return [], []
@@ -41,7 +41,7 @@ def read_pieces(
     if root_element_name(arm.chain.file) == "mujoco":
         from holdfast.model.shapes import mjcf_pieces
 
-        # MuJoCo opens the files that the model names whether or not they are wanted.
+        # MuJoCo opens the files that the model names in any case.
         return mjcf_pieces.read_mjcf_pieces(Path(arm.chain.file), arm, purpose, hold) if open_files else ([], [])
     from holdfast.model.shapes import urdf_pieces
 
@@ -49,9 +49,9 @@ def read_pieces(
 
 
 def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
-    """Return the pairs of links, each in alphabetical order, that the SRDF file of the arm excludes from collision checks.
+    """Return the pairs of links, in alphabetical order, that the SRDF file of ``arm`` excludes from collision checks.
 
-    Of an MJCF file, the ``<exclude>`` of its contacts.
+    For an MJCF file, they are the ``<exclude>`` of its contacts.
 
     Raises:
         ArmError: The file cannot be read.
@@ -69,10 +69,10 @@ def with_mesh_folder(arm: Arm, folder: str | Path) -> Arm:
     """Return the same arm with a folder that is searched first for its meshes.
 
     Raises:
-        InputError: There is no such folder, or the arm is from no file.
+        InputError: There is no such folder, or the arm has no file.
     """
     if not Path(folder).is_dir():
         raise InputError(f"the folder of meshes is '{folder}', which cannot be found or is not a folder; give another")
     if arm.chain is None or not arm.chain.file:
-        raise InputError(f"'{arm.name}' is from no URDF file, so no meshes belong to it; leave out their folder")
+        raise InputError(f"'{arm.name}' was not read from a URDF file, so it has no meshes; leave out their folder")
     return replace(arm, chain=replace(arm.chain, meshes=str(Path(folder).absolute())))

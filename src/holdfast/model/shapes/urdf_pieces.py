@@ -22,7 +22,7 @@ _SIZE_ATTRIBUTES = {"box": ("size",), "cylinder": ("radius", "length"), "capsule
 def read_urdf_pieces(
     file: Path, arm: Arm, purpose: Purpose, hold: Mapping[str, float] | None, folder: Path | None, open_files: bool
 ) -> tuple[list[Piece], list[Missing]]:
-    """See :func:`holdfast.model.shapes.reading.read_pieces`; ``folder`` has the meshes."""
+    """Return the shapes of a URDF file; see :func:`holdfast.model.shapes.reading.read_pieces`; ``folder`` has the meshes."""
     robot = robot_element(file)
     return collect_urdf_shapes(
         robot, file, purpose, LinkCarriers(read_tree(robot, file.stem), arm, hold).locate_link, folder, open_files
@@ -57,7 +57,7 @@ def collect_urdf_shapes(
 
 
 class _UnreadableError(ArmError):
-    """A mesh whose file was found and could not be read."""
+    """Mesh whose file was found but could not be read."""
 
 
 def _read_geometry(element: ElementTree.Element, file: Path, folder: Path | None, open_files: bool) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """Effect of a free-swinging failure of each joint of an arm at rest: torque, acceleration, and swing angle.
 
-Each constructor takes ``(arm, weights=None)`` and returns a :class:`Susceptibility`; smaller is better. Weights combine
-the joints into ``f' W f`` and are None (all alike), n numbers (diagonal), an (n, n) positive semidefinite matrix, and for
-torques also ``"effort"`` (each over its joint's effort limit) or ``"worst-case"`` (each over its largest static value in
+Each constructor takes ``(arm, weights=None)`` and returns a :class:`Susceptibility`; smaller is better. Weights combine the
+joints into ``f' W f``: None (equal weights), n numbers (diagonal), an (n, n) positive semidefinite matrix, and for torques also
+``"effort"`` (each torque divided by its joint's effort limit) or ``"worst-case"`` (each divided by its largest static value in
 the workspace, so that every term is 0 to 1).
 
 Source: English and Maciejewski 1998.

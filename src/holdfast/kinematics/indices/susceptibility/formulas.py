@@ -1,7 +1,7 @@
 """Symbolic formulas of the three measures of every joint and of their derivatives (English and Maciejewski 1998).
 
-A formula takes the arm and q and returns what each joint's failure brings (n,) and which joints are degenerate (n,): 1
-where the measure has no meaning there and is 0 by convention.
+A formula takes the arm and q and returns the effect of each joint's failure (n,) and which joints are degenerate (n,): 1 where
+the measure is not defined and is 0 by convention.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from holdfast.model.arm.soundness import require_masses, require_possible_inerti
 from holdfast.model.arm.statics import CompositeBodies
 
 DEGENERATE_RATIO = 1e-9
-"""A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small against the arm."""
+"""A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small relative to the arm."""
 
 
 @dataclass(frozen=True)
 class SusceptibilityFormula:
-    """Measure of a susceptibility: its symbols, its derivatives as the paper prints them, and its descriptions.
+    """Measure of a susceptibility: its symbols, its derivatives as printed in the paper, and its descriptions.
 
     Attributes:
-        name: For people.
+        name: Name for people.
         source: Paper and equations.
-        turning, sliding: Unit of the measure of a revolute and of a prismatic joint.
-        slides: Defined for prismatic joints too.
-        check: Raises ArmError for an arm that has no such measure.
-        values: ``(arm, q) -> f (n,), degenerate (n,)``.
-        jacobian: ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
+        turning, sliding: Unit of the measure for a revolute and for a prismatic joint.
+        slides: True if the measure is defined for prismatic joints.
+        check: Function that raises ArmError for an arm without such a measure.
+        values: Function ``(arm, q) -> f (n,), degenerate (n,)``.
+        jacobian: Function ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
     """
 
     name: str
@@ -57,7 +57,7 @@ def _holding_torques_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
 
 
 def _torque_derivative(arm: Arm, w: CompositeBodies, i: int, j: int) -> SX:
-    """``d tau_i / d q_j``; eq. (11), (13)."""
+    """Return ``d tau_i / d q_j``; eq. (11), (13)."""
     z, s, g = w.axes[i], w.moments[i], w.gravity[i]
     dz = statics.axis_derivative(arm, w, i, j)
     if arm.joints[i].prismatic:
@@ -98,7 +98,7 @@ def _failure_accelerations_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
 
 
 def _acceleration_jacobian(arm: Arm, q: SX) -> SX:
-    """Eq. (24)."""
+    """Return the derivatives of the accelerations, eq. (24)."""
     c = statics.composite_bodies(arm, q)
     w, tau, m = statics.express_in_world(c), statics.gravity_torques(arm, c), statics.inertia_diagonal(arm, c)
 
@@ -127,16 +127,16 @@ def _swing_angles_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
         balanced = ca.sumsqr(u) <= (DEGENERATE_RATIO * c.masses[i] * length) ** 2
         upright = ca.sumsqr(v) <= (DEGENERATE_RATIO * weight) ** 2
         degenerate = ca.logic_or(balanced, upright)
-        # The arguments are replaced rather than the result, so that the derivative is 0 there too and never 0/0.
+        # The arguments are replaced rather than the result, so that the derivative is 0 as well and never 0/0.
         angle = ca.atan2(ca.if_else(degenerate, 0, -ca.dot(z, ca.cross(s, g))), ca.if_else(degenerate, 1, ca.dot(u, v)))
-        # -pi and pi are one and the same rest; adding a turn keeps the derivative.
+        # -pi and pi are the same angle; adding a full turn keeps the derivative.
         angles.append(angle + ca.if_else(angle <= -np.pi, 2 * np.pi, 0))
         flags.append(degenerate)
     return ca.vertcat(*angles), ca.vertcat(*flags)
 
 
 def _swing_jacobian(arm: Arm, q: SX) -> SX:
-    """Eq. (41)-(45)."""
+    """Return the derivatives of the swing angles, eq. (41)-(45)."""
     w = statics.express_in_world(statics.composite_bodies(arm, q))
 
     def entry(i: int, j: int) -> SX:

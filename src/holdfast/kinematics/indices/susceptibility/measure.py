@@ -36,12 +36,12 @@ from holdfast.model.arm.model import Arm
 
 @dataclass(frozen=True, kw_only=True)
 class SusceptibilityEvaluation:
-    """A susceptibility at N configurations, or at one (then without the leading N).
+    """Values of a susceptibility at N configurations, or at one configuration (without the leading N).
 
     Attributes:
-        value: (N,) the joints combined by the weights, ``f' W f``.
-        by_joint: (N, n) the measure f of each joint, signed, in ``measure.joint_unit``.
-        status: (N,) ``Status.OK``, ``BAD_INPUT``, or ``NO_INERTIA`` where a joint has no acceleration.
+        value: (N,) combination of the joints by the weights, ``f' W f``.
+        by_joint: (N, n) signed measure f of each joint, in ``measure.joint_unit``.
+        status: (N,) ``Status.OK``, ``BAD_INPUT``, or ``NO_INERTIA`` if a joint has no acceleration.
         joint_status: (N, n) :class:`holdfast.Status` of each joint.
     """
 
@@ -51,7 +51,7 @@ class SusceptibilityEvaluation:
     joint_status: NDArray[np.uint8]
 
     def require_ok(self) -> SusceptibilityEvaluation:
-        """Return the object itself, or raise :class:`holdfast.HoldfastError` that names the first row without a value."""
+        """Return the object itself, or raise :class:`holdfast.HoldfastError`, which names the first row without a value."""
         require_ok(self.status, "susceptibility")
         return self
 
@@ -59,15 +59,15 @@ class SusceptibilityEvaluation:
 class Susceptibility(Labelled, Objective):
     r"""Effects :math:`f` of the failure of each joint, combined as :math:`F = f^\top W f`; smaller is better.
 
-    The arm is at rest, its links are rigid, and no joint holds by friction. Joints are signed: the torque that holds the
-    joint, and the way it would accelerate or swing, about ``+z`` of its axis; flipping an axis flips its f.
+    The arm is at rest, its links are rigid, and no joint holds by friction. Measures are signed: the holding torque of the
+    joint, and the direction in which it would accelerate or swing, about ``+z`` of its axis; reversing an axis reverses its f.
 
-    Source: English and Maciejewski 1998, eq. (1)-(4). The paper prints f' W f without saying whether half of it is meant.
+    Source: English and Maciejewski 1998, eq. (1)-(4). The paper prints f' W f without stating whether half of it is meant.
 
     Attributes:
-        arm: The arm.
-        formula: The measure.
-        weights: (n, n) W, symmetric.
+        arm: Arm model.
+        formula: Measure of each joint.
+        weights: (n, n) symmetric matrix W. The argument may be None, n numbers, a matrix, ``"effort"`` or ``"worst-case"``.
         better: ``"smaller"``.
     """
 
@@ -79,16 +79,16 @@ class Susceptibility(Labelled, Objective):
         self.weights.setflags(write=False)
         self.unit = self._value_unit()
 
-    # ---- how to speak of it ------------------------------------------------------------------------------------
+    # ---- names ------------------------------------------------------------------------------------
 
     @property
     def slug(self) -> str:
-        """The name as used on the command line and in files."""
+        """Name on the command line and in files."""
         return self.formula.name.replace(" ", "-")
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The weights as given: None for the identity, a word, n numbers, or a matrix."""
+        """Weights as given by the user: None for the identity, a word, n numbers, or a matrix."""
         by_word = {"identity": None, "diagonal": np.diag(self.weights), "full": self.weights}
         return {"weights": by_word.get(self._weighting, self._weighting)}
 
@@ -110,7 +110,7 @@ class Susceptibility(Labelled, Objective):
         return square + mixed + ("" if self._weighting == "identity" else ", weighted")
 
     def describe(self) -> str:
-        """One phrase for people: what it is, and how its joints are combined."""
+        """Return a phrase with the name of the measure and the kind of its weights."""
         return f"{self.name} after any one joint swings free, {self._weighting} weights"
 
     def __repr__(self) -> str:
@@ -119,29 +119,30 @@ class Susceptibility(Labelled, Objective):
     # ---- symbols -----------------------------------------------------------------------------------------------
 
     def by_joint_expression(self, q: SX) -> SX:
-        """The measure of every joint (n,) as a function of the symbols q (n,), its conventions included."""
+        """Return the measure of every joint (n,) as a function of the symbols ``q`` (n,), with its conventions."""
         return ca.densify(self.formula.values(self.arm, q)[0])
 
     def expression(self, q: SX) -> SX:
-        """``f' W f`` as a function of the symbols q (n,); smooth but where a joint becomes degenerate or hangs upright."""
+        """Return ``f' W f`` of the symbols ``q`` (n,); it is smooth unless a joint becomes degenerate or hangs upright."""
         return self._weighted_square_sum(self.by_joint_expression(q))
 
     def gradient_expression(self, q: SX) -> SX:
-        """Gradient (n,) of ``f' W f``, eq. (3), as a function of the symbols q (n,); 0 for a degenerate joint.
+        """Return the gradient (n,) of ``f' W f``, eq. (3), of the symbols ``q`` (n,); 0 for a degenerate joint.
 
-        By differentiation of the formula: measured for the Panda it takes 312, 917 and 586 operations for torque,
-        acceleration and swing angle, the paper's closed forms 851, 2287 and 1935 (see ``formula.jacobian``).
+        It comes from differentiation of the formula. For the Panda this takes 312, 917 and 586 operations for torque,
+        acceleration and swing angle (measured), and the paper's closed forms take 851, 2287 and 1935 (see
+        ``formula.jacobian``).
         """
         return ca.densify(ca.gradient(self.expression(q), q))
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """The negative of ``f' W f``, and its slopes; see :meth:`holdfast.kinematics.indices.Objective.parts`."""
+        """Return ``-f' W f`` and its slopes; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Objective.parts`."""
         value = self.expression(q)
         derivative = ca.densify(ca.gradient(value, q))
         return [ObjectivePart(1.0, [-value], [[-ca.dot(derivative, v) for v in directions]])]
 
     def _weighted_square_sum(self, f: SX) -> SX:
-        # A joint without weight takes no part, also where its own measure is not a number.
+        # A joint without weight does not count, also if its own measure is NaN.
         weights = ca.sparsify(ca.SX(ca.DM(self.weights)))
         return ca.SX(ca.densify(ca.dot(f, weights @ f)))
 
@@ -164,16 +165,16 @@ class Susceptibility(Labelled, Objective):
         q = kinematics.joint_symbols(self.arm)
         return Kernel(f"{self.name} jacobian", [q], [ca.jacobian(self.by_joint_expression(q), q)])
 
-    # ---- what a user asks --------------------------------------------------------------------------------------
+    # ---- evaluation --------------------------------------------------------------------------------------
 
     def evaluate(self, q: ArrayLike) -> SusceptibilityEvaluation:
-        """Value, measure of each joint and what both stand for, in one pass.
+        """Return value, measure of each joint, and the status of both, in one pass.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Raises:
-            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+            InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
         n = self.arm.n
@@ -193,29 +194,29 @@ class Susceptibility(Labelled, Objective):
         )
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
+        """Return ``f' W f``, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m; eq. (2)."""
         rows, single = as_configurations(self.arm, q)
         value = self._values_kernel.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> FloatArray:
-        """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
+        """Return the signed measure f of each joint at ``q`` (N, n) or (n,), of the same shape, in :attr:`joint_unit`."""
         rows, single = as_configurations(self.arm, q)
         f = self._values_kernel.rows(rows)[:, 1 : self.arm.n + 1].copy()
         return f[0] if single else f
 
     def gradient(self, q: ArrayLike) -> FloatArray:
-        """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
+        """Return the gradient of ``f' W f`` at ``q`` (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
         rows, single = as_configurations(self.arm, q)
         gradient = self._gradient_kernel.rows(rows)
         return gradient[0] if single else gradient
 
     def row_function(self) -> RowFunction:
-        """See :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
+        """Return the batch function; see :meth:`holdfast.kernels.frameworks.Differentiable.row_function`."""
         return replace(super().row_function(), kernels=(self._values_kernel, self._gradient_kernel))
 
     def jacobian(self, q: ArrayLike) -> FloatArray:
-        """Exact derivatives of the joints' measures, ``out[..., i, j] = d f_i / d q_j``, (N, n, n) or (n, n); eq. (4).
+        """Return ``out[..., i, j] = d f_i / d q_j``, (..., n, n), at ``q`` (N, n) or (n,), rad and m; eq. (4).
 
         The row of a degenerate joint is 0.
         """
@@ -228,10 +229,10 @@ class SusceptibilityBatch:
     """Several susceptibilities of one arm with their gradients, from one kernel that computes shared terms once.
 
     Args:
-        measures: At least one, all of the same arm.
+        measures: One or more susceptibilities of one arm.
 
     Raises:
-        InputError: No measure, or measures of different arms.
+        InputError: There is no measure, or the measures have different arms.
     """
 
     def __init__(self, measures: Sequence[Susceptibility]) -> None:
@@ -248,16 +249,16 @@ class SusceptibilityBatch:
         return Kernel("susceptibilities", [q], [ca.vertcat(*values), *[ca.gradient(v, q) for v in values]])
 
     def __call__(self, q: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Values and gradients.
+        """Return values and gradients of all measures.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) or (N, n) configurations, rad and m.
 
         Returns:
             Values (N, k) and gradients (N, k, n) of the k measures, or (k,) and (k, n) for one configuration.
 
         Raises:
-            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+            InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
         outputs = self._kernel.rows(rows)
@@ -284,9 +285,11 @@ def torque(
 ) -> Susceptibility:
     """The torque or force that holds each joint against gravity; English and Maciejewski 1998, eq. (7), (8), (12).
 
+    ``arm`` is the model; ``weights`` are those of :class:`Susceptibility`.
+
     Raises:
-        ArmError: A link of which nothing is known.
-        InputError: Weights that are not positive semidefinite or do not fit the arm.
+        ArmError: The inertia of a link is unknown.
+        InputError: The weights are not positive semidefinite, or do not fit the arm.
     """
     return Susceptibility(TORQUE_FORMULA, arm, weights)
 
@@ -295,11 +298,12 @@ def torque(
 def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
     """The acceleration of each joint as it fails with the others fixed; English and Maciejewski 1998, eq. (22).
 
-    Armature counts as inertia. Where all the mass that a revolute joint carries lies on its axis it is NaN.
+    ``arm`` is the model; ``weights`` are numeric, as for :class:`Susceptibility`. Armature counts as inertia. The acceleration
+    is NaN if all the mass that a revolute joint carries lies on its axis.
 
     Raises:
-        ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
-        InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
+        ArmError: The mass or inertia of a link is unknown or impossible, or a joint carries no mass.
+        InputError: The weights are not positive semidefinite, do not fit the arm, or are named after torques.
     """
     return Susceptibility(ACCELERATION_FORMULA, arm, weights)
 
@@ -308,22 +312,23 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
     """The angle that each revolute joint swings, the others fixed, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
-    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
-    where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
+    ``arm`` is the model; ``weights`` are numeric, as for :class:`Susceptibility`. The angle lies in (-pi, pi] and ignores joint
+    limits and obstacles. It and its gradient are 0 for a prismatic joint, for a balanced one and if gravity runs along the
+    axis; near those cases it changes abruptly, and at pi it is discontinuous.
 
     Raises:
-        ArmError: A link of which nothing is known.
-        InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
+        ArmError: The mass of a link is unknown.
+        InputError: The weights are not positive semidefinite, do not fit the arm, or are named after torques.
     """
     return Susceptibility(SWING_ANGLE_FORMULA, arm, weights)
 
 
 @check_arguments
 def by_name(name: str, arm: Arm, weights: WeightSpec = None) -> Susceptibility:
-    """A susceptibility by its label: ``torque``, or ``torque:effort``; weights may be given beside the name.
+    """Return the susceptibility of ``arm`` with the label ``name``: ``torque``, or ``torque:effort``; or with ``weights``.
 
     Raises:
-        InputError: There is no such measure; the message has the nearest, and all.
+        InputError: There is no such measure; the message contains the nearest name and all names.
     """
     options: dict[str, Any] = {} if weights is None else {"weights": weights}
     susceptibility: Susceptibility = SUSCEPTIBILITY_REGISTRY.make(name, arm, **options)

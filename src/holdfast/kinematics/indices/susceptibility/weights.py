@@ -17,26 +17,26 @@ from holdfast.model.arm.soundness import require_masses
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None
 
 EIGENVALUE_TOLERANCE = -1e-12
-"""An eigenvalue below this times the largest magnitude is negative, not rounding noise."""
+"""An eigenvalue below this multiple of the largest magnitude is negative, not rounding noise."""
 
 _SAMPLE_COUNT = 4096
 _STARTS_PER_SIGN = 16  # starts for each joint and sign
 _MAX_SWEEPS = 200
-_CONVERGED_GAIN = 1e-13  # gain of a sweep that ends the search, against the weight carried times the arm's length
-_ZERO_TORQUE_RATIO = 1e-12  # a torque this small against the same is rounding noise
+_CONVERGED_GAIN = 1e-13  # gain of a sweep that ends the search, relative to the carried weight times the arm's length
+_ZERO_TORQUE_RATIO = 1e-12  # a torque this small relative to the same product is rounding noise
 
 
 def weight_matrix(arm: Arm, weights: WeightSpec, torque: bool, name: str) -> tuple[FloatArray, str]:
     """Return W (n, n), symmetric, and a word for its kind.
 
     Args:
-        arm: The arm.
+        arm: Arm model.
         weights: None (identity), (n,) diagonal, (n, n), ``"effort"`` or ``"worst-case"``.
-        torque: The measure is a torque, so that the weights named after torques make sense.
-        name: Of the measure, for messages.
+        torque: True if the measure is a torque, so that the named weights apply.
+        name: Name of the measure, for messages.
 
     Raises:
-        InputError: Weights that are not such a matrix, not positive semidefinite, or named and not applicable.
+        InputError: The weights are not such a matrix, not positive semidefinite, or named and not applicable.
     """
     if weights is None:
         return np.eye(arm.n), "identity"
@@ -77,22 +77,22 @@ def _named_weights(arm: Arm, weights: str) -> FloatArray:
                 )
         return np.diag([1 / joint.effort**2 for joint in arm.joints])
     largest = largest_static_torque(arm)
-    # A joint that never carries a static load has nothing to be compared with and nothing to add.
+    # A joint that never carries a static load has no reference value and contributes nothing.
     return np.diag([0.0 if t == 0 else 1 / t**2 for t in largest])
 
 
 def largest_static_torque(arm: Arm) -> FloatArray:
-    """Return the largest magnitude of each joint's holding torque or force over the joint limits, (n,), N m and N.
+    """Return the largest magnitude of each joint's holding torque or force over the joint limits of ``arm``, (n,), N m and N.
 
-    As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Revolute joints without limits
-    take every angle. It is 0 for a joint that gravity never loads.
+    As in English and Maciejewski 1998, eq. (46), for their planar arm, but computed for any arm. Revolute joints without limits
+    take every angle. The result is 0 for a joint that gravity never loads.
 
-    Every torque is a sinusoid of each revolute joint and affine in each prismatic joint, so the best value of one joint, the
-    others held, has a closed form: many starts spread over the workspace climb joint by joint until none gains.
+    Every torque is sinusoidal in each revolute joint and affine in each prismatic joint, so the best value of one joint with
+    the others fixed has a closed form. Many starts spread over the workspace improve joint by joint until none gains.
 
     Raises:
-        ArmError: A link of which nothing is known.
-        InputError: A prismatic joint without limits.
+        ArmError: The mass of a link is unknown.
+        InputError: A prismatic joint has no limits.
     """
     require_masses(arm)
     low, high = np.where(np.isfinite(arm.lower), arm.lower, -np.pi), np.where(np.isfinite(arm.upper), arm.upper, np.pi)

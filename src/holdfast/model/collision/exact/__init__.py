@@ -1,1 +1,1 @@
-"""Exact collision answers for the bodies themselves instead of the spheres that cover them."""
+"""Exact collision queries for the bodies themselves instead of the spheres that cover them."""

@@ -22,11 +22,11 @@ from holdfast.model.shapes.pieces import Piece
 Triangles = NDArray[np.int64]
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "convex", "mesh"]
 
-_CONVEX_TOLERANCE = 1e-9  # of its hull's volume: what a closed mesh may lack of it and still be its hull
-_GRID_POINTS = 14  # points along the longest edge of a hull, among which centres of spheres within it are looked for
-_MAX_INNER_SPHERES = 4  # spheres within a hull, at most
-_MAX_OBJECT_SPHERES = 2  # of those, of an object
-_MIN_EDGE_M = 1e-9  # m: a box has edges
+_CONVEX_TOLERANCE = 1e-9  # relative to its hull's volume: a closed mesh may lack this volume and still count as its hull
+_GRID_POINTS = 14  # points along the longest edge of a hull, among which centres of inner spheres are searched
+_MAX_INNER_SPHERES = 4  # maximum number of spheres inside a hull
+_MAX_OBJECT_SPHERES = 2  # maximum number of spheres inside an object
+_MIN_EDGE_M = 1e-9  # m: shortest edge of a box
 
 
 def _empty_points() -> FloatArray:
@@ -35,16 +35,16 @@ def _empty_points() -> FloatArray:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CollisionBody:
-    """A rigid body.
+    """Rigid body.
 
     Attributes:
-        kind: What it is; ``convex`` is the hull of its vertices, ``mesh`` all that its triangles enclose.
-        size: m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, that of a capsule between the
-            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. Nothing of the others.
-        pose: (4, 4) of its own frame in that of its link, or in the world.
-        vertices: (V, 3) m, in its own frame, of a hull or mesh.
-        faces: (F, 3) positions in them, counterclockwise seen from outside.
-        filled: The mesh itself, in the same frame, where this is its hull and fills a little of it; else None.
+        kind: Kind of the body; ``convex`` is the hull of its vertices, ``mesh`` the volume that its triangles enclose.
+        size: Size, m. A box: (3,) full sizes. A cylinder or capsule along z: radius and length, for a capsule between the
+            centres of its ends. A sphere: its radius. An ellipsoid: (3,) half axes. Empty for other kinds.
+        pose: (4, 4) pose of its own frame in that of its link, or in the world, m.
+        vertices: (V, 3) vertices of a hull or mesh in its own frame, m.
+        faces: (F, 3) row numbers of the corners, counterclockwise seen from outside.
+        filled: Original mesh in the same frame if this body is its hull and fills a little of it; else None.
     """
 
     kind: Kind
@@ -89,7 +89,7 @@ class CollisionBody:
 
     @cached_property
     def inner_spheres(self) -> tuple[FloatArray, FloatArray]:
-        """Centers (S, 3) and radii (S,), m, of spheres inside the body; none of a mesh."""
+        """Centers (S, 3) and radii (S,), m, of spheres inside the body; none for a mesh."""
         if self.kind == "mesh":
             return _empty_points(), np.zeros(0)
         if self.kind in ("box", "convex"):
@@ -128,7 +128,7 @@ class CollisionBody:
     def contains_point(self, point: FloatArray) -> bool:
         """Return True if a point (3,) lies inside a mesh.
 
-        The solid angle of all its triangles is 4 pi from within and 0 from outside (van Oosterom & Strackee 1983).
+        The solid angle of all its triangles is 4 pi from inside and 0 from outside (van Oosterom & Strackee 1983).
         """
         if (point < self.vertices.min(axis=0)).any() or (point > self.vertices.max(axis=0)).any():
             return False
@@ -146,7 +146,7 @@ class CollisionBody:
 
 
 def body_from_capsule(part: LinkCapsule) -> CollisionBody:
-    """Make the body of a capsule of a link; a sphere where it has no length."""
+    """Make the body of a link's capsule; a sphere if it has length 0."""
     start, span = np.array(part.start), np.subtract(part.end, part.start)
     pose = np.eye(4)
     pose[:3, 3] = start + span / 2
@@ -176,7 +176,7 @@ def body_from_solid(solid: solids.Solid) -> CollisionBody:
 
 
 def bounding_primitive(solid: solids.Solid) -> solids.PrimitiveSolid:
-    """Return an object with a formula that contains a given one: itself if it has a formula, else a box in its frame."""
+    """Return an object with a formula that contains a given object: itself if it has a formula, else a box in its frame."""
     if isinstance(solid, solids.PrimitiveSolid):
         return solid
     assert isinstance(solid, Mesh | Points)
@@ -189,7 +189,7 @@ def bounding_primitive(solid: solids.Solid) -> solids.PrimitiveSolid:
 
 
 def inner_primitives(solid: solids.Solid) -> list[solids.PrimitiveSolid]:
-    """Return solids with a formula inside an object: the object itself if it has a formula, spheres in a hull, else nothing."""
+    """Return solids with a formula inside an object: itself if it has a formula, spheres for a hull, else nothing."""
     if isinstance(solid, solids.PrimitiveSolid):
         return [solid]
     body = body_from_solid(solid) if isinstance(solid, Mesh) else None
@@ -239,7 +239,7 @@ def _distance_to_triangles(point: FloatArray, a: FloatArray, b: FloatArray, c: F
 def _fit_inner_spheres(normals: FloatArray, offsets: FloatArray, corners: FloatArray) -> list[list[float]]:
     """Fit spheres inside a hull, centers and radii in m; each one covers most of the volume that the others leave.
 
-    They take 0.1 s a hull, and are remembered.
+    They take 0.1 s per hull and are cached.
     """
     lower, size = corners.min(axis=0), np.ptp(corners, axis=0)
     counts = np.maximum(np.ceil(_GRID_POINTS * size / size.max()).astype(int), 3)

@@ -1,7 +1,7 @@
 """Certain contacts, and the parts of the shape that prevent certainty.
 
 A contact is certain if it is between bodies that lie within the arm: meshes and primitives that were read, and capsules that
-were given as its shape. Capsules that cover a shape, or whose radius is assumed, may overlap where the arm does not.
+were given as its shape. Capsules that cover a shape, or whose radius is assumed, may overlap although the arm does not.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ _ROUNDING_M = 1e-9  # m
 
 
 def name_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0.0) -> list[str]:
-    """Name for each configuration (N, n) two bodies that are certainly closer than allowed; empty where none is known.
+    """Name for each configuration (N, n) two bodies that are certainly closer than allowed; empty if none is known.
 
     Args:
-        clearance: What may not touch, and the margins of its objects.
-        q: (N, n) rad and m, finite.
-        margin: m, kept between all of them, beyond the margins of objects.
+        clearance: Collision model with the margins of its objects.
+        q: (N, n) configurations, rad and m, finite.
+        margin: Required distance between all bodies, m, in addition to the margins of objects.
     """
     names, exactness, arm = [""] * len(q), clearance.exactness, clearance.arm
     own_count = len(clearance.capsules) - clearance.capsules.held
@@ -45,7 +45,7 @@ def name_certain_contacts(clearance: Clearance, q: FloatArray, margin: float = 0
 
 
 def describe_unknown_shape(clearance: Clearance | None) -> str:
-    """Name the shape that is not known exactly in a clause; empty if every contact can be decided."""
+    """Return a clause on the shape that is not known exactly; empty if every contact can be decided."""
     if clearance is None or not clearance.pair_names:
         return ""
     capsules, arm = clearance.capsules, clearance.arm

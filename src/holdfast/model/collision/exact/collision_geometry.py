@@ -17,13 +17,13 @@ from holdfast.model.collision.exact.engines import CONTACT_DISTANCE_M, Collision
 
 @dataclass(eq=False)
 class PlacedBody:
-    """A body at a pose.
+    """Body at a pose.
 
     Attributes:
-        body: What it is.
-        library_body: The library's own.
-        rotation: (3, 3) of its frame in the world.
-        position: (3,) m.
+        body: Body.
+        library_body: Body of the library.
+        rotation: (3, 3) rotation of its frame in the world.
+        position: (3,) position of its frame, m.
     """
 
     body: CollisionBody
@@ -48,27 +48,27 @@ class CollisionGeometry(Protocol):
         """Return True if the part touches the geometry."""
 
     def body_distance(self, part: PlacedBody) -> float:
-        """Return the distance of the part, m; 0 where it touches."""
+        """Return the distance of the part, m; 0 in contact."""
 
 
 class BodyGeometry:
-    """A body, on another link or in the cell.
+    """Body on another link or in the cell.
 
     Args:
-        engine: The library.
-        placed: The body.
+        engine: Collision library.
+        placed: Body at its pose.
     """
 
     def __init__(self, engine: CollisionLibrary, placed: PlacedBody) -> None:
         self._engine, self.placed = engine, placed
 
     def bodies_touch(self, part: PlacedBody) -> bool:
-        """See :class:`CollisionGeometry`."""
+        """Return True if the part touches the body; see :class:`CollisionGeometry`."""
         return self._engine.bodies_touch(part.library_body, self.placed.library_body) or self._is_one_inside_other(part)
 
     def body_distance(self, part: PlacedBody) -> float:
-        """See :class:`CollisionGeometry`."""
-        # Within a mesh and far from its surface a library sees no contact.
+        """Return the distance of the part from the body, m; see :class:`CollisionGeometry`."""
+        # Inside a mesh and far from its surface a library finds no contact.
         distance = self._engine.body_distance(part.library_body, self.placed.library_body)
         return 0.0 if distance < CONTACT_DISTANCE_M or self._is_one_inside_other(part) else distance
 
@@ -84,21 +84,21 @@ class BodyGeometry:
 
 
 class HalfSpaceGeometry:
-    """The half space below a plane.
+    """Half space below a plane.
 
     Args:
-        solid: The half space.
+        solid: Half space.
     """
 
     def __init__(self, solid: HalfSpace) -> None:
         self._normal, self._origin = solid.pose[:3, 2], solid.pose[:3, 3]
 
     def bodies_touch(self, part: PlacedBody) -> bool:
-        """See :class:`CollisionGeometry`."""
+        """Return True if the part touches the half space; see :class:`CollisionGeometry`."""
         return self.body_distance(part) == 0
 
     def body_distance(self, part: PlacedBody) -> float:
-        """See :class:`CollisionGeometry`."""
+        """Return the distance of the part from the half space, m; see :class:`CollisionGeometry`."""
         gap = float(self._normal @ (part.position - self._origin)) - part.body.support_distance(-self._normal @ part.rotation)
         return gap if gap >= CONTACT_DISTANCE_M else 0.0
 
@@ -107,8 +107,8 @@ class PointCloudGeometry:
     """Balls of one radius around many points.
 
     Args:
-        engine: The library, for the distance of points from hulls and meshes.
-        solid: The points.
+        engine: Library for the distance of points from hulls and meshes.
+        solid: Cloud of points.
     """
 
     def __init__(self, engine: CollisionLibrary, solid: Points) -> None:
@@ -118,12 +118,12 @@ class PointCloudGeometry:
         self._ball = engine.make_body(CollisionBody(kind="sphere", size=(solid.radius,)))
 
     def bodies_touch(self, part: PlacedBody) -> bool:
-        """See :class:`CollisionGeometry`."""
+        """Return True if the part touches a ball; see :class:`CollisionGeometry`."""
         return self._nearest_ball_distance(part, CONTACT_DISTANCE_M, sign_only=True) < CONTACT_DISTANCE_M
 
     def body_distance(self, part: PlacedBody) -> float:
-        """See :class:`CollisionGeometry`."""
-        # No ball is nearer than the one about the point that is nearest to the middle, and that one is no farther than this.
+        """Return the distance of the part from the nearest ball, m; see :class:`CollisionGeometry`."""
+        # No ball is nearer than the ball about the point that is nearest to the middle, and that ball is no farther than this.
         middle, part_radius = part.body.bounding_sphere
         center_distance = float(self._tree.query(part.position + part.rotation @ middle)[0])
         distance = self._nearest_ball_distance(part, center_distance + part_radius)
@@ -156,7 +156,7 @@ class PointCloudGeometry:
         return smallest
 
     def _lower_bounds(self, part: PlacedBody, points: FloatArray) -> FloatArray:
-        """Return lower bounds (N,) of the distances of balls around points (N, 3), m; exact where there is a formula."""
+        """Return lower bounds (N,) of the distances of balls around points (N, 3), m; exact if there is a formula."""
         local_points = part.to_body_frame(points)
         if part.body.exact_primitive is not None:
             return np.asarray(part.body.exact_primitive.signed_distance(local_points) - self._radius)
@@ -177,7 +177,7 @@ def geometry_of_object(engine: CollisionLibrary, solid: Solid) -> CollisionGeome
 
 
 def place_fixed_body(engine: CollisionLibrary, body: CollisionBody) -> PlacedBody:
-    """Place a body of the world permanently."""
+    """Place a body permanently in the world."""
     placed = PlacedBody(body, engine.make_body(body), body.pose[:3, :3], body.pose[:3, 3])
     engine.place_body(placed.library_body, placed.rotation, placed.position)
     return placed

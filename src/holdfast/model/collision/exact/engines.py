@@ -1,8 +1,8 @@
-"""Collision libraries that answer contact and distance queries of two bodies exactly, behind one protocol.
+"""Collision libraries that compute contacts and distances of two bodies exactly, behind one protocol.
 
-python-fcl comes with the extra ``cell``. Its signs are right; its distances, of bodies apart, are sometimes too large
-(measured: 1 in 1,500 pairs, by up to 1.4 mm), and its signed distances throw near contact, so they are never asked for. coal is
-taken where it is installed for distances.
+python-fcl comes with the extra ``cell``. Its contacts are right. Its distances of separate bodies are sometimes too large
+(measured: 1 in 1,500 pairs, by up to 1.4 mm), and its signed distances raise errors near contact, so they are never requested.
+If coal is installed, it computes the distances.
 
 Sources: Pan, Chitta & Manocha 2012, FCL, ICRA; Montaut et al. 2022, Collision detection accelerated, RSS (coal).
 """
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from holdfast.model.collision.exact.bodies import CollisionBody
 
 
-CONTACT_DISTANCE_M = 1e-6  # m: bodies nearer than this touch
+CONTACT_DISTANCE_M = 1e-6  # m: closer bodies touch
 
 
 class CollisionLibrary(Protocol):
     """Interface of a collision library. Two bodies, once made, can be placed and queried repeatedly.
 
     Attributes:
-        name: Of the library, with its version.
-        within: How right its distances are, m.
+        name: Name of the library, with its version.
+        accuracy: Largest error of its distances, m.
     """
 
     name: str
@@ -43,17 +43,17 @@ class CollisionLibrary(Protocol):
         """Place the frame of a body at a rotation (3, 3) and position (3,), m."""
 
     def bodies_touch(self, a: Any, b: Any) -> bool:
-        """Return True if two placed bodies touch; a mesh is a surface here, with nothing inside."""
+        """Return True if two placed bodies touch; a mesh is only a surface here, without a volume."""
 
     def body_distance(self, a: Any, b: Any) -> float:
-        """Return the distance of two placed bodies, m; 0 or less where they touch."""
+        """Return the distance of two placed bodies, m; 0 or less in contact."""
 
 
 def contact_library() -> CollisionLibrary:
     """Return the library for contact queries.
 
     Raises:
-        HoldfastError: None is installed.
+        HoldfastError: No library is installed.
     """
     return Fcl() if find_spec("fcl") else Coal() if find_spec("coal") else _raise_missing_library()
 
@@ -62,7 +62,7 @@ def distance_library() -> CollisionLibrary:
     """Return the library for distances of bodies.
 
     Raises:
-        HoldfastError: None is installed.
+        HoldfastError: No library is installed.
     """
     return Coal() if find_spec("coal") else Fcl() if find_spec("fcl") else _raise_missing_library()
 
@@ -80,7 +80,7 @@ def _raise_missing_library() -> CollisionLibrary:
 
 
 class Fcl:
-    """The collision library python-fcl."""
+    """Collision library python-fcl."""
 
     accuracy = 2e-3
 
@@ -93,7 +93,7 @@ class Fcl:
         self._apart = fcl.DistanceRequest(enable_nearest_points=False, enable_signed_distance=False)
 
     def make_body(self, body: CollisionBody) -> Any:
-        """See :class:`CollisionLibrary`."""
+        """Make a body of python-fcl; see :class:`CollisionLibrary`."""
         return self._fcl.CollisionObject(self._make_geometry(body), self._fcl.Transform())
 
     def _make_geometry(self, body: CollisionBody) -> Any:
@@ -110,21 +110,21 @@ class Fcl:
         return getattr(self._fcl, kinds[body.kind])(*body.size)
 
     def place_body(self, library_body: Any, rotation: FloatArray, position: FloatArray) -> None:
-        """See :class:`CollisionLibrary`."""
+        """Place a body; see :class:`CollisionLibrary`."""
         library_body.setRotation(rotation)
         library_body.setTranslation(position)
 
     def bodies_touch(self, a: Any, b: Any) -> bool:
-        """See :class:`CollisionLibrary`."""
+        """Return True if two bodies touch; see :class:`CollisionLibrary`."""
         return bool(self._fcl.collide(a, b, self._touch, self._fcl.CollisionResult()))
 
     def body_distance(self, a: Any, b: Any) -> float:
-        """See :class:`CollisionLibrary`."""
+        """Return the distance of two bodies, m; see :class:`CollisionLibrary`."""
         return float(self._fcl.distance(a, b, self._apart, self._fcl.DistanceResult()))
 
 
 class Coal:
-    """The collision library coal, formerly hpp-fcl."""
+    """Collision library coal, formerly hpp-fcl."""
 
     accuracy = CONTACT_DISTANCE_M
 
@@ -138,7 +138,7 @@ class Coal:
         self._pairs: dict[tuple[int, int], tuple[Any, Any]] = {}
 
     def make_body(self, body: CollisionBody) -> Any:
-        """See :class:`CollisionLibrary`."""
+        """Make a body of coal; see :class:`CollisionLibrary`."""
         return self._make_geometry(body), self._coal.Transform3s()
 
     def _make_geometry(self, body: CollisionBody) -> Any:
@@ -159,22 +159,22 @@ class Coal:
         return getattr(self._coal, kinds[body.kind])(*body.size)
 
     def place_body(self, library_body: Any, rotation: FloatArray, position: FloatArray) -> None:
-        """See :class:`CollisionLibrary`."""
+        """Place a body; see :class:`CollisionLibrary`."""
         library_body[1].setRotation(rotation)
         library_body[1].setTranslation(position)
 
     def _pair_queries(self, a: Any, b: Any) -> tuple[Any, Any]:
         key = id(a), id(b)
-        if key not in self._pairs:  # holds the bodies, so that no other can have their place in memory
+        if key not in self._pairs:  # keeps the bodies, so that no other can take their place in memory
             queries = self._coal.ComputeCollision(a[0], b[0]), self._coal.ComputeDistance(a[0], b[0])
             self._pairs[key] = queries, (a, b)
         collision, distance = self._pairs[key][0]
         return collision, distance
 
     def bodies_touch(self, a: Any, b: Any) -> bool:
-        """See :class:`CollisionLibrary`."""
+        """Return True if two bodies touch; see :class:`CollisionLibrary`."""
         return bool(self._pair_queries(a, b)[0](a[1], b[1], self._touch, self._coal.CollisionResult()))
 
     def body_distance(self, a: Any, b: Any) -> float:
-        """See :class:`CollisionLibrary`."""
+        """Return the distance of two bodies, m; see :class:`CollisionLibrary`."""
         return float(self._pair_queries(a, b)[1](a[1], b[1], self._apart, self._coal.DistanceResult()))

@@ -1,4 +1,4 @@
-"""A clearance with exact distances where its bound is not sufficient, so that falsely blocked configurations become free."""
+"""Clearance with exact distances where its bound is not sufficient, so that falsely blocked configurations become free."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from holdfast.model.collision.exact.exactness import ExactQueries
 
 
-_EXACT_BELOW_M = 0.02  # m of room: nearer than this the distance is asked for; about what the bound lacks
+_EXACT_BELOW_M = 0.02  # m of margin: below it the exact distance is computed; about the underestimate of the bound
 
 
 def with_exact_distances(clearance: Clearance | None, margin: float = 0.0) -> ExactClearance | None:
-    """Return the clearance with exact distances; None without a library, and where the distances are exact already.
+    """Return the clearance with exact distances; None without a library, and if the distances are exact already.
 
-    Without a cell those of capsules that cover no known shape are.
+    Without a cell the distances of capsules that cover no known shape are exact.
 
     Args:
-        clearance: Whose bound is asked first.
-        margin: m, the room that will be asked for.
+        clearance: Clearance with the bound, which is computed first.
+        margin: Margin that will be required, m.
     """
     if (
         clearance is None
@@ -40,14 +40,14 @@ def with_exact_distances(clearance: Clearance | None, margin: float = 0.0) -> Ex
 
 
 class ExactClearance(Clearance):
-    """A clearance whose bound is raised to the exact distance, less the library's error, wherever the margin is small.
+    """Clearance whose bound is raised to the exact distance, minus the library's error, wherever the margin is small.
 
-    What is nearest has that distance, so that everything else has at least as much: it bounds every pair, of bodies instead of
+    The nearest pair has that distance, and every other pair at least the same. So it bounds every pair of bodies, instead of
     the capsules and spheres that cover them, and proofs about whole motions hold as they do for the bound.
 
     Args:
-        bound: The clearance.
-        margin: m, the room that will be asked for.
+        bound: Clearance with the bound.
+        margin: Margin that will be required, m.
     """
 
     def __init__(self, bound: Clearance, margin: float) -> None:
@@ -58,12 +58,12 @@ class ExactClearance(Clearance):
 
     @property
     def self_only(self) -> Clearance:
-        """The bound without the cell."""
+        """Bound without the cell."""
         return self._bound.self_only
 
     @property
     def exactness(self) -> ExactQueries:
-        """Exact collision queries, answered by a library."""
+        """Exact collision queries, computed by a library."""
         return self._bound.exactness
 
     @cached_property
@@ -71,16 +71,16 @@ class ExactClearance(Clearance):
         return self.exactness.accuracy
 
     def with_cell(self, cell: Cell | None) -> Clearance:
-        """See :meth:`holdfast.Clearance.with_cell`."""
+        """Return the clearance in another cell; see :meth:`holdfast.Clearance.with_cell`."""
         other_bound = self._bound.with_cell(cell)
         return with_exact_distances(other_bound, self._near - _EXACT_BELOW_M) or other_bound
 
     def __call__(self, q: ArrayLike) -> FloatArray:
-        """See :meth:`holdfast.Clearance.__call__`."""
+        """Return the smallest distance, m; see :meth:`holdfast.Clearance.__call__`."""
         return self._sharpen_margins(q, np.zeros(len(self.margins)), self._bound(q))
 
     def margin_left(self, q: ArrayLike) -> FloatArray:
-        """See :meth:`holdfast.Clearance.margin_left`."""
+        """Return the smallest distance beyond its margin, m; see :meth:`holdfast.Clearance.margin_left`."""
         return self._sharpen_margins(q, self.margins, self._bound.margin_left(q))
 
     def _sharpen_margins(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
@@ -92,7 +92,7 @@ class ExactClearance(Clearance):
         return raised[0] if single else raised
 
     def by_pair(self, q: ArrayLike) -> FloatArray:
-        """See :meth:`holdfast.Clearance.by_pair`."""
+        """Return the distance of every pair, m; see :meth:`holdfast.Clearance.by_pair`."""
         rows, single = as_configurations(self.arm, q)
         values = self._bound.by_pair(rows)
         is_near = (values - self.margins).min(axis=1, initial=np.inf) < self._near
@@ -102,5 +102,5 @@ class ExactClearance(Clearance):
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> IndexArray:
-        """See :meth:`holdfast.Clearance.closest_pair`; by the bound."""
+        """Return the pair with the smallest margin by the bound; see :meth:`holdfast.Clearance.closest_pair`."""
         return self._bound.closest_pair(q)

@@ -22,22 +22,22 @@ from holdfast.model.collision.obstacles import Obstacles
 from holdfast.model.collision.sphere_cover import make_sphere_cover
 
 Pair = tuple[int, int]
-Group = tuple[int, bool]  # a link, and whether what it holds or itself
+Group = tuple[int, bool]  # a link, and whether its held objects or the link itself
 
-_MAX_HULL_FACES = 500  # faces of a hull, all of which are looked at before a library is asked
+_MAX_HULL_FACES = 500  # faces of a hull that are all checked before the library is called
 
 
 class ExactQueries:
-    """The exact collision queries of a clearance.
+    """Exact collision queries of a clearance.
 
     Args:
-        arm: The arm.
-        capsules: What covers it.
-        self_bounds: The bound without the cell: its smallest distance (N,) and that of every pair (N, P), m.
+        arm: Arm model.
+        capsules: Capsules that cover the arm.
+        self_bounds: Bound without the cell: functions for its smallest distance (N,) and that of every pair (N, P), m.
         pairs: Positions of the capsules that are checked against each other, the one nearer to the base first.
-        ignored: Positions of those that are not.
-        obstacles: The objects of its cell, or None.
-        held: What moves with the tool, with poses in its frame.
+        ignored: Positions of the pairs that are not checked.
+        obstacles: Objects of the cell, or None.
+        held: Objects that move with the tool, with poses in its frame.
     """
 
     def __init__(
@@ -54,13 +54,13 @@ class ExactQueries:
         self._self_bounds, self._pairs, self._ignored = self_bounds, pairs, ignored
         self.parts = arm_bodies(arm, capsules, held)
 
-    # ---- what is asked -------------------------------------------------------------------------------------------
+    # ---- evaluation ----------------------------------------------------------------------------------------------
 
     def check_collision_free(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where nothing touches; False for rows that are not finite.
 
         Raises:
-            HoldfastError: No library for it is installed.
+            HoldfastError: No collision library is installed.
         """
         queries = self._contact_queries
         bound = np.minimum(self._self_bounds[0](q), self._outer_objects.smallest_distance(q))
@@ -76,11 +76,11 @@ class ExactQueries:
         """Return (N,) True where the bodies of one pair of the clearance touch.
 
         Args:
-            q: (N, n) finite.
+            q: (N, n) finite configurations, rad and m.
             pair: Position in ``pair_names`` of the clearance.
 
         Raises:
-            HoldfastError: No library for it is installed.
+            HoldfastError: No collision library is installed.
         """
         queries, own_count = self._contact_queries, len(self._pairs)
         column = (
@@ -95,16 +95,16 @@ class ExactQueries:
         return queries.check_contacts(q, bounds)
 
     def name_known_contacts(self, q: FloatArray, margin: float) -> list[str]:
-        """Name for each row two bodies of known shape that are closer than allowed; empty where there are none.
+        """Name for each row two bodies of known shape that are closer than allowed; empty if there are none.
 
-        Meshes count as they are, not as the hulls that stand for them where they are nearly convex.
+        Meshes count as they are, not as the hulls that replace them if they are nearly convex.
 
         Args:
-            q: (N, n) finite.
-            margin: m, beyond what objects keep.
+            q: (N, n) finite configurations, rad and m.
+            margin: Required distance, m, in addition to the margins of objects.
 
         Raises:
-            HoldfastError: No library for it is installed.
+            HoldfastError: No collision library is installed.
         """
         obstacles = self.obstacles
         allowed = np.full(len(self._columns_by_link_pair), margin)
@@ -118,14 +118,14 @@ class ExactQueries:
 
     @property
     def are_all_shapes_known(self) -> bool:
-        """True if each body is a part of the arm, none a cover or an assumption."""
+        """True if every body is a part of the arm, and none is a cover or an assumption."""
         return all(part.known for part in self.parts)
 
     def smallest_distances(self, q: FloatArray) -> FloatArray:
-        """Return the smallest distance (N,), m; 0 where anything touches, NaN for rows that are not finite.
+        """Return the smallest distance (N,), m; 0 in contact, NaN for rows that are not finite.
 
         Raises:
-            HoldfastError: No library for it is installed.
+            HoldfastError: No collision library is installed.
         """
         queries = self._distance_queries
         distances = np.full(len(q), np.nan)
@@ -141,7 +141,7 @@ class ExactQueries:
         """Library of the distances, and its accuracy.
 
         Raises:
-            HoldfastError: No library for it is installed.
+            HoldfastError: No collision library is installed.
         """
         engine = self._distance_queries.engine
         return f"{engine.name}, to {1e3 * engine.accuracy:g} mm"
@@ -197,8 +197,8 @@ class ExactQueries:
     def _columns_by_link_pair(self) -> dict[tuple[Group, Group], list[int]]:
         """Checked pairs of links, with the columns of their capsule pairs; no columns if a relevant capsule pair is ignored.
 
-        What the last link holds is apart from it. Pairs of capsules about bodies that are not checked against each other,
-        ``capsules.apart``, do not count.
+        Held objects of the last link are separate from it. Pairs of capsules around bodies that are not checked against each
+        other, ``capsules.apart``, do not count.
         """
         columns_by_links: dict[tuple[Group, Group], list[int]] = {}
         for column, pair in enumerate(self._pairs):
@@ -212,7 +212,7 @@ class ExactQueries:
 
     @property
     def self_collision_pairs(self) -> list[tuple[list[int], list[tuple[int, int]]]]:
-        """For each two links the pairs of the clearance, and the checked bodies, by their positions in ``parts``."""
+        """Return for each two links the pairs of the clearance, and the checked bodies, by their positions in ``parts``."""
         return [
             (columns, _find_checked_pairs(self.parts, *links, self._unchecked_links))
             for links, columns in self._columns_by_link_pair.items()
@@ -221,7 +221,7 @@ class ExactQueries:
     # ---- bounds --------------------------------------------------------------------------------------------------
 
     def _distance_bounds(self, q: FloatArray, *, near: bool) -> FloatArray:
-        """Return bounds (N, P) for :class:`NarrowPhase`; sharper for hulls that may touch or, if ``near``, be nearest."""
+        """Return bounds (N, P) for :class:`NarrowPhase`; tighter for hulls that may touch or, if ``near``, be nearest."""
         capsule_distances = self._self_bounds[1](q)
         own_bounds = [
             capsule_distances[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf)
@@ -247,7 +247,7 @@ class ExactQueries:
 
     @cached_property
     def _hull_planes(self) -> dict[int, tuple[FloatArray, FloatArray]]:
-        """Normals (F, 3) and offsets (F,), m, in the world, of objects that are hulls of few faces."""
+        """Normals (F, 3) and offsets (F,), m, in the world, of objects that are hulls with few faces."""
         planes, obstacles = {}, self.obstacles
         for index, solid in enumerate(() if obstacles is None else obstacles.cell):
             body = body_from_solid(solid) if isinstance(solid, Mesh) else None
@@ -259,7 +259,7 @@ class ExactQueries:
 
     @cached_property
     def _outer_objects(self) -> FormulaObjects:
-        """The objects, and boxes around those without a formula, against the cover of the arm: below the true distances."""
+        """Objects, and boxes around those without a formula, against the cover of the arm: below the true distances."""
         obstacles = self.obstacles
         if obstacles is None:
             return FormulaObjects(self.arm, make_sphere_cover(self.capsules), [], np.zeros((0, 0)))
@@ -272,7 +272,7 @@ class ExactQueries:
 
     @cached_property
     def inner_objects_and_sources(self) -> tuple[FormulaObjects, list[Solid]]:
-        """Balls inside the arm against solids inside the objects, and the object of each such solid."""
+        """Return balls inside the arm against solids inside the objects, and the object of each such solid."""
         obstacles = self.obstacles
         return self._inner_distances, [] if obstacles is None else [
             solid for solid in obstacles.cell for _ in inner_primitives(solid)

@@ -1,4 +1,4 @@
-"""Exact collision answers: bounds first, then library queries for the pairs that stay open, the nearest first."""
+"""Exact collision queries: bounds first, then library queries for the undecided pairs, the nearest first."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from holdfast.model.collision.exact.engines import CONTACT_DISTANCE_M, Collision
 from holdfast.model.collision.obstacles import Obstacles
 from holdfast.model.collision.sphere_cover import SphereCover
 
-SEARCH_DISTANCE_M = 0.05  # m: beyond the least bound, what is nearest is hardly found
+SEARCH_DISTANCE_M = 0.05  # m: if everything is farther than the least bound by this, the nearest pair is hardly found
 
 
 @dataclass(frozen=True, eq=False)
 class ArmBody:
-    """A body of a link.
+    """Body of a link.
 
     Attributes:
-        link: The joint that moves it, from 0; -1 for the base.
-        body: With its pose in the frame of the link.
-        owner: Name of the link in the arm's file; empty if it is of none.
-        held: Whether the arm only holds it.
-        known: Whether the arm is there; False for a capsule that covers a shape which was not read, or is assumed.
+        link: Index from 0 of the joint that moves it; -1 for the base.
+        body: Body with its pose in the frame of the link.
+        owner: Name of the link in the arm's file; empty if there is none.
+        held: True if the arm only holds it.
+        known: True if the arm is there; False for a capsule that is assumed, or covers a shape that was not read.
     """
 
     link: int
@@ -47,14 +47,14 @@ class ArmBody:
 
 @dataclass(frozen=True, eq=False)
 class CandidatePair:
-    """A body of a link and an object or body that it may touch.
+    """Body of a link, and an object or body that it may touch.
 
     Attributes:
-        pair: Position in the bounds of the pair that it belongs to.
+        pair: Position of its pair in the bounds.
         part: Position of the body.
-        geometry: What it may touch.
-        other: Position of the body that has to be placed for that; the body itself for an object.
-        box: Contains the object; None for a body of another link.
+        geometry: Geometry that it may touch.
+        other: Position of the body that has to be placed for the query; the body itself for an object.
+        box: Box that contains the object; None for a body of another link.
     """
 
     pair: int
@@ -65,12 +65,12 @@ class CandidatePair:
 
 
 def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[ArmBody]:
-    """Return the bodies of an arm: the shapes that its capsules cover, or the capsules themselves where no shape is known.
+    """Return the bodies of an arm: the shapes that its capsules cover, or the capsules themselves if no shape is known.
 
     Args:
-        arm: The arm.
-        capsules: Its capsules.
-        held: What moves with the tool, with poses in its frame.
+        arm: Arm model.
+        capsules: Capsules of the arm.
+        held: Objects that move with the tool, with poses in its frame.
     """
     shape, own_capsules = capsules.shape, capsules.without_held
     if shape is None:
@@ -85,14 +85,14 @@ def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list
 
 
 class NarrowPhase:
-    """Exact queries between the bodies of an arm and the bodies they can touch.
+    """Exact queries between the bodies of an arm and the bodies that they can touch.
 
     Args:
-        arm: The arm.
-        parts: Its bodies.
-        body_pairs: Of each pair of links that is checked, the positions in ``parts`` of the bodies that are.
-        obstacles: The objects of its cell, or None.
-        engine: The library.
+        arm: Arm model.
+        parts: Bodies of the arm.
+        body_pairs: For each checked pair of links, the positions in ``parts`` of the checked bodies.
+        obstacles: Objects of the cell, or None.
+        engine: Collision library.
     """
 
     def __init__(
@@ -125,18 +125,18 @@ class NarrowPhase:
         """Return (N,) True where anything touches.
 
         Args:
-            q: (N, n) finite.
+            q: (N, n) finite configurations, rad and m.
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
         return np.asarray(self.find_too_close_pair(q, bounds, np.zeros(bounds.shape[1])) >= 0)
 
     def find_too_close_pair(self, q: FloatArray, bounds: FloatArray, allowed: FloatArray) -> IndexArray:
-        """Find a pair (N,) that is closer than allowed, by position in the bounds; -1 where there is none.
+        """Find a pair (N,) that is closer than allowed, by position in the bounds; -1 if there is none.
 
         Args:
-            q: (N, n) finite.
-            bounds: As for :meth:`check_contacts`.
-            allowed: (P,) m, of each pair; at 0 the pair may not touch, and below 0 it is not looked at.
+            q: (N, n) finite configurations, rad and m.
+            bounds: (N, P) lower bounds as for :meth:`check_contacts`, m.
+            allowed: (P,) allowed distance of each pair, m; at 0 the pair may not touch, and below 0 it is not checked.
         """
         pairs, frames = np.full(len(q), -1), self._body_frames(q)
         allowed = allowed[self._pair_of]
@@ -162,11 +162,11 @@ class NarrowPhase:
         return pairs
 
     def smallest_distances(self, q: FloatArray, bounds: FloatArray) -> FloatArray:
-        """Return the smallest distance (N,), m; 0 where anything touches, infinite if there is nothing to touch.
+        """Return the smallest distance (N,), m; 0 in contact, infinite if there is nothing to touch.
 
         Args:
-            q: (N, n) finite.
-            bounds: As for :meth:`check_contacts`.
+            q: (N, n) finite configurations, rad and m.
+            bounds: (N, P) lower bounds as for :meth:`check_contacts`, m.
         """
         distances, frames = np.full(len(q), np.inf), self._body_frames(q)
         bounds_by_candidate = self._lower_bounds(frames, bounds, bounds.min(axis=1, initial=np.inf) + SEARCH_DISTANCE_M)

@@ -1,8 +1,8 @@
 """Tool poses at which every configuration collides, because the pose alone fixes the last two links.
 
-The last link has one place at a pose; the one before it can only do what the last joint lets it. While that joint turns by at
-most a from an angle that is looked at, a sphere whose centre is at distance d from its axis goes no farther than d a: if it is
-too close to an object by more than that, it is so at all of these angles.
+A pose fixes the last link, and leaves the link before it one degree of freedom, the last joint. While that joint rotates by at
+most a from a checked angle, a sphere with its centre at distance d from the axis moves by at most d a. If it is closer to an
+object than allowed by more than that, it is too close at all of these angles.
 """
 
 from __future__ import annotations
@@ -17,23 +17,23 @@ from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.object_kernels import FormulaObjects
 from holdfast.model.collision.sphere_cover import SphereCover
 
-_STAGE_ANGLES = (1, 3, 20)  # angles of the last joint; what they leave open is looked at in the next
-_GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are all round the circle, however few they are
-_LAST_JOINT = 5  # the joint that moves the last link here
-_PREVIOUS_JOINT = 6  # the joint that moves the link before it
-# In m: a configuration meets its pose to a millionth of a metre and a radian, so this much more settles it.
+_STAGE_ANGLES = (1, 3, 20)  # numbers of angles of the last joint; each stage refines what the previous one leaves undecided
+_GOLDEN_FRACTION = (np.sqrt(5) - 1) / 2  # its multiples are spread around the circle for any number of them
+_LAST_JOINT = 5  # joint that moves the last link here
+_PREVIOUS_JOINT = 6  # joint that moves the link before it
+# m: a configuration meets its pose to 1e-6 m and rad, so this additional distance decides.
 _POSE_TOLERANCE_M = 1e-5
 
 
 class EndLinks:
-    """The last two links of an arm at the tool's pose, among objects with a distance formula.
+    """Last two links of an arm at the tool's pose, among objects with a distance formula.
 
     Args:
-        arm: The arm, of two joints or more.
-        spheres: The spheres that cover it.
-        objects: F of them.
-        offsets: (n, F) added to the distance of each link that moves from each, m.
-        margins: (F,) what is kept from each, m.
+        arm: Arm model with two joints or more.
+        spheres: Spheres that cover the arm.
+        objects: F objects.
+        offsets: (n, F) offset of the distance of each moving link from each object, m.
+        margins: (F,) distance to keep from each object, m.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class EndLinks:
         self._from_tool, from_last_joint = np.linalg.inv(arm.tool), np.linalg.inv(last_joint.origin)
         end_spheres = np.flatnonzero((spheres.link >= arm.n - 2) & (spheres.link > BASE_LINK))[::-1]  # the last link's first
         center, on_previous = spheres.center[end_spheres], spheres.link[end_spheres] == arm.n - 2
-        # Seen from the last link, and moved the other way.
+        # Seen from the last link, and moved in the other direction.
         center[on_previous] = center[on_previous] @ from_last_joint[:3, :3].T + from_last_joint[:3, 3]
         axis_distance = (
             np.ones(len(end_spheres)) if last_joint.prismatic else np.linalg.norm(np.cross(center, last_joint.axis), axis=1)
@@ -59,10 +59,9 @@ class EndLinks:
         self._objects, self._margins = FormulaObjects(_last_link_machine(last_joint), end_cover, objects, offsets), margins
 
     def are_poses_too_close(self, poses: FloatArray, margin: float) -> BoolArray:
-        """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved to be closer than the margin,
-        m.
+        """Return (N,) True where every configuration of a pose (N, 4, 4), met to 1e-6, is proved closer than the margin, m.
 
-        False proves nothing.
+        False is no proof.
         """
         if not (self._last.size and self._margins.size):
             return np.zeros(len(poses), dtype=np.bool_)
@@ -90,7 +89,7 @@ def _last_link_machine(last: Joint) -> ArmData:
 def _pose_coordinates(poses: FloatArray) -> FloatArray:
     """Return positions, m, and angles about z, then y, then x, rad, of poses (N, 4, 4), together (N, 6)."""
     r = poses[:, :3, :3]
-    yaw = np.arctan2(r[:, 1, 0], r[:, 0, 0])  # 0 at a quarter turn about y, where any yaw will do
+    yaw = np.arctan2(r[:, 1, 0], r[:, 0, 0])  # 0 at a quarter turn about y, where any yaw is valid
     cosine, sine = np.cos(yaw), np.sin(yaw)
     pitch = np.arctan2(-r[:, 2, 0], cosine * r[:, 0, 0] + sine * r[:, 1, 0])
     roll = np.arctan2(sine * r[:, 0, 2] - cosine * r[:, 1, 2], cosine * r[:, 1, 1] - sine * r[:, 0, 1])

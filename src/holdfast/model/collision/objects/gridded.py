@@ -1,6 +1,6 @@
 """Distances between the spheres that cover an arm and objects with a distance grid: meshes and point clouds.
 
-The positions of the spheres are compiled for the arm; what they read in the grids is NumPy's.
+The positions of the spheres are compiled for the arm; NumPy reads the grids.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from holdfast.model.collision.object_kernels import directional_jacobian, sphere
 from holdfast.model.collision.sphere_cover import SphereCover
 
 _BATCH_CONFIGURATIONS = 1 << 9  # configurations
-_FULL_CHECK_BELOW = 8  # configurations: of fewer everything is looked at
-_ROUNDING_M = 1e-6  # m: more than the distance of middles may be wrong by
+_FULL_CHECK_BELOW = 8  # configurations: for fewer, everything is checked
+_ROUNDING_M = 1e-6  # m: larger than the rounding error of the distance of centres
 
 
 @cached_kernel
 def center_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
-    """Compile the position of each moving sphere in the world, (3 S,), m, of q (n,)."""
+    """Compile the position of each moving sphere in the world, (3 S,), m, for q (n,)."""
     q, centers = sphere_centers(arm, spheres)
     return Kernel("spheres of an arm", [q], [ca.vertcat(*(coordinate for center in centers for coordinate in center))])
 
@@ -50,10 +50,10 @@ class GriddedObjects:
     """Objects with a distance grid, against the spheres of an arm.
 
     Args:
-        arm: The arm.
-        spheres: The spheres that cover it.
-        objects: G of them.
-        offsets: (L, G) added to the distance of each moving link from each, m.
+        arm: Arm model.
+        spheres: Spheres that cover the arm.
+        objects: G objects.
+        offsets: (L, G) offset of the distance of each moving link from each object, m.
     """
 
     def __init__(self, arm: ArmData, spheres: SphereCover, objects: Sequence[GriddedSolid], offsets: FloatArray) -> None:
@@ -96,10 +96,10 @@ class GriddedObjects:
         """Return distances (N, S, G); infinite where the balls around objects show that another distance is not larger.
 
         Args:
-            centers: (N, S, 3) of spheres, m.
-            offsets: (S, G) added to what is read at them, m.
-            starts: First spheres of the groups in which the least distance is sought.
-            together: Whether it is sought among all objects, not of each.
+            centers: (N, S, 3) centres of spheres, m.
+            offsets: (S, G) offsets of the grid values at these centres, m.
+            starts: First spheres of the groups in which the least distance is searched.
+            together: True if it is searched among all objects, not for each object.
         """
         distances = np.full((len(centers), *offsets.shape), np.inf)
         if len(centers) < _FULL_CHECK_BELOW:
@@ -138,7 +138,7 @@ class GriddedObjects:
         """Return a lower bound (N, L, G) of the distance of every link from every object, m.
 
         Args:
-            q: (N, n) rad and m; a row that is not finite gets NaN.
+            q: (N, n) configurations, rad and m; a row that is not finite gets NaN.
         """
         distances = np.empty((len(q), len(self._first_spheres), len(self.objects)))
         for batch, centers in self._iterate_batches(q):
@@ -149,7 +149,7 @@ class GriddedObjects:
         return distances
 
     def smallest_margin(self, q: FloatArray, margins: FloatArray) -> FloatArray:
-        """Return the least distance above the margins (G,), (N,) m."""
+        """Return the least distance beyond the margins (G,), (N,) m."""
         margins_left = np.empty(len(q))
         for batch, centers in self._iterate_batches(q):
             margins_left[batch] = self._sphere_distances(centers, self._distance_offsets - margins, [0], together=True).min(
@@ -160,11 +160,11 @@ class GriddedObjects:
     def nearest_margin_and_gradient(
         self, q: FloatArray, margins: FloatArray
     ) -> tuple[FloatArray, IndexArray, IndexArray, FloatArray]:
-        """Return the least distance above the margins (G,), m, the position of its link, its object, and the gradient (N, n).
+        """Return the least distance beyond the margins (G,), m, the position of its link, its object, and the gradient (N, n).
 
         Args:
-            q: (N, n) rad and m; a row that is not finite gets NaN.
-            margins: (G,) m.
+            q: (N, n) configurations, rad and m; a row that is not finite gets NaN.
+            margins: (G,) distance to keep from each object, m.
         """
         margins_left, point_data = np.empty(len(q)), np.empty((len(q), 7))
         sphere, object_index = np.empty(len(q), np.int64), np.empty(len(q), np.int64)

@@ -9,10 +9,10 @@ from holdfast.model.collision.clearance import Clearance
 
 
 class SingleConfigurationClearance:
-    """:meth:`Clearance.nearest` of one row, the same bits in a fraction of the time; not thread-safe.
+    """:meth:`Clearance.nearest` for one row, with the same bits in a fraction of the time; not thread-safe.
 
     Args:
-        clearance: What is looked at.
+        clearance: Collision model.
     """
 
     def __init__(self, clearance: Clearance) -> None:
@@ -23,7 +23,7 @@ class SingleConfigurationClearance:
             else []
         )
         self._blocks = [] if obstacles is None else obstacles.single_row_kernels()
-        self._needs_batch = obstacles is not None and not self._blocks  # with grids, which are NumPy's
+        self._needs_batch = obstacles is not None and not self._blocks  # with grids, which NumPy reads
         self._n = clearance.arm.n
 
     def __call__(self, q: FloatArray) -> tuple[float, FloatArray]:
