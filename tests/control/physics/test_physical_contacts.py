@@ -113,5 +113,5 @@ def test_a_start_within_an_object_and_a_cloud_are_refused():
         hf.free_swing(arm, [STOP - 0.1], 0, clearance=bob(arm, Cell([FLOOR])))
     clearance = bob(arm, Cell([FLOOR]))
     clearance.cell = Cell([Points("scan", np.zeros((3, 3)), radius=0.01)])
-    with pytest.raises(InputError, match="object 'scan' is a cloud of points, for which MuJoCo has no body"):
+    with pytest.raises(InputError, match="object 'scan' is a point cloud, for which MuJoCo has no body"):
         hf.free_swing(arm, [0.0], 0, clearance=clearance)
