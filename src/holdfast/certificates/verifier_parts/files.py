@@ -1,4 +1,4 @@
-"""Certificate files: checks of their form, their digests and their claim."""
+"""Certificate files, with checks of their form, their digests and their claim."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ MAX_JOINTS = 64
 
 
 def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
-    """Load a certificate of the right form, with matching digests and claim; raises :class:`CertificateRejected` for any other
-    file.
+    """Load a certificate, and check its form, its digests and its claim.
 
-    Of an archive (``.zip``), in which the parts of a bundle lie beside it, that is its first file.
+    In an archive (``.zip``), which also contains the parts of a bundle, the certificate is the first file. Raises
+    :class:`CertificateRejected` for any other file.
     """
 
     def reject_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
         raise
     except OSError as error:
         raise CertificateRejected(f"cannot read {path.name}: {error.strerror or error}") from None
-    except Exception as error:  # of JSON, of numbers, and of the decompressors of an archive, each of which has its own
+    except Exception as error:  # JSON, numbers, and the decompressors of an archive raise different errors
         raise CertificateRejected(f"{path.name} cannot be read as JSON and its numbers: {str(error)[:80]}") from None
     return dict(document)
 
@@ -74,8 +74,10 @@ def find_first_file(path: Path | zipfile.Path) -> Path | zipfile.Path:
 
 
 def require_form(value: Any, form: Any, label: str) -> None:
-    """Require a form: an object of these keys, a list [form, length], text of a pattern, a range of integers, or null; ...
-    accepts anything.
+    """Require a form of a value.
+
+    A form is an object with these keys, a list [form, length], a pattern of a text, a range of integers, or null; ... accepts
+    any value.
     """
     if isinstance(form, dict):
         unexpected = sorted(form.keys() ^ value.keys() if isinstance(value, dict) else form)[:1]
@@ -104,7 +106,7 @@ def require_nested_intervals(pairs: list[Any], outer: list[Any], label: str) -> 
 
 
 def _check_document(document: dict[str, Any]) -> None:
-    for key in ("format", "version", "kind", "arm", "task"):  # what the form of the rest depends on
+    for key in ("format", "version", "kind", "arm", "task"):  # the form of the other keys depends on these
         require_form(document.get(key), COMMON_FORM[key], key)
     names = [joint["name"] for joint in document["arm"]["joints"]]
     is_valid = 0 < len(names) <= MAX_JOINTS and len(set(names)) == len(names)

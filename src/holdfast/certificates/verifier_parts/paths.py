@@ -32,8 +32,8 @@ from .tree import MAX_LEAVES, Cell, iterate_cells
 Ints = NDArray[np.int64]
 StoredSlab = tuple[
     int, tuple[int, int], Ints, Ints
-]  # the lock; its ends; of its cells start, end and half width; their centres
-StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
+]  # the lock; the ends of the slab; start, end and half width of its cells; their centres
+StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # lock; interval; path instant; leaves of the tree
 
 SEGMENT_INSTANTS = 1 << 20  # instants
 PATH_CENTER_UNIT = 2.0**-28  # rad
@@ -65,9 +65,7 @@ def format_fraction(fraction: Fraction) -> str:
 
 
 def format_worst_fractions(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
-    """Return the smallest proved and the largest refuted and undecided fractions over the locks of all joints, given (proved,
-    refuted).
-    """
+    """Return the smallest proved, and the largest refuted and undecided fractions of locks with (proved, refuted) fractions."""
     min_proved, max_refuted = min(proved for proved, _ in parts), max(refuted for _, refuted in parts)
     max_undecided = max(1 - proved - refuted for proved, refuted in parts)
     volumes = {"proved": min_proved, "refuted": max_refuted, "undecided": max_undecided}
@@ -75,8 +73,9 @@ def format_worst_fractions(parts: list[tuple[Fraction, Fraction]]) -> dict[str, 
 
 
 def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
-    """Yield the slabs of all locks in order; raise an error unless each is complete, within the claim and behind the previous
-    one.
+    """Yield the slabs of all locks in order.
+
+    Raise an error unless each slab is complete, within the claim and behind the previous slab.
     """
     first, last = document["during"]
     path_end, n = (len(document["knots"]) - 1) * SEGMENT_INSTANTS, len(document["arm"]["joints"])
@@ -123,8 +122,9 @@ def read_refutations(document: dict[str, Any]) -> Iterator[StoredRefutation]:
 
 
 def _decode_cells(begin: int, encoded_ends: Ints, encoded_starts: Ints) -> Ints:
-    """Return starts, ends and half widths (0 unless tangent) of cells, from their ends or negative half widths, and the
-    positions of some.
+    """Return starts, ends and half widths (0 unless tangent) of cells.
+
+    Encoded ends are instants, or negative half widths of tangent cells. Encoded starts are the path positions of some cells.
     """
     is_tangent = encoded_ends < 0
     faces = np.append(begin, np.maximum.accumulate(np.where(is_tangent, begin, encoded_ends)))

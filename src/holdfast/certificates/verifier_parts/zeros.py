@@ -1,8 +1,8 @@
 """Verification of structural zeros in rational arithmetic: the axes before a joint meet in one point, those behind it in
 another.
 
-A force along the line through both points has no moment about any other axis, so a lock of the joint costs everything, or the
-arm is singular.
+A force along the line through both points has no moment about any of these axes. A lock of the joint therefore removes all
+relative manipulability, or the arm is singular.
 """
 
 from __future__ import annotations
@@ -19,15 +19,13 @@ from .tree import Cell
 
 
 class StructuralZeroVerifier(LeafVerifier):
-    """Verifier of pairs of neighbouring axes, before the joint and behind it, that must share the point that both name."""
+    """Verifier of pairs of neighbouring axes, before the joint and behind it, that must share the given point."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document, [])
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """Return the number of leaves, an empty list of undecided cells, and an iterator of the leaves, each with the later
-        axis.
-        """
+        """Return the number of leaves, an empty list of undecided cells, and an iterator of leaves with their later axis."""
         later_axes = [
             axis for axis in range(1, len(document["snapped"])) if axis not in (document["locked"], document["locked"] + 1)
         ]
@@ -38,7 +36,7 @@ class StructuralZeroVerifier(LeafVerifier):
         return [cell for cell, _ in rejected[:1]]
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> list[bool]:
-        """Return whether the pair of axes shares its point."""
+        """Return flags of the leaves whose pair of axes shares its point."""
         frame, points = self._document["snapped"][kind], [Fraction(number) for number in self._document["points"]]
         rotation = rotation_from_quaternion(map(int, frame["rotation"]))
         meeting_point = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], rotation, strict=True)]
