@@ -149,7 +149,9 @@ def tolerant_claim(
         arm: The arm.
         centre: (3,) centre of the box of targets in the base frame, m; (2,) for an arm that moves in a plane.
         size: Edge lengths of the box, m: one number, or one for each axis. A length may be 0.
-        rotation, rpy, task: Orientation of the tool and task, as in :func:`reach_claim`.
+        rotation: (3, 3) rotation of the tool in the base frame at every target. None: the orientation is free.
+        rpy: (3, 2) lowest and highest roll, pitch and yaw, rad, or (2,) yaw, as in :func:`reach_claim`.
+        task: ``pointing`` if only the direction of the tool's z axis matters. Default: the task that the others imply.
         working_ranges: Ranges within the limits as ``{joint: (low, high)}``, rad or m. Default for a joint: its limits.
         failures: Joints that may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
 

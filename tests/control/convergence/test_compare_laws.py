@@ -243,7 +243,7 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
     for arguments, words in [
         (([], q0, target), "no law to compare"),
         (([laws[0], laws[0]], q0, target), "two laws have the name 'pseudoinverse'"),
-        (([laws[0], other], q0, target), "of another arm or task"),
+        (([laws[0], other], q0, target), "has another arm or task"),
         ((laws, q0[:3], target[:2]), "q0 has 3 rows and target 2"),
     ]:
         with pytest.raises(hf.InputError, match=words):

@@ -71,7 +71,7 @@ def bound_distance_range(
     kinematics, half, slide_extent = chain.enclose_point(joints, first, end, count), *np.zeros((2, count, len(joints)))
     for index, joint in enumerate(joints):
         half[:, index], slide_extent[:, index] = joint[:, 2], joint[:, 0]
-    # First axes that pass close to the point are ignored; rotations about them change the distance by at most this much.
+    # First axes that pass close to the point are ignored; rotations about them change the distance by at most ``displacement``.
     displacement, is_ignored = np.zeros(count), np.ones(count, dtype=bool)
     levers = einsum("nkij,nkj->nki", cross_matrix(kinematics.axes), -kinematics.points + start).magnitude
     for index, is_prismatic in enumerate(chain.slides[first : first + len(joints)]):

@@ -97,7 +97,7 @@ class Servos:
 
     def describe(self) -> str:
         """Return a phrase with the gains, the rate, and the gravity compensation."""
-        gains = "given gains" if self.stiffness is not None else f"{self.bandwidth:g} Hz, damping ratio {self.ratio:g}"
+        gains = "gains as given" if self.stiffness is not None else f"{self.bandwidth:g} Hz, damping ratio {self.ratio:g}"
         gravity = "" if self.compensation == 1 else f", {self.compensation:.0%} of gravity compensated"
         return f"joint servos with {gains}, control at {self.rate:g} Hz{gravity}"
 
