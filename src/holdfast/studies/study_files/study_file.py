@@ -313,8 +313,7 @@ def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Ite
     for name, measure, region, labels in _sweep_indices(block, "designs", spec, arm, label, folder):
         if measure.better == "smaller":
             raise InputError(
-                f"assess.indices: {labels['index']} is better when smaller, but a sweep of designs needs an index that is "
-                "better when larger; leave it out"
+                f"assess.indices: {labels['index']} is better when smaller, and a sweep of designs maximises; leave it out"
             )
         sample_comparison_poses(region, 1, 0)  # raises an error if it has none
         plan: dict[str, Any] = {
