@@ -345,7 +345,7 @@ class ToolExpansion:
     @cached_property
     @cached_kernel
     def self_motion_kernel(self) -> Kernel:
-        """Kernel from joints, a joint move and free joints to the part of the move that keeps the tool still, to first order."""
+        """Kernel from joints, a joint move and free joints to the part of it that keeps the tool still, to first order."""
         (q, _, free), move = self._input_symbols, ca.SX.sym("d", self.arm.n)
         jacobian, free_move = self._task_jacobian(*self._chain_and_tool_jacobian(q)), move * free
         self_motion = free_move - self._pseudo_inverse(jacobian, free) @ (jacobian @ free_move)
