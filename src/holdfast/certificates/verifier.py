@@ -99,7 +99,7 @@ class CertificateVerdict:
         kind, configuration = self.document["kind"], self.document.get("witness") or self.document.get("found") or ()
         witness_text = f"at ({', '.join(repr(parse_hex(value)) for value in configuration)})"
         if self.document.get("witness"):
-            return f"Refuted: {witness_text} the tool is in the box." if self.refuted else "Rejected: the witness is none."
+            return f"Refuted: {witness_text} the tool is in the box." if self.refuted else "Rejected: the witness is invalid."
         if kind in ("ceiling", "floor"):
             round_bound = math.floor if kind == "ceiling" else math.ceil
             witness_text = f"{round_bound(self.attained_bound * 1e6) / 1e6:.6f} occurs, {witness_text}"
@@ -114,9 +114,9 @@ class CertificateVerdict:
         if kind in ("ceiling", "floor"):
             text += f" of the box; {witness_text}"
         elif kind == "path":
-            text += f"; whichever joint locks, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
+            text += f"; for every joint, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
         elif "target" in self.document and self.document.get("locked") != -1:
-            text += f"; wherever the lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
+            text += f"; for every lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.is_sampled else ".")
 
@@ -273,8 +273,8 @@ def main() -> int:
     """
     parser = argparse.ArgumentParser(description="Check a certificate of holdfast.")
     parser.add_argument("file", type=Path)
-    parser.add_argument("--sample", type=int, help="check so many leaves of each file, drawn at random")
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--sample", type=int, help="number of random leaves of each file to check")
+    parser.add_argument("--jobs", type=int, default=1, help="number of processes")
     options, checked = parser.parse_args(), [0]
 
     def report_checked(size: int) -> None:

@@ -238,7 +238,7 @@ class FloorVerifier(CeilingVerifier):
 def bound_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a ceiling or floor has in addition to the common ones."""
     require_revolute(document)
-    require(document["task"] in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")
+    require(document["task"] in SCREW_ROWS, f"a ceiling or floor needs the task {' or '.join(SCREW_ROWS)}")
     form = {"joint_box": [[NUMBER_PATTERN, 2], n], "threshold": NUMBER_PATTERN, "found": [NUMBER_PATTERN, n]}
     return form | {"locks": [range(n), ...], "tree": TEXT_PATTERN}
 

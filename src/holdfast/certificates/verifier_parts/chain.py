@@ -31,14 +31,14 @@ def enclose_rotation(numbers: list[str]) -> BallArray:
     gram = (matrix.transpose() * matrix - flint.arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])).entries()
     radius = math.hypot(*(round_up(abs(number)) for number in gram)) * ROUND_UP
     is_rotation = radius < 1e-12 and matrix.det() > 0
-    require(is_rotation, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
+    require(is_rotation, "a rotation of the file is invalid; its columns must be orthonormal to 1e-12 and right-handed")
     return BallArray(np.reshape([parse_hex(number) for number in numbers], (3, 3)), radius)
 
 
 def enclose_sine_and_cosine(exact: Fraction) -> list[float]:
     """Return a number as a double, its error radius, 0 (for a half width), and its sine and cosine."""
     sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
-    require(max(round_up(sine.rad()), round_up(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
+    require(max(round_up(sine.rad()), round_up(cosine.rad())) < 2.0**-55, "an angle is too large to compute its sine")
     return [float(exact), 2.0**-52 * abs(float(exact)), 0.0, float(sine), float(cosine)]
 
 
@@ -87,7 +87,7 @@ class BallChain:
         if planar:  # all motions lie in the plane, so heights do not matter
             matrices = [rotation.center for rotation in self.turns]
             is_planar = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in matrices)
-            require(is_planar and not self.slides.any(), "a planar task is one of arms that stay in the plane")
+            require(is_planar and not self.slides.any(), "a planar task needs an arm that stays in the plane")
             self.origins = [value * [1, 1, 0] for value in self.origins]
         self.link_lengths = self.bound_link_lengths(0, self.n)
 
@@ -198,5 +198,5 @@ class LeafVerifier:
 def enclose_configuration(q: list[str]) -> list[Array]:
     """Return joint values, one row for each joint, in the form for :meth:`BallChain.enclose_point`."""
     values = [parse_hex(number) for number in q]
-    require(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
+    require(max(map(abs, values)) < 100, "a joint of a configuration is beyond 100 rad or m")
     return [enclose_sines_and_cosines(np.array([number])) for number in values]

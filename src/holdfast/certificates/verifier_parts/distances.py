@@ -109,7 +109,7 @@ class RefutationVerifier(TargetLeafVerifier):
         require(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
         undecided = [cell for token, cell in iterate_cells(main_tree, axis_count, last_token) if token in (1, 2)]
         if document["witness"]:
-            require(main_tree == b"\2" and not trees, "beside a witness nothing is proved")
+            require(main_tree == b"\2" and not trees, "a file with a witness must not prove anything else")
             return 1, undecided, lambda: iter([(undecided[0], WITNESS_LEAF)])
         count = sum(tree.count(0) for tree in trees)
         count += sum(main_tree.count(token) for token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1)))
@@ -268,7 +268,7 @@ def limit_to_revolution(ranges: list[Any], joints: list[dict[str, Any]]) -> list
     for pair, joint in zip(ranges, joints, strict=True):
         lower, upper = (parse_hex(number) if isinstance(number, str) else number for number in pair)
         is_revolute = joint["type"] == "revolute"
-        require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} slides without an end")
+        require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} is prismatic and has no limits")
         limited.append([-half_turn, half_turn] if is_revolute and not upper - lower < 2 * math.pi else [lower, upper])
     return limited
 

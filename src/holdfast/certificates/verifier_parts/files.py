@@ -102,7 +102,7 @@ def require_nested_intervals(pairs: list[Any], outer: list[Any], label: str) -> 
         [map(parse_hex, pair) for pair in both] for both in zip(pairs, outer, strict=True)
     ):
         is_inside = lower_limit <= lower <= upper <= upper_limit and lower < math.inf and upper > -math.inf
-        require(is_inside, f"{label}: {lower!r} to {upper!r} is upside down or goes beyond {lower_limit!r} to {upper_limit!r}")
+        require(is_inside, f"{label}: {lower!r} to {upper!r} is upside down or exceeds {lower_limit!r} to {upper_limit!r}")
 
 
 def _check_document(document: dict[str, Any]) -> None:
@@ -121,7 +121,7 @@ def _check_document(document: dict[str, Any]) -> None:
         ("claim", claim_sentence(document)),
         ("digest", compute_digest(document)),
     ):
-        require(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
+        require(document[key] == value, f"{key} does not match the rest of the file, which was changed or damaged")
 
 
 def _check_values(document: dict[str, Any]) -> None:
@@ -145,9 +145,9 @@ def _check_values(document: dict[str, Any]) -> None:
             require_nested_intervals([[number, number] for number in knot], limits, "a knot")
             require(all(abs(parse_hex(number)) < 7 for number in knot), "a joint of a knot is beyond 7 rad or m")
         require(all(0 <= number <= 0.1 for number in tube), "a tube is from 0 to 0.1 m and rad")
-        require(document["task"] != "pointing" or not any(tube), "there is no tube around a pointing path")
+        require(document["task"] != "pointing" or not any(tube), "a pointing path must not have a tube")
         require(len(document["pairs"]) <= SPLIT_TOKEN, f"there are more than {SPLIT_TOKEN} pairs of points")
         require(first < last, "during must not be empty")
         fixed_joints = [{lock["joint"], *lock["followers"]} for lock in locks]
         is_valid = all(len(number) == 1 + len(lock["followers"]) for number, lock in zip(fixed_joints, locks, strict=True))
-        require(is_valid, "a joint that is locked, or follows already, does not follow")
+        require(is_valid, "a joint that follows is locked, or listed twice")

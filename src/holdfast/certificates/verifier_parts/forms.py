@@ -60,7 +60,7 @@ def decompress_payload(text: str, max_bytes: int, label: str) -> bytes:
     except (ValueError, zlib.error) as error:
         raise CertificateRejected(f"{label} cannot be unpacked: {error}") from None
     require(
-        decompressor.eof and len(data) <= max_bytes and not decompressor.unused_data, f"{label} is cut off or holds too much"
+        decompressor.eof and len(data) <= max_bytes and not decompressor.unused_data, f"{label} is truncated or holds too much"
     )
     return data
 
@@ -74,7 +74,7 @@ def require_task(document: dict[str, Any]) -> str:
 def require_revolute(document: dict[str, Any]) -> None:
     """Require all joints of the arm of a certificate to be revolute."""
     all_revolute = all(joint["type"] == "revolute" for joint in document["arm"]["joints"])
-    require(all_revolute, f"a {document['kind']} is of joints that turn")
+    require(all_revolute, f"a {document['kind']} needs revolute joints only")
 
 
 def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sampled: bool = False) -> str:

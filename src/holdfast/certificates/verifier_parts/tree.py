@@ -23,7 +23,7 @@ def iterate_cells(tree: bytes, axes: int, last_leaf_token: int = 2, first_lock_t
     """
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
-        require(waiting, "the tree goes on behind its end")
+        require(waiting, "the tree continues after its end")
         cell, axis = waiting.pop(), token - SPLIT_TOKEN
         if token <= last_leaf_token or token >= first_lock_token:
             yield token, cell

@@ -58,7 +58,7 @@ def bound_frame_errors(document: dict[str, Any]) -> tuple[float, float]:
     for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
         exact = [number for row in rotation_from_quaternion(map(int, frame["rotation"])) for number in row]
         squared_error = sum((x - Fraction(parse_hex(y))) ** 2 for x, y in zip(exact, joint["rotation"], strict=True))
-        require(squared_error < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
+        require(squared_error < Fraction(1, 10_000), "a frame is rotated by more than a few hundredths of a radian")
         # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
         rotation_error = max(rotation_error, math.sqrt(squared_error) / math.sqrt(2) * 1.0001)
         origins = zip(frame["origin"], joint["origin"], strict=True)
@@ -70,7 +70,7 @@ def bound_frame_errors(document: dict[str, Any]) -> tuple[float, float]:
 def structural_zero_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a structural zero has in addition to the common ones."""
     require_revolute(document)
-    require(document["task"] == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
+    require(document["task"] == "pose" and n > 2, "a structural zero needs the task pose, and 3 joints or more")
     frame = {"rotation": [INTEGER_PATTERN, 4], "origin": [RATIONAL_PATTERN, 3]}
     return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
 

@@ -107,8 +107,8 @@ def point_to_point(
     while found_count < count:
         if len(blocks) == _MAX_BLOCKS:
             raise InputError(
-                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too few "
-                f"for {count}; ask for fewer motions, or relax the constraints"
+                f"only {found_count} of {sampled_count} motions of '{arm.name}' meet the constraints ({constraint_text}), too "
+                f"few for {count}; request fewer motions, or relax the constraints"
             )
         block_seed, solving = seeds.spawn(2)
         q0, q1 = np.random.default_rng(block_seed).uniform(lower, upper, (2, _BLOCK_MOTIONS, arm.n))
