@@ -213,7 +213,7 @@ class _RangeSearch:
         return table
 
     def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> BoolArray:
-        """Return True (N,) for the poses that the healthy arm reaches within the ranges."""
+        """Return a mask (N,) of the poses that the healthy arm reaches within the ranges."""
         limited_arm = samples.with_artificial_limits(self._arm, ranges)
         reached = samples.find_reached_poses(limited_arm, self._task, poses, self._seed)
         if _RETRY_FRACTION <= reached.mean() < 1:
@@ -259,7 +259,7 @@ class _RangeSearch:
         return np.asarray(inner)
 
     def _check_values(self, joint: int, values: FloatArray) -> BoolArray:
-        """Return True (K,) for the values (K,) of a locked joint at which no target is lost."""
+        """Return a mask of the values (K,) of a locked joint at which no target is lost."""
         value_lists = [values if other == joint else np.empty(0) for other in range(self._arm.n)]
         return np.asarray(self._check_survival(value_lists, self._poses, 0)[joint].all(axis=0), dtype=bool)
 

@@ -20,7 +20,7 @@ MIN_DECAY_RATE = 1e-9  # 1/Ke: a slower decay cannot be distinguished from rest
 
 
 def is_near_attracting_solution(law: Law, q: FloatArray, pose: FloatArray, joint: IndexArray) -> BoolArray:
-    """Return True (N,) for runs at q (N, n) that are next to an attracting solution with ``joint`` (N,) locked.
+    """Return a mask of the runs at q (N, n) that are next to an attracting solution with ``joint`` (N,) locked.
 
     Damped least squares over the healthy joints find the solution from q, which must be within 0.1 rad. All eigenvalues of the
     linearised motion at the solution, except those of the failed arm's self-motion, must have a negative real part.

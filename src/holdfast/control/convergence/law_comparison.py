@@ -79,7 +79,7 @@ class Case:
         return np.array([contact is not None for contact in self.contacts or ()] or np.zeros(len(self.code)), dtype=bool)
 
     def has_outcome(self, outcome: str) -> BoolArray:
-        """Return True (N,) for the runs with the ``outcome`` ``converged``, ``stuck``, ``moving``, or ``undecided``.
+        """Return a mask (N,) of the runs with the ``outcome`` ``converged``, ``stuck``, ``moving``, or ``undecided``.
 
         Raises:
             InputError: The outcome is not known.
@@ -373,7 +373,7 @@ def target_error_threshold(law: Law) -> float:
 
 
 def _has_converged(case: Case, counts_undecided: bool) -> BoolArray:
-    """Return True (N,) for runs that converged and, if ``counts_undecided``, for undecided runs that may still converge."""
+    """Return a mask (N,) of runs that converged and, if ``counts_undecided``, of undecided runs that may converge."""
     return case.has_outcome("converged") | (counts_undecided & case.has_outcome("undecided") & case.reachable)
 
 

@@ -90,7 +90,7 @@ class ConvergenceMap(Result):
         return np.asarray(self.code[..., 0] != NO_CONFIGURATION)
 
     def has_outcome(self, outcome: str) -> BoolArray:
-        """Return True (P, C, n + 1) for the runs with an outcome.
+        """Return a mask (P, C, n + 1) of the runs with an outcome.
 
         Args:
             outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``, if the run converged or could have;
@@ -312,7 +312,7 @@ def _simulate_motions(
 def _is_in_reach(
     law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: IndexArray, seed: int
 ) -> BoolArray:
-    """Return True (N,) if the target was reached, or if a configuration at the target is found with the joint locked."""
+    """Return a mask (N,) of runs that reached the target, or for which a configuration at the target is found."""
     is_found = np.asarray(code == RunOutcome.CONVERGED)
     engine = solver(law.arm.without_idle_limits, law.task)
     open_rows = np.flatnonzero(~is_found)

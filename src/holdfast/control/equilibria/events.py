@@ -175,6 +175,6 @@ def _split_curve_by_kind(system: RestSystem, z: FloatArray, label: IndexArray, k
 
 
 def _has_imaginary_pair(eigenvalues: NDArray[np.complex128]) -> BoolArray:
-    """Return (N,) True where a complex pair lies on the imaginary axis."""
+    """Return a mask (N,) of the points at which a complex pair lies on the imaginary axis."""
     scale = np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray(((np.abs(eigenvalues.real) < 1e-6 * scale) & (np.abs(eigenvalues.imag) > 1e-6 * scale)).any(axis=1))

@@ -47,7 +47,7 @@ class Kind(IntEnum):
 
 
 def is_attracting(eigenvalues: NDArray[np.complex128]) -> BoolArray:
-    """Return True for each point (N,) whose eigenvalues have no real part above 0; NaN does not attract."""
+    """Return a mask (N,) of the points whose eigenvalues have no real part above 0; NaN does not attract."""
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray((eigenvalues.real < band).all(axis=1))
 

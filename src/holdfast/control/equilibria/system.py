@@ -80,13 +80,13 @@ class RestSystem:
         return q[converged]
 
     def can_reach(self, values: FloatArray, generator: np.random.Generator) -> BoolArray:
-        """Return True for each value (N,) of the locked joint at which one random start reaches the target."""
+        """Return a mask of the values (N,) of the locked joint at which one random start reaches the target."""
         q = self.sample_starts(len(values), generator)[:, : self.law.arm.n]
         q[:, self.locked_joints[0]] = values
         return solution_search(self.law).search(q, self.pose, self.mask)[1]
 
     def is_stationary(self, q: FloatArray) -> BoolArray:
-        """Return True (N,) for configurations q (N, n) at which only locked joints are commanded."""
+        """Return a mask of the configurations q (N, n) at which only locked joints are commanded."""
         rates, _, _ = self.linear.rates(q, self.pose)
         return np.asarray(np.linalg.norm(rates[:, self.healthy], axis=1) < MAX_HEALTHY_FRACTION * np.linalg.norm(rates, axis=1))
 
@@ -120,7 +120,7 @@ class RestSystem:
         return np.where(is_solved[:, None], unknowns[:, :n], np.nan)
 
     def is_isolated(self, q: FloatArray) -> BoolArray:
-        """Return False (N,) for points at which an eigenvalue is 0."""
+        """Return a mask (N,) of the points q (N, n) at which no eigenvalue is 0."""
         if not len(q):
             return np.zeros(0, dtype=bool)
         magnitudes = np.abs(self.eigenvalues(q))

@@ -97,7 +97,7 @@ class RestCurveTracer:
         return curves, wrap_angles(self.system.law.arm, loose_points), starts
 
     def _is_on_curve(self, z: FloatArray) -> BoolArray:
-        """Return True (N,) if the points near z (N, size) form one curve, not a surface, and with a single u for each q."""
+        """Return a mask of the z (N, size) near which points form one curve, not a surface, and with a single u for each q."""
         if not len(z):
             return np.zeros(0, dtype=bool)
         _, jacobian = self.system.evaluate_equations(z)

@@ -43,7 +43,7 @@ class HalfTurnTraps:
         return Kernel("turn", [system.q, system.target, system.rotation], [ca.norm_2(error[3:])])
 
     def find_half_turns(self, q: FloatArray, position: FloatArray, rotation: FloatArray) -> BoolArray:
-        """Return True (N,) if the end effector at q (N, n) is half a turn from its target."""
+        """Return a mask of the q (N, n) at which the end effector is half a turn from its target."""
         return np.asarray(self._angle_kernel.rows(q, position, rotation)[:, 0] > np.pi - _HALF_TURN_TOLERANCE_RAD)
 
     def advance(self, states: FloatArray, parameters: FloatArray, report_ended: Tell) -> tuple[FloatArray, BoolArray]:

@@ -261,7 +261,7 @@ class Evaluator:
         return np.asarray(np.nan_to_num(index_values.min(axis=1), nan=0.0, posinf=0.0, neginf=0.0))
 
     def on_pose(self, values: FloatArray, owner: IndexArray, q: FloatArray) -> BoolArray:
-        """Return True (R,) for rows ``owner`` (R,) of ``values`` (D, k) whose ``q`` (R, n) is on its pose within the limits."""
+        """Return a mask of rows ``owner`` (R,) of ``values`` (D, k) whose ``q`` (R, n) is on its pose within the limits."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.family.limits(values)
         position, rotation = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3)

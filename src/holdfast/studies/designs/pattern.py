@@ -57,7 +57,7 @@ class DesignBounds:
         return np.array([parameter.kind == "a" for parameter in self.space.parameters])
 
     def contains(self, values: FloatArray) -> NDArray[np.bool_]:
-        """Return True (N,) for designs (N, k) within the bounds."""
+        """Return a mask (N,) of the designs (N, k) within the bounds."""
         return np.asarray(
             ((values >= self.space.lower - _BOUND_TOLERANCE) & (values <= self.space.upper + _BOUND_TOLERANCE)).all(axis=1)
         )

@@ -193,7 +193,7 @@ class PlanarStationarySets:
         return [(angle, in_reach[0], is_stuck[0]) for angle, in_reach, is_stuck in results]
 
     def _has_singular_trap(self, lengths: FloatArray, r: float, locked: FloatArray) -> BoolArray:
-        """Return True (D, A) if a singular trap attracts the arm, with joint 1 at angles (A,) from the target's direction."""
+        """Return a mask (D, A) of the angles (A,) of joint 1 from the target's direction with an attracting singular trap."""
         first, second, third = lengths.T
         a1, a2, a3 = self._joint_weights
         trapped = np.zeros((len(lengths), locked.size), dtype=bool)
@@ -298,7 +298,7 @@ class _RestShapes:
         return cls(lengths, joint, angle, tool, direction, (t0, t1), (d0, d1, d2), reach_terms, lower, upper)
 
     def are_sinks(self, offsets: FloatArray) -> BoolArray:
-        """Return True (D, 2, S) if the point is a sink with its target in reach, at ``offsets`` (D, 2, S) along b."""
+        """Return a mask (D, 2, S) of sinks with their target in reach, at ``offsets`` (D, 2, S) along b."""
         with np.errstate(invalid="ignore"):
             trace = self.trace[0] + offsets * self.trace[1]
             det = self.det[0] + offsets * (self.det[1] + offsets * self.det[2])
@@ -320,21 +320,21 @@ class _RestShapes:
         return np.stack([-projection - half_chord, -projection + half_chord], axis=2)
 
     def have_sinks(self, r: float) -> BoolArray:
-        """Return True (D, 2, 2, S) if there is a sink for targets at distance r, on each branch and in both directions."""
+        """Return a mask (D, 2, 2, S) of sinks for targets at distance r, on each branch and in both directions."""
         offsets = self._find_target_offsets(r)
         return np.stack([self.are_sinks(offsets[:, :, side]) for side in range(2)], axis=2)
 
     def are_in_reach(self, r: float) -> BoolArray:
-        """Return True (D, S) if targets at distance r are in reach with joint 2 or 3 locked at the swept angles."""
+        """Return a mask (D, S) of swept angles of locked joint 2 or 3 at which targets at distance r are in reach."""
         return np.asarray((self.lower[:, 0] <= r) & (r <= self.upper[:, 0]))
 
     def are_reachable_joint1_locked(self, r: float, locked: FloatArray) -> BoolArray:
-        """Return True (D, A) if targets at distance r are in reach with joint 1 at angles (A,) from the target's direction."""
+        """Return a mask (D, A) of angles (A,) of joint 1 from the target's direction with targets at distance r in reach."""
         distance = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
         return np.asarray((self.lower[:, 0, :1] <= distance) & (distance <= self.upper[:, 0, :1]))
 
     def have_sinks_joint1_locked(self, r: float, cells: int) -> BoolArray:
-        """Return True (D, cells) if there is a sink, by the angle of joint 1 from the direction to a target at distance r."""
+        """Return a mask (D, cells) of sinks by the angle of joint 1 from the direction to a target at distance r."""
         offsets, has_sink = self._find_target_offsets(r), self.have_sinks(r)
         position = self.tool[:, :, None] + offsets[..., None] * self.direction[:, :, None]
         # Position of the curve along the circle, in cells; it covers the cells between successive points.
@@ -352,7 +352,7 @@ class _RestShapes:
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
     def have_ring_sinks(self, radii: FloatArray) -> BoolArray:
-        """Return True (D, K) if any target in a ring has a sink while in reach, by intervals of lambda, exact at each shape."""
+        """Return a mask (D, K) of rings with a sink for a target in reach, by intervals of lambda, exact at each shape."""
         xb, xx = (self.tool * self.direction).sum(-1), (self.tool**2).sum(-1)
         yb, yy = self.reach_terms
         ones = np.ones_like(xb)
