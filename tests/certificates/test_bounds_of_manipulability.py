@@ -259,7 +259,7 @@ def test_another_best_configuration_is_believed_only_as_far_as_it_goes(fine, tmp
     [
         ({"threshold": 0.38}, "nothing to prove"),
         ({"threshold": 0.0}, "from 1e-6 to 1"),
-        ({"task": "position"}, "whose rows are all of the motion"),
+        ({"task": "position"}, "for a bound it must be"),
         ({"task": "planar-pose"}, "move in the xy plane"),
         ({"joint_box": np.zeros((6, 2))}, "two angles for each of 7 joints"),
         ({"joint_box": {0: (1, 0)}}, "lower one first"),

@@ -563,7 +563,7 @@ def test_motions_are_thinned_and_time_ends(three, tmp_path):
         ({"segments": 0}, "segments is 0"),
         ({"during": (0.5, 0.5)}, "during must be"),
         ({"tube": -1.0}, "the tube must be"),
-        ({"task": "pointing", "tube": 0.1}, "no tube around a pointing path"),
+        ({"task": "pointing", "tube": 0.1}, "it must be 0 for a pointing path"),
         ({"task": "turning"}, "task is 'turning'"),
     ],
 )

@@ -257,7 +257,7 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
             hf.compare_laws(laws, q0, target, failures=failures)
     for call, words in [
         (lambda: compared.case("magic"), "law 'magic' is not in this comparison"),
-        (lambda: compared.case("pseudoinverse", "elbow"), "'elbow' was not locked"),
+        (lambda: compared.case("pseudoinverse", "elbow"), "failure 'elbow' is not in this comparison"),
         (lambda: compared.case("pseudoinverse").share("lost"), "outcome 'lost'"),
     ]:
         with pytest.raises(hf.InputError, match=words):

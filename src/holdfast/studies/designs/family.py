@@ -306,6 +306,6 @@ def _require_planar_designs(space: DesignSpace) -> None:
         design_normal = plane_normal(space.arm_of(values))
         if normal is None or design_normal is None or np.linalg.norm(design_normal - normal) > 1e-9:
             raise TaskError(
-                f"{', '.join(space.names)} move '{space.arm.name}' out of the plane of its task; keep the twists fixed, or use "
-                "the task position or pose"
+                f"{', '.join(space.names)} would move '{space.arm.name}' out of the plane of its task; keep the twists fixed, "
+                "or use the task position or pose"
             )
