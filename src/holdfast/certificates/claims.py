@@ -229,7 +229,7 @@ def _parse_lock(
     index, interval = arm.joint_index(joint), validate_interval(arm, joint, bounds)
     if interval[0] < joint_limits[index, 0] or interval[1] > joint_limits[index, 1]:
         name = arm.joint_names[index]
-        raise InputError(f"{name} may lock beyond its limits in limits; widen these, or leave them out")
+        raise InputError(f"{name} may lock beyond the limits that are given; widen these, or leave them out")
     return {"locked": index, "angle": interval, "limits": joint_limits}
 
 

@@ -76,7 +76,7 @@ def test_the_best(comparison, runs):
     rows = {r["name"]: r for r in two.table}
     best = max(rows, key=lambda n: (rows[n]["optimised_probability"], rows[n]["optimised_median"]))
     assert two.best(optimised=True) == best
-    with pytest.raises(hf.InputError, match=r"no candidate has task 'planar'; there are pose, position"):
+    with pytest.raises(hf.InputError, match=r"no candidate has task 'planar'; use pose, position"):
         comparison.best("planar")
     with pytest.raises(hf.InputError, match="not optimised"):
         comparison.best(optimised=True)
