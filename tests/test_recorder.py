@@ -71,7 +71,7 @@ def test_what_is_said_of_long_work_is_no_difference():
     "error",
     [
         "stopped",
-        "nothing of 'panda' is to be varied",
+        "no parameter of 'panda' is varied",
         "damping is -1; it must be above 0",
         "rating: two of its steps have the same name",
         "missing must be one of complete",

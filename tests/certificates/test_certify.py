@@ -261,7 +261,7 @@ def test_what_is_proved_is_never_rounded_up(part, down, up):
 def test_what_is_refused(panda, three, mixed5, tmp_path):
     with pytest.raises(InputError, match="lengths, m"):
         reach_claim(mixed5, (0.5, 0, 0.5), 0.1, locked={int(np.flatnonzero(mixed5.prismatic)[0]): (1, 0)})
-    with pytest.raises(InputError, match="2 joints are left for 3 rows"):
+    with pytest.raises(InputError, match="2 joints are free for 3 task rows"):
         reach_claim(three, (0.5, 0.5, 0.0), 0.1, locked={"joint1": (0, 1)})
     with pytest.raises(InputError, match="halvings"):
         hf.certify(reach_claim(three, (1, 1), 0.1), halvings=30)

@@ -559,11 +559,11 @@ def test_motions_are_thinned_and_time_ends(three, tmp_path):
         ({"motion": np.zeros((1, 3))}, "two configurations or more"),
         ({"motion": np.zeros((3, 2))}, "two configurations or more"),
         ({"motion": np.array([[0, 0, 0], [0, 4, 0]])}, "configuration 2 of the motion is beyond the limits of joint2"),
-        ({"motion": np.zeros((300, 3))}, "give segments=50"),
+        ({"motion": np.zeros((300, 3))}, "for example segments=50"),
         ({"segments": 0}, "segments is 0"),
         ({"during": (0.5, 0.5)}, "during must be"),
         ({"tube": -1.0}, "the tube must be"),
-        ({"task": "pointing", "tube": 0.1}, "no tube around a pointing path"),
+        ({"task": "pointing", "tube": 0.1}, "it must be 0 for a pointing path"),
         ({"task": "turning"}, "task is 'turning'"),
     ],
 )

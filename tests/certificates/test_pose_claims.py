@@ -191,7 +191,7 @@ def test_what_makes_no_claim(panda, change, sentence):
 
 def test_a_pose_needs_six_joints():
     arm = hf.arms.load("ur5")
-    with pytest.raises(InputError, match="5 joints are left for 6 rows"):
+    with pytest.raises(InputError, match="5 joints are free for 6 task rows"):
         reach_claim(arm, (0.4, 0.1, 0.3), 0.01, rotation=np.eye(3), locked={0: (0, 0.1)})
 
 

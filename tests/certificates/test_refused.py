@@ -27,7 +27,7 @@ def along_first(size):
 def test_the_estimate_of_a_uniform_tree_is_exact():
     box, deep = np.array([[0.0, 1.0], [0.0, 1.0]]), 25
     require_feasible_box_count(along_first(2.0**-25), box, 60, 0, "")  # 2^24 boxes
-    with pytest.raises(InputError, match=r"some 3e[+]07 boxes; ask for less"):
+    with pytest.raises(InputError, match=r"about 3e[+]07 boxes; ask for less"):
         require_feasible_box_count(along_first(2.0**-26), box, 60, 0, "ask for less")
     require_feasible_box_count(along_first(2.0**-26), box, deep - 1, 0, "")  # there is nothing more to halve
     tree = BoxBisection(box, 60)
@@ -38,7 +38,7 @@ def test_the_estimate_of_a_uniform_tree_is_exact():
 def test_poses_in_a_wide_box(panda):
     rpy = np.column_stack([[np.pi - 0.17, -0.17, -0.17], [np.pi + 0.17, 0.17, 0.17]])
     for joint, at in (("panda_joint4", (-2.1, -1.1)), ("panda_joint1", (-0.5, 0.5))):
-        with pytest.raises(InputError, match=r"some \de[+]\d\d cells and .*; with 1/\d+ of each edge and of the"):
+        with pytest.raises(InputError, match=r"about \de[+]\d\d cells and .*; with 1/\d+ of each edge and of the"):
             hf.certify(reach_claim(panda, [0.5, 0, 0.5], 0.1, rpy=rpy, locked={joint: at}))
 
 
@@ -46,10 +46,10 @@ def test_bounds_and_distances(panda, monkeypatch):
     monkeypatch.setattr(halving, "MAX_LEAVES", 16)
     ready = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
     box = np.column_stack([ready - 0.1, ready + 0.1])
-    with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a threshold farther from 0.01"):
+    with pytest.raises(InputError, match=r"about \de[+]\d\d boxes; use a smaller box, or a threshold farther from 0.01"):
         hf.certify(ceiling_claim(panda, box, 0.0125))
     monkeypatch.setattr(halving, "MAX_LEAVES", 0)
-    with pytest.raises(InputError, match=r"some \de[+]\d\d boxes; a smaller box, or a narrower interval"):
+    with pytest.raises(InputError, match=r"about \de[+]\d\d boxes; use a smaller box, or a narrower interval"):
         hf.certify(out_of_reach_claim(panda, [0.5, 0, -0.3], 0.015, locked={1: (-0.35, -0.26)}))
 
 

@@ -117,7 +117,7 @@ def test_what_is_stopped_or_out_of_time_keeps_what_it_has(three, tmp_path):
         ({"working_ranges": {"joint1": (-9.0, 0.5)}}, InputError, "outside of its limits"),
         ({"failures": "pairs"}, TaskError, "lock one at a time"),
         ({"failures": ["joint9"]}, InputError, "joint9"),
-        ({"centre": (1.5, 0.5, 0.0)}, InputError, "2 joints are left for 3 rows"),
+        ({"centre": (1.5, 0.5, 0.0)}, InputError, "2 joints are free for 3 task rows"),
     ],
 )
 def test_what_makes_no_claim(three, change, kind, sentence):

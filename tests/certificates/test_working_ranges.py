@@ -169,7 +169,7 @@ def test_what_cannot_be_found_is_said_with_the_best_ranges():
         ({"working_ranges": {"joint1": (-9.0, 0.5)}}, InputError, "outside of its limits"),
         ({"working_ranges": {"joint9": (0.0, 0.5)}}, InputError, "joint9"),
         ({"failures": "pairs"}, TaskError, "lock one at a time"),
-        ({"centre": (1.5, 0.5, 0.0)}, InputError, "2 joints are left for 3 rows"),
+        ({"centre": (1.5, 0.5, 0.0)}, InputError, "2 joints are free for 3 task rows"),
         ({"rotation": np.eye(3)}, InputError, "give the centre of the box with three numbers"),
     ],
 )

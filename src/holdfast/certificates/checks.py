@@ -23,16 +23,18 @@ class CertificateCheck(Result):
     """Result of the verifier for a certificate.
 
     Attributes:
-        claim: The sentence that is proved, as far as it is.
-        locked: Name of the locked joint; empty of a healthy arm, and of a bundle.
-        leaves, accepted, rejected: Cells; what a rejected one covers counts as undecided.
-        refuted: Of a path, exact share of the lock instants at which nothing finishes it; of a bundle in its worst part.
-        undecided: Exact share of targets and locked angles; of a bundle in its worst part.
-        tolerant: At least this share of the targets is proved, for every locked value and lock.
-        seconds: Measured.
-        summary: The verifier's own sentence.
-        parts: Of a bundle: the healthy arm, then each lock.
-        witnessed: A configuration shows that the claim is false.
+        claim: Claim as a sentence, with its proved fraction.
+        locked: Name of the locked joint; empty for a healthy arm and for a bundle.
+        leaves: Number of cells.
+        accepted: Number of accepted cells.
+        rejected: Number of rejected cells; the part that they cover counts as undecided.
+        undecided: Exact fraction of targets and locked values that is undecided; for a bundle in its worst part.
+        tolerant: Lower bound of the fraction of targets that is proved for every locked value and lock.
+        seconds: Measured time, s.
+        summary: Summary by the verifier in one sentence.
+        parts: Results for the parts of a bundle: the healthy arm, then each lock.
+        refuted: For a path, exact fraction of the lock instants after which no motion finishes it, in its worst part.
+        witnessed: True if a configuration shows that the claim is false.
     """
 
     claim: str
@@ -55,12 +57,12 @@ class CertificateCheck(Result):
 
     @property
     def proved_fraction(self) -> Fraction:
-        """Exact fraction of the claim that is proved; of a bundle in its worst part."""
+        """Exact fraction of the claim that is proved; for a bundle in its worst part."""
         return min((part.proved_fraction for part in self.parts), default=1 - self.undecided - self.refuted)
 
 
 class CheckStopped(HoldfastError):
-    """The check of a certificate reached its time limit."""
+    """Error for a check of a certificate that reached its time limit."""
 
 
 @check_arguments
@@ -68,18 +70,18 @@ class CheckStopped(HoldfastError):
 def check_certificate(
     file: str | Path, *, arm: Arm | None = None, sample: int | None = None, workers: int = 1, time_limit: float | None = None
 ) -> CertificateCheck:
-    """Check a certificate with the verifier, which shares nothing with the prover except the wording of the claim.
+    """Check a certificate with the verifier, which shares only the wording of the claim with the prover.
 
     Args:
-        file: The certificate, or the folder that holds it; the parts of a bundle lie in the same folder.
-        arm: The arm that it must be about, to the last digit of its geometry and limits; None: it may be any.
-        sample: Only so many cells of each part, drawn at random: then it is sampled, not verified.
-        workers: Processes.
-        time_limit: Time limit in seconds, after which the check ends without a result; None: no limit.
+        file: Path of the certificate, or of the folder that contains it; the parts of a bundle lie in the same folder.
+        arm: Arm that the certificate must be about, to the last digit of its geometry and limits. None: any arm.
+        sample: Number of random cells of each part to check. The result is then sampled, not verified. None: all cells.
+        workers: Number of worker processes.
+        time_limit: Time limit, s, after which the check ends without a result. None: no limit.
 
     Raises:
         HoldfastError: The time limit was reached; nothing is verified.
-        InputError: A file that cannot be checked or is about another arm, or python-flint is not installed (extra ``certify``).
+        InputError: The file cannot be checked or is about another arm, or python-flint is not installed (extra ``certify``).
     """
     file = find_certificate_file(Path(file))
     if workers < 1 or (sample is not None and sample < 1):
@@ -102,18 +104,18 @@ def require_flint() -> None:
     """Raise an error if python-flint, which the check needs, is not installed.
 
     Raises:
-        InputError: It is not.
+        InputError: The package is not installed.
     """
     if find_spec("flint") is None:
         raise InputError("checking a certificate needs python-flint; install it with: pip install 'holdfast-arms[certify]'")
 
 
 def find_certificate_file(path: Path) -> Path:
-    """Return the certificate in a folder, of a bundle the one that names its parts; another path is returned as it is."""
+    """Return the certificate in a folder, for a bundle the one that lists its parts; return any other path unchanged."""
     if not path.is_dir():
         return path
     files = sorted(path.glob("*.certificate"))
-    # The parts of a bundle are named after it: its own name is the beginning of all others.
+    # The names of the parts of a bundle begin with the name of the bundle.
     whole = [file for file in files if all(other.stem.startswith(file.stem) for other in files)]
     if len(whole) != 1:
         number = f"{len(files)} certificates, of which none is a bundle of the others" if files else "no certificate"

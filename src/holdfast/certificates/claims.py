@@ -19,8 +19,8 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
 TASK_ROWS = {"planar": [0, 1], "planar-pose": [0, 1, 5], "position": [0, 1, 2], "pointing": [*range(5)], "pose": [*range(6)]}
-_TASK_BY_DIMENSION = {2: "planar", 3: "position"}  # by coordinates of a target, where the tool may turn as it likes
-_ORTHONORMALITY_TOLERANCE = 1e-6  # of a rotation: so much is mended
+_TASK_BY_DIMENSION = {2: "planar", 3: "position"}  # by the number of target coordinates, if the orientation is free
+_ORTHONORMALITY_TOLERANCE = 1e-6  # largest deviation of a given rotation that is corrected
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +35,7 @@ class TargetClaim(Claim):
 
 @dataclass(frozen=True, kw_only=True)
 class LockedTargetClaim(TargetClaim):
-    """Claim about the targets of a box at every value at which one joint may be locked."""
+    """Claim about the targets of a box at every value at which one joint may lock."""
 
     locked: int
     angle: FloatArray | None
@@ -43,28 +43,28 @@ class LockedTargetClaim(TargetClaim):
 
 
 class ReachClaim(LockedTargetClaim):
-    """Claim that a configuration within limits reaches every target of a box, wherever one joint may be locked.
+    """Claim that a configuration within limits reaches every target of a box, for every value at which one joint may lock.
 
     Attributes:
         arm: The arm.
         task: ``position``, ``planar``, ``pose``, ``planar-pose`` or ``pointing``.
-        box: (3, 2), planar (2, 2): targets of the tool point along each axis of the base frame, m; (6, 2) where the tool is
-            turned as well: its roll, pitch and yaw, rad, the rotation Rz(yaw) Ry(pitch) Rx(roll); (3, 2) of a planar pose, with
-            yaw alone.
-        rotation: (3, 3) of the tool at every target, when pointing that of its z axis alone; None where it is free, or turned.
-        locked: Index of the locked joint; -1: the arm is healthy.
-        angle: (2,) rad or m, between which it may be locked; None for a healthy arm.
-        limits: (n, 2) rad and m, within which the configuration is.
+        box: (3, 2), or planar (2, 2), range of the tool point along each axis of the base frame, m. With ranges of the tool
+            orientation (6, 2), with roll, pitch and yaw, rad, of the rotation Rz(yaw) Ry(pitch) Rx(roll); for a planar pose
+            (3, 2), with yaw alone.
+        rotation: (3, 3) rotation of the tool at every target, of which ``pointing`` uses only the z axis; None if the
+            orientation is free or in the box.
+        locked: Index of the locked joint; -1 for a healthy arm.
+        angle: (2,) range in which the joint may lock, rad or m; None for a healthy arm.
+        limits: (n, 2) limits of the configuration, rad and m.
     """
 
     kind: ClassVar[str] = "reach"
 
 
 class OutOfReachClaim(LockedTargetClaim):
-    """Claim that no configuration reaches any target of a box, at any value at which one joint may be locked.
+    """Claim that no configuration reaches any target of a box, for any value at which one joint may lock.
 
-    Attributes:
-        arm, task, box, rotation, locked, angle, limits: As of :class:`ReachClaim`.
+    The attributes ``arm``, ``task``, ``box``, ``rotation``, ``locked``, ``angle``, ``limits`` are those of :class:`ReachClaim`.
     """
 
     kind: ClassVar[str] = "refutation"
@@ -72,13 +72,12 @@ class OutOfReachClaim(LockedTargetClaim):
 
 @dataclass(frozen=True, kw_only=True)
 class TolerantClaim(TargetClaim):
-    """Claim that the healthy arm reaches every target of a box within working ranges, and also after any one joint locks within
-    its working range.
+    """Claim that an arm reaches every target of a box, healthy within working ranges and after any joint locks in its range.
 
     Attributes:
-        arm, task, box, rotation: As of :class:`ReachClaim`.
-        working_ranges: (n, 2) rad and m, within which the healthy arm is kept, and so a joint when it locks.
-        locks: Indices of the joints that may lock, one at a time, in order. After it the arm's own limits hold.
+        arm, task, box, rotation: Arm, task, box of targets and tool rotation, as in :class:`ReachClaim`.
+        working_ranges: (n, 2) ranges of the healthy arm, rad and m, so that a joint locks inside its range.
+        locks: Indices of the joints that may lock, one at a time, in ascending order. After a lock the arm's limits hold.
     """
 
     kind: ClassVar[str] = "bundle"
@@ -106,22 +105,22 @@ def reach_claim(
     locked: Mapping[str | int, tuple[float, float]] | None = None,
     limits: Mapping[str | int, tuple[float, float]] | None = None,
 ) -> ReachClaim:
-    """Make the claim that the arm reaches every point of a box, while healthy or after a lock at any angle of an interval.
+    """Make the claim that the arm reaches every point of a box, healthy or after a lock at any value of an interval.
 
     Args:
         arm: The arm.
-        centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
-        size: Its edges, m: one number, or one along each axis; 0: none.
-        rotation: (3, 3) of the tool in the base frame, at every target; None: it may turn as it likes.
-        rpy: (3, 2) lowest and highest roll, pitch and yaw of the tool, rad, all of which are targets: the rotations
-            Rz(yaw) Ry(pitch) Rx(roll). Of an arm that moves in a plane (2,), of its yaw.
-        task: ``pointing``: only where its z axis points counts of the rotation. Default: what the other arguments say.
-        locked: ``{joint: (low, high)}``, rad or m, a single joint; None: the arm is healthy.
-        limits: ``{joint: (low, high)}``, rad or m, that the configurations keep, within the arm's own: working ranges. Of
-            another joint that is locked, twice where it is.
+        centre: (3,) centre of the box of targets in the base frame, m; (2,) for an arm that moves in a plane.
+        size: Edge lengths of the box, m: one number, or one for each axis. A length may be 0.
+        rotation: (3, 3) rotation of the tool in the base frame at every target. None: the orientation is free.
+        rpy: (3, 2) lowest and highest roll, pitch and yaw of the tool, rad; all rotations Rz(yaw) Ry(pitch) Rx(roll) in these
+            ranges are targets. For an arm that moves in a plane, (2,) lowest and highest yaw.
+        task: ``pointing`` if only the direction of the tool's z axis matters. Default: the task that the other arguments imply.
+        locked: Range in which one joint may lock, as ``{joint: (low, high)}``, rad or m. None: the arm is healthy.
+        limits: Narrower limits of the configurations, for example working ranges, as ``{joint: (low, high)}``, rad or m. For a
+            further locked joint, give its value twice.
 
     Raises:
-        InputError: A box, joint, angle or limit that makes no claim.
+        InputError: The box, a joint, an interval or a limit is invalid.
     """
     claim = ReachClaim(arm=arm, **_parse_targets(arm, centre, size, rotation, rpy, task), **_parse_lock(arm, locked, limits))
     is_fixed = (claim.limits[:, 0] == claim.limits[:, 1]) | (np.arange(arm.n) == claim.locked)
@@ -141,26 +140,26 @@ def tolerant_claim(
     working_ranges: Mapping[str | int, tuple[float, float]] | None = None,
     failures: FailureSpec = "single",
 ) -> TolerantClaim:
-    """Make the claim that a box of targets is failure-tolerant: reached while healthy, and after any one joint has locked.
+    """Make the claim that a box of targets is failure-tolerant: the arm reaches it healthy and after any one joint has locked.
 
-    The healthy arm is kept within its working ranges, so a joint locks somewhere in its own; after that the arm uses all of
-    its limits.
+    The healthy arm stays within its working ranges, so a joint locks inside its own range. After the lock the arm uses its full
+    limits.
 
     Args:
         arm: The arm.
-        centre: (3,) m, of the box of targets in the base frame; (2,) for an arm that moves in a plane.
-        size: Its edges, m: one number, or one along each axis; 0: none.
-        rotation: As of :func:`reach_claim`.
-        rpy: Likewise.
-        task: Likewise.
-        working_ranges: ``{joint: (low, high)}``, rad or m, within the limits; of a joint that is not named, its limits.
-        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+        centre: (3,) centre of the box of targets in the base frame, m; (2,) for an arm that moves in a plane.
+        size: Edge lengths of the box, m: one number, or one for each axis. A length may be 0.
+        rotation: (3, 3) rotation of the tool in the base frame at every target. None: the orientation is free.
+        rpy: (3, 2) lowest and highest roll, pitch and yaw, rad, or (2,) yaw, as in :func:`reach_claim`.
+        task: ``pointing`` if only the direction of the tool's z axis matters. Default: the task that the others imply.
+        working_ranges: Ranges within the limits as ``{joint: (low, high)}``, rad or m. Default for a joint: its limits.
+        failures: Joints that may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
 
     Raises:
-        InputError: A box, joint or range that makes no claim, or a joint without limits that may lock and has no working range.
-        TaskError: No failure, or one of several joints at once.
+        InputError: The box, a joint or a range is invalid, or a joint that may lock has neither limits nor a working range.
+        TaskError: There is no failure, or a failure of several joints at once.
 
-    Source: Lewis and Maciejewski 1997, whose guarantee for points this is over a box.
+    Source: Lewis and Maciejewski 1997 for the guarantee at points, which is extended to a box here.
     """
     targets, ranges = _parse_targets(arm, centre, size, rotation, rpy, task), narrow_limits(arm, working_ranges or {})
     locks = tuple(sorted(single_joints(arm, failures)))
@@ -177,16 +176,16 @@ def _parse_targets(
     """Return the box, the task and the rotation of a claim."""
     box = _make_target_box(arm, centre, size)
     if task not in (None, "pointing"):
-        raise InputError(f"task is '{task}'; give pointing, or leave it out: the box and the rotation say the rest")
+        raise InputError(f"task is '{task}'; give pointing, or leave it out: the box and the rotation imply the other tasks")
     if rotation is None and rpy is None and task is None:
         if len(box) == 2:
             require_planar(arm, "a box of two coordinates is", allow_prismatic=True)
         return {"box": box, "task": _TASK_BY_DIMENSION[len(box)]}
     if (rotation is None) == (rpy is None):
-        raise InputError("rotation and rpy both say how the tool is turned; give one of them")
+        raise InputError("rotation and rpy both give the orientation of the tool; give one of them")
     if rpy is not None:
         if task is not None:
-            raise InputError("pointing is about one direction: give rotation, whose z axis it is, in place of rpy")
+            raise InputError("pointing has one direction; give rotation, whose z axis is this direction, in place of rpy")
         angles, expected_shape = require_real_numbers(rpy, "rpy", "lowest and highest roll, pitch and yaw, (3, 2), rad"), [3, 2]
         description = "the lowest and the highest roll, pitch and yaw, (3, 2)"
         if len(box) == 2:
@@ -197,7 +196,7 @@ def _parse_targets(
             raise InputError(f"rpy must be {description}, rad, finite, the lower first")
         return {"box": np.vstack([box, intervals]), "task": "pose" if len(box) == 3 else "planar-pose"}
     if len(box) < 3:
-        raise InputError("a tool is turned in space; give the centre of the box with three numbers, or in the plane rpy")
+        raise InputError("rotation needs a box in space; give the centre of the box with three numbers, or in the plane rpy")
     matrix = require_real_numbers(rotation, "rotation", "a rotation (3, 3)")
     is_orthonormal = matrix.shape == (3, 3) and np.abs(matrix.T @ matrix - np.eye(3)).max() < _ORTHONORMALITY_TOLERANCE
     if not is_orthonormal or np.linalg.det(matrix) < 0:
@@ -207,7 +206,7 @@ def _parse_targets(
 
 
 def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> FloatArray:
-    """Return the (m, 2) bounds of a box of targets, m, after checking its center and size."""
+    """Return the bounds (m, 2) of a box of targets, m, after checking its center and size."""
     center = np.asarray(centre, dtype=np.float64).reshape(-1)
     if center.shape not in ((2,), (3,)) or not np.isfinite(center).all():
         raise InputError("the centre of the box must be three finite numbers, m, or two for an arm that moves in a plane")
@@ -220,29 +219,27 @@ def _make_target_box(arm: Arm, centre: ArrayLike, size: ArrayLike) -> FloatArray
 def _parse_lock(
     arm: Arm, locked: Mapping[str | int, tuple[float, float]] | None, limits: Mapping[str | int, tuple[float, float]] | None
 ) -> dict[str, Any]:
-    """Return the index of the locked joint (-1 if none is locked), its interval of locked values, and the limits of
-    all joints.
-    """
+    """Return the index of the locked joint (-1 for none), its interval of locked values, and the limits of all joints."""
     joint_limits = narrow_limits(arm, limits or {})
     if locked is None:
         return {"locked": -1, "angle": None, "limits": joint_limits}
     if len(locked) != 1:
-        raise InputError(f"{len(locked)} joints are given as locked; a certificate is about one, or none")
+        raise InputError(f"locked has {len(locked)} joints; a certificate is about one, or none")
     ((joint, bounds),) = locked.items()
     index, interval = arm.joint_index(joint), validate_interval(arm, joint, bounds)
     if interval[0] < joint_limits[index, 0] or interval[1] > joint_limits[index, 1]:
         name = arm.joint_names[index]
-        raise InputError(f"{name} may lock beyond the limits that are given for it; widen these, or leave them out")
+        raise InputError(f"{name} may lock beyond the limits that are given; widen these, or leave them out")
     return {"locked": index, "angle": interval, "limits": joint_limits}
 
 
 def _require_enough_free_joints(arm: Arm, locked_count: int, task: str) -> None:
     if arm.n - locked_count < TASK_SIZES[task]:
-        raise InputError(f"{arm.n - locked_count} joints are left for {TASK_SIZES[task]} rows: no box can be reached")
+        raise InputError(f"{arm.n - locked_count} joints are free for {TASK_SIZES[task]} task rows, so no box can be reached")
 
 
 def narrow_limits(arm: Arm, intervals: Mapping[str | int, tuple[float, float]]) -> FloatArray:
-    """Return (n, 2) joint limits, rad and m, where the given intervals replace the limits of the arm."""
+    """Return joint limits (n, 2), rad and m, in which the given intervals replace the limits of the arm."""
     limits = np.column_stack([arm.lower, arm.upper])
     for joint, interval in intervals.items():
         limits[arm.joint_index(joint)] = validate_interval(arm, joint, interval)
@@ -280,13 +277,14 @@ def out_of_reach_claim(
     locked: Mapping[str | int, tuple[float, float]] | None = None,
     limits: Mapping[str | int, tuple[float, float]] | None = None,
 ) -> OutOfReachClaim:
-    """Make the claim that the arm reaches no point of a box, while healthy or after a lock at any angle of an interval.
+    """Make the claim that the arm reaches no point of a box, healthy or after a lock at any value of an interval.
 
-    The arguments are those of :func:`reach_claim`; size may be 0, for a single target.
+    ``arm``, ``centre``, ``size``, ``rotation``, ``rpy``, ``task``, ``locked`` and ``limits`` are those of :func:`reach_claim`;
+    ``size`` may be 0 for a single target.
 
     Raises:
-        InputError: A box, joint, angle or limit that makes no claim, a slide without limits, or two coordinates for an arm that
-            does not move in a plane.
+        InputError: The box, a joint, an interval or a limit is invalid, a prismatic joint has no limits, or the box has two
+            coordinates but the arm leaves the plane.
     """
     targets = _parse_targets(arm, centre, size, rotation, rpy, task)
     if targets["task"] == "planar":
@@ -294,22 +292,20 @@ def out_of_reach_claim(
     claim = OutOfReachClaim(arm=arm, **targets, **_parse_lock(arm, locked, limits))
     is_endless = arm.prismatic & ~np.isfinite(claim.limits).all(axis=1) & (np.arange(arm.n) != claim.locked)
     if is_endless.any():
-        raise InputError(f"{arm.joint_names[int(np.argmax(is_endless))]} slides without limits; give its range")
+        raise InputError(f"prismatic joint {arm.joint_names[int(np.argmax(is_endless))]} has no limits; give its range")
     return claim
 
 
 def require_planar(arm: Arm, message_start: str, allow_prismatic: bool = False) -> None:
-    """Raise an error unless the arm moves in the xy plane; ``message_start`` starts the message, ``allow_prismatic`` accepts
-    prismatic joints.
-    """
+    """Raise an error, which begins with ``message_start``, unless the arm moves in the xy plane (with revolute joints only)."""
     rotations = [*(joint.origin[:3, :3] for joint in arm.joints), arm.base[:3, :3]]
     upright = [allow_prismatic if joint.prismatic else abs(joint.axis[2]) == 1 for joint in arm.joints]
     if not all(abs(rotation[2, 2]) == 1 for rotation in rotations) or not all(upright):
-        raise InputError(f"{message_start} for arms that move in the xy plane, and this one leaves it")
+        raise InputError(f"{message_start} for arms that move in the xy plane, but this arm leaves it")
 
 
 def require_revolute(arm: Arm, message_start: str) -> None:
-    """Raise an error if the arm has a prismatic joint; ``message_start`` is the start of the message's reason."""
+    """Raise an error, whose reason begins with ``message_start``, if the arm has a prismatic joint."""
     if arm.prismatic.any():
         prismatic_joints = [name for name, is_prismatic in zip(arm.joint_names, arm.prismatic, strict=True) if is_prismatic]
-        raise InputError(f"{prismatic_joints[0]} slides; {message_start} for arms whose joints all turn")
+        raise InputError(f"{prismatic_joints[0]} is prismatic; {message_start} for arms with revolute joints only")

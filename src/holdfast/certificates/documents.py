@@ -33,8 +33,9 @@ def format_claim(claim: Claim) -> str:
 def build_document(
     claim: Claim, fields: Document, *, undecided: Fraction | None = None, seconds: float, nodes: int
 ) -> Document:
-    """Build the certificate of a claim with the fields that prove it, with the fraction ``undecided`` of its box open; the
-    fields contain the volumes if it is None.
+    """Build the certificate of a claim with the fields that prove it, and with the fraction ``undecided`` of its box.
+
+    If ``undecided`` is None, the fields contain the volumes.
     """
     document = _common_fields(claim, seconds, nodes) | fields
     if undecided is not None:
@@ -84,7 +85,7 @@ def require_same_arm(document: Document, arm: Arm) -> None:
     """Raise an error if a certificate is about another arm.
 
     Raises:
-        InputError: With its name, and what differs.
+        InputError: The certificate is about another arm; the message states its name and the difference.
     """
     stored_arm, given_arm = document["arm"], _encode_arm(arm)
     if stored_arm == given_arm:
@@ -113,10 +114,10 @@ def _encode_arm(arm: Arm) -> Document:
 
 
 def encode_floats(values: NDArray[np.float64] | float) -> Any:
-    """Return numbers as hexadecimal texts, nested as the array is."""
+    """Return numbers as hexadecimal texts, nested in the shape of the array."""
     return [encode_floats(value) for value in np.asarray(values)] if np.ndim(values) else float(values).hex()
 
 
 def compress_bytes(data: bytes) -> str:
-    """Return a payload as the file contains it."""
+    """Return a payload in the compressed form of the file."""
     return base64.b64encode(zlib.compress(data, 9)).decode()

@@ -1,4 +1,4 @@
-"""Kernels of the Taylor form: error, derivatives and bounds around a configuration, for any locked joint."""
+"""Kernels of the Taylor form, with error, derivatives and bounds around a configuration, for any locked joint."""
 
 from __future__ import annotations
 
@@ -19,25 +19,26 @@ from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 
-CELL_WIDTH_PARTS = 16  # of a cell's width: how much of it is proved is told in these
-ROUNDS_PER_STEP = 5  # rounds
-_MAX_SECTION_ROUNDS = 30  # of the section box in a test, each a little wider than what the one before needs
-_MAX_SECTION_ERROR = 0.5  # m or rad of error: no section box will do
+CELL_WIDTH_PARTS = 16  # parts of a cell's width in which the proved fraction is expressed
+ROUNDS_PER_STEP = 5
+_MAX_SECTION_ROUNDS = 30  # rounds of a test, each with a section box slightly wider than the previous one needs
+_MAX_SECTION_ERROR = 0.5  # m or rad: no section box suffices for a larger error
 _MAX_NEWTON_STEP_RAD = 0.5  # rad in one step of Newton's method
-_MIN_ROTATION_COSINE = 0.951  # the error of a rotation is 0 for half a turn as well: its cosine must be above, and its angles
-_MAX_ROTATION_CHANGE_RAD = 1.45  # rad, all of them together, below this
+# The error of a rotation is 0 for half a turn, too, so its cosine and the sum of its angles have limits.
+_MIN_ROTATION_COSINE = 0.951
+_MAX_ROTATION_CHANGE_RAD = 1.45
 
 
 @dataclass(frozen=True)
 class RotationError:
-    """The remaining rotation error: components that are products of fixed matrices with the entries of a rotation.
+    """Remaining rotation error, whose components are products of fixed matrices with the entries of a rotation.
 
     Attributes:
-        rotation: (3, 3) from the target to the tool.
-        weights: (3, 3) of each row.
-        cosine_weights: (3, 3) the same of the cosine, up to a constant.
-        cosine: Of the angle.
-        target_axes: About which the target's angles turn it.
+        rotation: (3, 3) rotation from the target to the tool.
+        weights: (3, 3) weights of each row.
+        cosine_weights: (3, 3) weights of the cosine, up to a constant.
+        cosine: Cosine of the angle.
+        target_axes: Axes about which the target's angles rotate it.
     """
 
     rotation: SX
@@ -48,35 +49,35 @@ class RotationError:
 
     @property
     def components(self) -> SX:
-        """(k,) components of the error, which are 0 where no rotation remains."""
+        """(k,) components of the error, which are 0 if no rotation remains."""
         return ca.vertcat(*[ca.sum1(ca.sum2(weight * self.rotation)) for weight in self.weights])
 
     def differentiate_components_by_rotation(self, matrix: SX) -> SX:
-        """Return the (k, 3) derivatives of the components by rotations about the base axes, applied to a matrix."""
+        """Return the derivatives (k, 3) of the components by rotations about the base axes, applied to a matrix."""
         return ca.vertcat(*[_axial_vector(weight @ matrix.T).T for weight in self.weights])
 
 
 class ToolExpansion:
-    """Symbolic error of an arm's tool: of its point, and of its rotation where the task includes it.
+    """Symbolic error of an arm's tool, with its point and, if the task includes it, its rotation.
 
-    Free joints are given as ones, (n,), and the locked joint as a one among zeros, (n,), all 0 for a healthy arm. A target is
-    the coordinates of its point; where rotations count the angles by which targets turn, or nine numbers of a rotation. A form
-    is what of the Taylor form counts: the error (m,); ``|B|`` (n, m), by how much joints follow the section, and the point of
-    the target with it; ``|L|`` (n, t + 1), how they follow the t angles and the locked joint; second derivatives by pairs of
-    these m + t + 1 coordinates (m, pairs); and how far slides are out, (n,) m.
+    A mask (n,) marks the free joints, and a second mask (n,) the locked joint, all 0 for a healthy arm. A target consists of
+    the coordinates of its point and, for tasks with a rotation, of the target's angles or nine numbers of a rotation. A form
+    contains the relevant numbers of the Taylor form: the error (m,); ``|B|`` (n, m), the response of the joints to the section
+    and to the target's point; ``|L|`` (n, t + 1), their response to the t angles and the locked joint; second derivatives
+    (m, pairs) by pairs of these m + t + 1 coordinates; and the extents (n,) of prismatic joints, m.
 
     Args:
         arm: The arm.
         task: ``planar``, ``planar-pose``, ``position``, ``pointing`` or ``pose``.
-        turning: t: 3 where the targets of a pose turn, 1 in the plane, else 0.
-        lengths: (n,) m, of what each joint and those before it turn, see
+        turning: Number t of target angles: 3 for rotating targets of a pose, 1 in the plane, else 0.
+        lengths: (n,) lengths, m, that each joint and those before it rotate; see
             :class:`holdfast.certificates.taylor.CertificateChain`.
-        slides: (n,) which joints slide.
+        slides: (n,) True for prismatic joints.
 
     Attributes:
-        m: Rows.
-        linear: So many of them are of the point.
-        axes: Numbers of a target.
+        m: Number of task rows.
+        linear: Number of position rows among them.
+        axes: Number of coordinates of a target.
     """
 
     def __init__(self, arm: Arm, task: str, turning: int, lengths: FloatArray, slides: NDArray[np.bool_]) -> None:
@@ -112,7 +113,7 @@ class ToolExpansion:
         return chain, kinematics.chain_jacobian(self.arm, chain, chain.position)
 
     def _task_jacobian(self, chain: kinematics.KinematicChain, jacobian: SX) -> SX:
-        """Return the (m, n) task rows of a Jacobian, valid where the tool has its target rotation."""
+        """Return the task rows (m, n) of a Jacobian, which are valid at the target rotation of the tool."""
         angular = {
             "planar-pose": jacobian[5, :],
             "pointing": (chain.rotation.T @ jacobian[3:, :])[:2, :],
@@ -133,7 +134,7 @@ class ToolExpansion:
         return RotationError(rotation, skew_weights, ca.SX.eye(3) / 2, (ca.trace(rotation) - 1) / 2, axes)
 
     def _pose_error(self, chain: kinematics.KinematicChain, target: SX) -> tuple[SX, SX]:
-        """Return the position error (2 or 3,), m, and the rotation error 2 sin(angle / 2) about the axes of the task."""
+        """Return the position error (2,) or (3,), m, and the rotation error 2 sin(angle / 2) about the axes of the task."""
         position_error = chain.position[: self.linear] - target[: self.linear]
         if not self.uses_rotation:
             return position_error, ca.SX(0, 1)
@@ -143,7 +144,7 @@ class ToolExpansion:
     def error_and_derivatives(self, q: SX, target: SX, with_cosine: bool = False) -> tuple[SX, SX, list[SX]]:
         """Return the error (m,), its gradients (m, n + t) and the Hessians of its rows, by joints and angles of the target.
 
-        ``with_cosine``: with one more row where rotations count, the cosine of the angle less 1.
+        ``with_cosine`` adds a row with the cosine of the angle minus 1 for tasks with a rotation.
         """
         n, t, linear = self.arm.n, self.turning, self.linear
         chain, jacobian = self._chain_and_tool_jacobian(q)
@@ -157,7 +158,7 @@ class ToolExpansion:
                 for row in range(linear):
                     hessians[row][j, k] = hessians[row][k, j] = second[row]
         if self.uses_rotation:
-            # Turning the target turns what is left from the right; all axes of R(q) R', from left to right.
+            # A rotation of the target multiplies the error R(q) R' from the right; its axes are in order from left to right.
             rotation_error = self._rotation_error(chain, target)
             offsets = 10 * (rotation_error.cosine < _MIN_ROTATION_COSINE)
             if with_cosine:
@@ -182,7 +183,7 @@ class ToolExpansion:
         return kinematics.joint_symbols(self.arm), ca.SX.sym("x", self.target_size), ca.SX.sym("free", self.arm.n)
 
     def _pseudo_inverse(self, jacobian: SX, free: SX) -> SX:
-        """Return the (n, m) pseudo-inverse on the free joints."""
+        """Return the pseudo-inverse (n, m) on the free joints."""
         free_jacobian = jacobian @ ca.diag(free)
         gram = free_jacobian @ free_jacobian.T
         factor = Cholesky([[gram[i, k] for k in range(self.m)] for i in range(self.m)])
@@ -208,9 +209,7 @@ class ToolExpansion:
     @cached_property
     @cached_kernel
     def error_derivative_kernel(self) -> Kernel:
-        """Kernel from joints and target to the task rows with the cosine row, followed by their gradients and their
-        Hessians.
-        """
+        """Kernel from joints and target to the task rows with the cosine row, then their gradients and their Hessians."""
         q, target, _ = self._input_symbols
         error, gradients, hessians = self.error_and_derivatives(q, target, with_cosine=True)
         return Kernel("rows of a task", [q, target], [ca.densify(output) for output in (error, gradients, *hessians)])
@@ -225,7 +224,7 @@ class ToolExpansion:
         m, n, t, linear = self.m, self.arm.n, self.turning, self.linear
         sizes = [0, m, m * n, (t + 1) * n, m * len(self.pairs), n]
         error, inverse, response, second, slide_extent = ca.vertsplit(form, np.cumsum(sizes).tolist())
-        targets = ca.vertcat(cell[:linear], ca.SX(m - linear, 1))  # what follows the target as it does the section
+        targets = ca.vertcat(cell[:linear], ca.SX(m - linear, 1))  # target coordinates that joints follow like the section
         half_widths = ca.vertcat(targets + section, cell[linear:])
         joint_travel = ca.reshape(inverse, m, n).T @ half_widths[:m] + ca.reshape(response, t + 1, n).T @ half_widths[m:]
         second = ca.reshape(second, len(self.pairs), m).T
@@ -260,8 +259,9 @@ class ToolExpansion:
     @cached_property
     @cached_kernel
     def error_bound_kernel(self) -> Kernel:
-        """Kernel from a form and half widths of cell (axes + 1,) and section (m,) to bounds of the error less s above and below
-        0, and the joint travel.
+        """Kernel from a form and half widths of cell (axes + 1,) and section (m,) to bounds of the error and joint travel.
+
+        The bounds are those of the error minus s, above and below 0.
         """
         form, cell, section = self._form_symbol, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
         bounds = self._error_bound_expressions(form, cell, section)[:3]
@@ -272,14 +272,14 @@ class ToolExpansion:
     def cell_test_loop(self) -> Loop:
         """Loop from a form, a cell and joint margins to the proved part of the cell, in sixteenths of its width.
 
-        One test comes after the other, until there is nothing between what passed and what failed. The state is a section box
-        (m,), which grows from 0 in each; the greatest sixteenths that passed; those that are tested now; how many more the next
-        test may have; and the rounds of this one. A test that is the last leaves the box where it ended.
+        Tests follow one another until no sixteenth lies between those that passed and failed. The state consists of a section
+        box (m,), which grows from 0 in each test; the largest number of sixteenths that passed; the tested number; the step to
+        the next number; and the rounds of this test. The last test leaves its final box.
         """
         form, cell, section = self._form_symbol, ca.SX.sym("w", self.axes + 1), ca.SX.sym("s", self.m)
         joint_margin = ca.SX.sym("room", self.arm.n)
         start = state = ca.vertcat(section, *[ca.SX.sym(name) for name in ("passed", "now", "more", "rounds")])
-        for _ in range(ROUNDS_PER_STEP):  # a step costs more than what it computes: several rounds in each
+        for _ in range(ROUNDS_PER_STEP):  # a step has overhead, so it contains several rounds
             state = self._next_test_state(state, form, cell, joint_margin)
         return Loop(
             "section box of a cell", start, [form, cell, joint_margin], next_state=state, residual=state[self.m + 2], ahead=True
@@ -297,7 +297,7 @@ class ToolExpansion:
         diverged = ca.logic_or(ca.mmax(error) >= _MAX_SECTION_ERROR, rounds >= _MAX_SECTION_ROUNDS - 1)
         ended = ca.logic_and(ca.logic_not(finished), ca.logic_or(closed, ca.logic_or(ca.logic_not(inside), diverged)))
         next_section = ca.if_else(ca.logic_or(finished, closed), section, ca.fmin(1.05 * error + 2.5e-7, 1.0))
-        # The last: nothing is between what passed and what failed.
+        # In the last test, no number lies between those that passed and failed.
         is_last = ca.if_else(succeeds, tested >= CELL_WIDTH_PARTS - 1, tested - passed <= 1)
         next_increment = ca.if_else(is_last, 0, increment / 2)
         has_next = ca.logic_and(ended, next_increment >= 1)
@@ -319,9 +319,9 @@ class ToolExpansion:
         q, target, free = self._input_symbols
         error, lower, upper = ca.SX.sym("e", self.m), ca.SX.sym("low", self.arm.n), ca.SX.sym("high", self.arm.n)
         chain, jacobian = self._chain_and_tool_jacobian(q)
-        residual = error - ca.vertcat(*self._pose_error(chain, target))  # not the axial part: it is 0 for half a turn as well
+        residual = error - ca.vertcat(*self._pose_error(chain, target))  # the axial part would be 0 for half a turn, too
         task_jacobian = self._task_jacobian(chain, jacobian)
-        if self.task == "pointing":  # across the axis that is wanted, not the tool's own
+        if self.task == "pointing":  # across the target axis, not the tool's axis
             rotation_error = self._rotation_error(chain, target)
             by_rotation = rotation_error.differentiate_components_by_rotation(rotation_error.rotation)
             task_jacobian = ca.vertcat(task_jacobian[:3, :], by_rotation @ jacobian[3:, :])
@@ -345,9 +345,7 @@ class ToolExpansion:
     @cached_property
     @cached_kernel
     def self_motion_kernel(self) -> Kernel:
-        """Kernel from joints, a joint move and the free joints to the part of the move that keeps the tool in place, to first
-        order.
-        """
+        """Kernel from joints, a joint move and free joints to the part of it that keeps the tool still, to first order."""
         (q, _, free), move = self._input_symbols, ca.SX.sym("d", self.arm.n)
         jacobian, free_move = self._task_jacobian(*self._chain_and_tool_jacobian(q)), move * free
         self_motion = free_move - self._pseudo_inverse(jacobian, free) @ (jacobian @ free_move)
@@ -362,5 +360,5 @@ def _axis_rotation(axis: int, angle: SX) -> SX:
 
 
 def _axial_vector(matrix: SX) -> SX:
-    """Return the (3,) vector whose product with z is that of the matrix [z] with a matrix."""
+    """Return the vector (3,) whose product with z is that of the matrix [z] with a matrix."""
     return ca.vertcat(matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1])

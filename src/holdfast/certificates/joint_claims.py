@@ -17,20 +17,20 @@ from holdfast.core.validation import check_arguments
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
-_TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that are all of the motion
+_TASK_DIMENSIONS = {"pose": 6, "planar-pose": 3}  # rows of tasks that prescribe the whole motion
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoundClaim(Claim):
-    """Bound of the least relative manipulability after one of some locks, for every configuration of a box.
+    """Claim that bounds the least relative manipulability after one of some locks, for every configuration of a box.
 
     Attributes:
-        arm: The arm, all of whose joints turn.
-        kind: ``ceiling``: at most the threshold; ``floor``: at least.
-        task: ``pose``, or ``planar-pose``.
-        joint_box: (n, 2) rad.
-        threshold: Between 0 and 1.
-        locks: Indices of the joints that may lock, one at a time, in order.
+        arm: The arm, with revolute joints only.
+        kind: ``ceiling`` if the threshold is an upper bound, ``floor`` if it is a lower bound.
+        task: ``pose`` or ``planar-pose``.
+        joint_box: (n, 2) lowest and highest value of each joint, rad.
+        threshold: Bound of the relative manipulability, between 0 and 1.
+        locks: Indices of the joints that may lock, one at a time, in ascending order.
     """
 
     arm: Arm
@@ -42,7 +42,7 @@ class BoundClaim(Claim):
 
     @property
     def most(self) -> float:
-        """Upper bound of every configuration: all squares sum to n - m, and the least of some is at most their mean."""
+        """Upper bound at every configuration, because all squares sum to n - m, and the least of some is at most their mean."""
         return float(np.sqrt(min(1.0, (self.arm.n - _TASK_DIMENSIONS[self.task]) / len(self.locks))))
 
 
@@ -58,17 +58,17 @@ def ceiling_claim(
     """Make the claim that relative manipulability is nowhere above a threshold in a box of configurations.
 
     Args:
-        arm: The arm; all of its joints must turn.
-        joint_box: (n, 2) rad, lowest and highest value of each joint; or ``{joint: (low, high)}``, of a joint that is not named
-            its limits.
-        threshold: Between 0 and 1.
-        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
-        task: ``pose``; ``planar-pose`` for an arm that moves in a plane.
+        arm: The arm; all of its joints must be revolute.
+        joint_box: (n, 2) lowest and highest value of each joint, rad; or ``{joint: (low, high)}``, in which the default for a
+            joint is its limits.
+        threshold: Bound of the relative manipulability, from 1e-6 to 1.
+        failures: Joints that may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+        task: ``pose``, or ``planar-pose`` for an arm that moves in a plane.
 
     Raises:
-        InputError: A box or threshold that makes no claim, a threshold that no configuration exceeds, another task, or an arm
-            with slides.
-        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
+        InputError: The box or threshold is invalid, no configuration exceeds the threshold, the task is another one, or the arm
+            has a prismatic joint.
+        TaskError: The arm has no redundancy, or a failure does not have exactly one joint.
 
     Source: Abdi, Maciejewski and Nahavandi 2012, eq. (3), for relative manipulability.
     """
@@ -86,14 +86,14 @@ def floor_claim(
 ) -> BoundClaim:
     """Make the claim that relative manipulability is everywhere at least a threshold in a box of configurations.
 
-    The arguments, errors and source are those of :func:`ceiling_claim`.
+    ``arm``, ``joint_box``, ``threshold``, ``failures``, ``task``, the errors and the source are those of :func:`ceiling_claim`.
     """
     return _make_bound_claim(arm, "floor", joint_box, threshold, failures, task)
 
 
 def _make_bound_claim(arm: Arm, kind: str, joint_box: Any, threshold: float, failures: FailureSpec, task: str) -> BoundClaim:
     if task not in _TASK_DIMENSIONS:
-        raise InputError(f"task is '{task}'; bounds are for {' and '.join(_TASK_DIMENSIONS)}, whose rows are all of the motion")
+        raise InputError(f"task is '{task}'; for a bound it must be {' or '.join(_TASK_DIMENSIONS)}")
     require_revolute(arm, "bounds are")
     locks = tuple(sorted(single_joints(arm, failures)))
     require_redundant(arm, _TASK_DIMENSIONS[task], task, tuple((index,) for index in locks))
@@ -112,20 +112,19 @@ def _make_bound_claim(arm: Arm, kind: str, joint_box: Any, threshold: float, fai
         raise InputError(f"threshold is {threshold}; it must be from 1e-6 to 1")
     claim = BoundClaim(arm=arm, kind=kind, task=task, joint_box=box, threshold=float(threshold), locks=locks)
     if threshold >= claim.most:
-        reason = "nothing to prove" if kind == "ceiling" else "no box has that floor"
-        raise InputError(f"every configuration is at {claim.most:.4g} or below, by the sum over all joints: {reason}")
+        advice = "give a lower threshold" if kind == "ceiling" else "no box has a higher floor"
+        raise InputError(f"threshold is {threshold:g}, but every configuration is at {claim.most:.4g} or below; {advice}")
     return claim
 
 
 @dataclass(frozen=True, kw_only=True)
 class StructuralZeroClaim(Claim):
-    """Claim that the axes of the arm make a lock of one joint remove all relative manipulability of the pose in every
-    configuration.
+    """Claim that a lock of one joint removes all relative manipulability of the pose in every configuration.
 
     Attributes:
-        arm: The arm, all of whose joints turn.
-        locked: Index of the joint.
-        tolerance: m, by which its geometry may miss exact ones.
+        arm: The arm, with revolute joints only.
+        locked: Index of the locked joint.
+        tolerance: Largest distance, m, of the geometry from one for which the claim holds exactly.
     """
 
     kind: ClassVar[str] = "structural-zero"
@@ -141,21 +140,22 @@ class StructuralZeroClaim(Claim):
 
 @check_arguments
 def structural_zero_claim(arm: Arm, joint: str | int, *, tolerance: float = 1e-5) -> StructuralZeroClaim:
-    """Make the claim that the axes before a joint meet in one point and those behind it in another, so that its lock removes
-    all relative manipulability.
+    """Make the claim that a lock of a joint removes all relative manipulability, because the other axes meet in two points.
+
+    The axes before the joint meet in one point, and those behind it in another.
 
     Args:
-        arm: The arm; all of its joints must turn.
-        joint: Between others, by name or index from 0.
-        tolerance: m, by which the frames of the file may miss those of an arm of which it is true exactly.
+        arm: The arm; all of its joints must be revolute.
+        joint: Name, or index from 0, of a joint between others.
+        tolerance: Largest distance, m, of the frames in the file from those of an arm for which the claim holds exactly.
 
     Raises:
-        InputError: The first or last joint, a tolerance that is not from 0 to 1 mm, or an arm with slides.
+        InputError: The joint is the first or last one, the tolerance is not from 0 to 1 mm, or the arm has a prismatic joint.
     """
     require_revolute(arm, "structural zeros are")
     index = arm.joint_index(joint)
     if not 1 <= index <= arm.n - 2:
-        raise InputError(f"{arm.joint_names[index]} is not between other joints, and only these can have a structural zero")
+        raise InputError(f"{arm.joint_names[index]} is the first or last joint; give a joint between other joints")
     if not 0 <= tolerance <= 1e-3:
         raise InputError(f"tolerance is {tolerance}; it must be from 0 to 0.001 m")
     return StructuralZeroClaim(arm=arm, locked=index, tolerance=float(tolerance))

@@ -1,4 +1,4 @@
-"""Kinds of claims: how a claim of each kind is searched for and written.
+"""Kinds of claims, with the search and the certificate fields of each kind.
 
 A claim names its kind. The registry contains the :class:`ClaimKind` objects of the modules from which the stub of the package
 exports; no other file lists them. The verifier has its own table, ``verifier_parts/kinds.py``, because it must work without
@@ -53,7 +53,7 @@ class ClaimKind:
         search: Function of a claim, the largest number of halvings of each axis, a seed, and a
             :class:`~holdfast.certificates.search_pool.SearchBudget`; it returns a result with the certificate.
         fields: Function of a claim that returns the fields of the certificate which define the claim, except arm and task.
-        halvings: Default number of halvings; 0 if the search bisects nothing, so that a store has nothing to remember.
+        halvings: Default number of halvings; 0 if the search bisects nothing, so that a store is not needed.
     """
 
     name: str

@@ -26,13 +26,13 @@ CERTIFICATE_SUFFIX = ".certificate"
 
 
 class CertificateResult(Result):
-    """Result that contains a certificate. It is not verified: :func:`check_certificate` does that."""
+    """Result that contains a certificate, which is not verified until :func:`check_certificate` checks it."""
 
     __slots__ = ()
     document: Any
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate.
+        """Write the certificate to ``file`` and return its path.
 
         Raises:
             StoreError: The file cannot be written.
@@ -42,16 +42,17 @@ class CertificateResult(Result):
 
 @dataclass(frozen=True, kw_only=True)
 class BisectionResult(CertificateResult):
-    """Result of bisecting a box. It is not verified: :func:`check_certificate` does that.
+    """Result of bisecting a box, which is not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        proved, undecided: Exact parts of the box.
-        leaves: Boxes that are proved, those of lemmas among them.
-        nodes: Boxes that were looked at.
-        finished: False if it was stopped, or the time limit was spent, before the smallest boxes were reached.
-        seconds: Measured.
-        document: The certificate, as its file holds it.
+        claim: Claim that was searched.
+        proved: Exact fraction of the box that is proved.
+        undecided: Exact fraction of the box that is undecided.
+        leaves: Number of proved boxes, including those of lemmas.
+        nodes: Number of examined boxes.
+        finished: False if the search was stopped, or its time limit reached, before the smallest boxes were reached.
+        seconds: Measured time, s.
+        document: The certificate in the form of its file.
     """
 
     claim: Any
@@ -67,7 +68,7 @@ class BisectionResult(CertificateResult):
     def from_search(
         cls, claim: Any, fields: dict[str, Any], *, undecided: Fraction, nodes: int, seconds: float, **values: Any
     ) -> Self:
-        """Return the result of a search for a claim, with the certificate that the fields prove."""
+        """Return the result of a search for a claim, with the certificate whose ``fields`` prove it."""
         document = documents.build_document(claim, fields, undecided=undecided, seconds=seconds, nodes=nodes)
         counts: dict[str, Any] = {"proved": 1 - undecided, "undecided": undecided, "nodes": nodes, "seconds": seconds}
         return cls(claim=claim, document=document, **counts, **values)
@@ -80,19 +81,19 @@ class BisectionResult(CertificateResult):
 
 @dataclass(frozen=True, kw_only=True)
 class Proof(BisectionResult):
-    """Result of the prover for a reach claim. It is not verified: :func:`check_certificate` does that.
+    """Result of the prover for a reach claim, which is not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        proved: Exact share of targets and locked angles that is proved.
-        undecided: The rest: neither proved nor refuted.
+        claim: Claim that was searched.
+        proved: Exact fraction of targets and locked values that is proved.
+        undecided: Exact fraction that is neither proved nor refuted.
     """
 
     claim: ReachClaim
 
 
 class CompositeResult(CertificateResult):
-    """Results of the searches for the parts of a claim. They are not verified: :func:`check_certificate` does that."""
+    """Results of the searches for the parts of a claim, not verified until :func:`check_certificate` checks them."""
 
     __slots__ = ()
     parts: tuple[Any, ...]
@@ -104,12 +105,12 @@ class CompositeResult(CertificateResult):
 
     @property
     def proved(self) -> Fraction:
-        """Exact proved fraction of the part with the smallest one."""
+        """Exact proved fraction of the part with the smallest proved fraction."""
         return Fraction(min(part.proved for part in self.parts))
 
     @property
     def undecided(self) -> Fraction:
-        """Exact fraction of that part that is not proved."""
+        """Exact unproved fraction of the part with the smallest proved fraction."""
         return 1 - self.proved
 
     @property
@@ -135,11 +136,11 @@ class CompositeResult(CertificateResult):
 
 @dataclass(frozen=True, kw_only=True)
 class TolerantProof(CompositeResult):
-    """Result of the prover for a failure-tolerant box. It is not verified: :func:`check_certificate` does that.
+    """Result of the prover for a failure-tolerant box, which is not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        parts: Of the healthy arm, then of each lock of the claim.
+        claim: Claim that was searched.
+        parts: Results for the healthy arm, then for each lock of the claim.
     """
 
     claim: TolerantClaim
@@ -147,22 +148,22 @@ class TolerantProof(CompositeResult):
 
     @property
     def worst(self) -> Proof:
-        """The part with the largest undecided fraction."""
+        """Part with the largest undecided fraction."""
         return max(self.parts, key=lambda part: part.undecided)
 
     @cached_property
     def tolerant(self) -> Fraction:
-        """Lower bound of the fraction of targets that is proved while healthy, and for every lock at every locked angle."""
+        """Lower bound of the fraction of targets that is proved for the healthy arm and for every lock at every value."""
         axis_count = len(self.claim.box)
         unproved = {cell[:axis_count] for part in self.parts for cell in documents.find_undecided_cells(part.document)}
         return 1 - verifier.compute_covered_volume(unproved, [verifier.MAX_COVER_STEPS])
 
     def part_label(self, part: Proof) -> str:
-        """Return ``healthy``, or the name of the joint that locks in a part."""
+        """Return ``healthy``, or the name of the joint that locks in ``part``."""
         return "healthy" if part.claim.locked < 0 else self.claim.arm.joint_names[part.claim.locked]
 
     def document(self, stem: str = "tolerant") -> dict[str, Any]:
-        """Return the certificate that lists its parts, as its file contains it."""
+        """Return the certificate that lists its parts, whose file names begin with ``stem``, in the form of its file."""
         entries = [
             {"file": name, "digest": part.document["digest"], "locked": part.document["locked"]}
             for name, part in zip(self._part_files(stem), self.parts, strict=True)
@@ -176,11 +177,11 @@ class TolerantProof(CompositeResult):
         return [f"{stem}-{f'lock-of-joint-{number}' if number else 'healthy'}{CERTIFICATE_SUFFIX}" for number in joint_numbers]
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate, and those of its parts next to it; return the file that :func:`check_certificate` takes.
+        """Write the certificate, and those of its parts next to it, and return the path for :func:`check_certificate`.
 
         Args:
-            file: The file; a folder, which is made if need be and gets ``tolerant.certificate``; or an archive of these
-                files (``.zip``), which the verifier takes as it is.
+            file: Path of the file; of a folder, which is created if needed and gets ``tolerant.certificate``; or of an
+                archive of these files (``.zip``), which the verifier also accepts.
 
         Raises:
             StoreError: A file cannot be written.
@@ -196,7 +197,7 @@ class TolerantProof(CompositeResult):
         return write_document(self.document(stem), path)
 
     def _write_archive(self, path: Path) -> Path:
-        """Write one archive with the bundle first; equal parts give equal bytes."""
+        """Write one archive with the bundle first; equal parts result in equal bytes."""
         names, buffer = ["tolerant" + CERTIFICATE_SUFFIX, *self._part_files("tolerant")], BytesIO()
         with ZipFile(buffer, "w", ZIP_DEFLATED) as archive:
             for name, document in zip(names, [self.document(), *(part.document for part in self.parts)], strict=True):

@@ -25,11 +25,11 @@ from holdfast.core.progress import Progress, reports_progress
 from holdfast.core.sweeps.memory import SearchMemory
 from holdfast.core.validation import check_arguments
 
-_PROGRESS_STEPS = 10_000  # of which progress is told: ten thousandths of all parts
+_PROGRESS_STEPS = 10_000  # steps of the reported progress: ten thousandths of all parts
 
 
 class CertifyOptions(TypedDict, total=False):
-    """Options of :func:`certify`."""
+    """Options of :func:`certify`, which documents them."""
 
     halvings: int | None
     time_limit: float | None
@@ -69,42 +69,42 @@ def certify(
     state: StateCallback | None = None,
     stop: StopCheck = lambda: False,
 ) -> Any:
-    """Prove as much of a claim as possible by bisecting cells of targets and locked angles until one configuration proves each
-    cell.
+    """Prove as much of a claim as possible by bisection, and return the result with its certificate.
 
-    That nothing of a box is reached is proved by halving the box of configurations with that of the targets, until distances
-    tell each of them apart; or refuted by a configuration that is found in it. A ceiling of relative manipulability is proved
-    by a wrench for each part of the box of configurations, a floor by a motion. A structural zero needs no search: axes meet,
-    or they do not. That a path is finished is proved by cells of it behind each interval of lock instants, glued to each other.
+    A box of targets is proved to be reached by bisecting cells of targets and locked values until one configuration proves
+    each cell. It is proved to be out of reach by bisecting configurations and targets until distances exclude each box, or
+    refuted by a configuration with its tool in the box. A ceiling of relative manipulability is proved by a wrench for each
+    part of the box of configurations, and a floor by a motion. A structural zero needs no search, because its axes either meet
+    or not. A path is proved by cells that follow each interval of lock instants and are matched at their shared faces.
 
     Args:
-        claim: From :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
+        claim: Claim of :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
             :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
             :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim` or
             :func:`holdfast.certificates.path_claim`.
-        halvings: Of each axis, at most: what is still undecided then stays so. Default: 8, of what is halved in joints 16,
-            of lock instants 6: these are halved within a segment, at most 13 times.
-        time_limit: s after which the rest is undecided; the parts of a failure-tolerant box get equal parts of it, and what
-            one does not need the others get. Without it the same seed gives the same certificate.
-        seed: Of all random draws.
-        workers: Processes: each takes a part, or a piece of one that takes very many cells. What is found is the same.
-        store: Folder that remembers what is done, made if need be: the same call resumes a search that was stopped or killed,
-            and ends with the same certificate. None: nothing is remembered.
-        state: Called with a :class:`holdfast.certificates.SearchState`: what is proved, undecided and open.
-        progress: Called with what is decided and all, in ten thousandths of the parts' volumes.
-        stop: Asked now and then; once it says True, the rest stays undecided.
+        halvings: Largest number of bisections of each axis; smaller cells stay undecided. Default: 8; for joints 16; for
+            lock instants, which are bisected within a segment at most 13 times, 6.
+        time_limit: Time limit, s, after which all open cells are undecided. The parts of a failure-tolerant box get equal
+            times, and the others use the time that one part leaves. None: no limit; then a seed determines the certificate.
+        seed: Seed of all random samples.
+        workers: Number of worker processes, which does not change the result. Each takes a part, or a piece of a large part.
+        store: Folder for intermediate results, created if needed. The same call then resumes a search that was stopped or
+            killed, and ends with the same certificate. None: results are not stored.
+        state: Function that is called with a :class:`holdfast.certificates.SearchState` with the fractions that are proved,
+            undecided and open.
+        progress: Function that is called with the decided and the total volume, in ten thousandths of the parts' volumes.
+        stop: Function that is called regularly; after it has returned True, all open cells are undecided.
 
     Returns:
-        A :class:`holdfast.certificates.Proof`, of a failure-tolerant box a :class:`holdfast.certificates.TolerantProof`, of
-        what is out of reach a :class:`holdfast.certificates.Refutation`, of a ceiling or floor a
-        :class:`holdfast.certificates.ManipulabilityBound`, of a structural zero a
-        :class:`holdfast.certificates.StructuralZero`, of a path a :class:`holdfast.certificates.PathProof`; found by the
-        prover and not yet verified. Its file is checked by :func:`check_certificate`, or without holdfast; see the explanation
-        of certificates.
+        A :class:`holdfast.certificates.Proof`, or for the other claims a :class:`holdfast.certificates.TolerantProof`,
+        :class:`holdfast.certificates.Refutation`, :class:`holdfast.certificates.ManipulabilityBound`,
+        :class:`holdfast.certificates.StructuralZero` or :class:`holdfast.certificates.PathProof`. The prover found it, but it
+        is not verified. :func:`check_certificate` checks its file; the explanation of certificates shows how to check it
+        without holdfast.
 
     Raises:
-        InputError: A number out of range, or a box that would take more than 2^24 cells.
-        StoreError: The folder holds another search or something else, or cannot be written.
+        InputError: A number is out of range, or the box would take more than 2^24 cells.
+        StoreError: The folder contains another search or other files, or cannot be written.
     """
     kind = find_claim_kind(claim)
     halvings = kind.halvings if halvings is None else halvings

@@ -1,4 +1,4 @@
-"""Jobs of a search, run one after the other or in several processes, with finished results stored on disk."""
+"""Jobs of a search, run in sequence or in several processes, with finished results stored on disk."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from holdfast.core.errors import HoldfastError
 from holdfast.core.progress import print_warning
 from holdfast.core.sweeps.memory import Parts, SearchMemory
 
-_START_TIME_DIVISOR = 4  # of the time limit, to begin with
-_TIME_SLICE_S = 2.0  # s on a part, then on the next, so that a search that is stopped has something of each
-_POLL_INTERVAL_S = 0.2  # s between looks at what other processes tell
+_START_TIME_DIVISOR = 4  # the setup of jobs may take the time limit divided by this
+_TIME_SLICE_S = 2.0  # s for a part before the next one, so that a stopped search has results for each part
+_POLL_INTERVAL_S = 0.2  # s between polls of messages from other processes
 StopCheck = Callable[[], bool]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JobResult:
-    """Result of a search job; its fields are what the search memory holds of it.
+    """Result of a search job, whose fields the search memory stores.
 
     Attributes:
-        state: Proved and undecided fractions of this job itself; the parts deferred to child jobs count as neither.
-        seconds: Measured.
-        finished: Nothing is open except the parts deferred to child jobs; only such results are remembered.
+        state: Proved and undecided fractions of this job, in which parts deferred to child jobs count as neither.
+        seconds: Measured time, s.
+        finished: True if nothing is open except parts deferred to child jobs; only such results are stored.
     """
 
     state: SearchState
@@ -58,12 +58,12 @@ class JobResult:
 
     @classmethod
     def from_arrays(cls, arrays: Parts, **values: Any) -> Self:
-        """Rebuild a finished result from its stored arrays; the values are those of fields of other types."""
+        """Rebuild a finished result from its stored arrays, with ``values`` for fields of other types."""
         types = {field.name: str(field.type) for field in fields(cls) if field.type in _FROM_ARRAY}
         return cls(finished=True, **{name: _FROM_ARRAY[kind](arrays[name]) for name, kind in types.items()}, **values)
 
     def merge(self, results: Sequence[Self], **values: Any) -> Self:
-        """Return this result with those of the child jobs counted in, and some values replaced."""
+        """Return this result combined with the results of the child jobs, and with some values replaced."""
         states = [self.state, *(result.state for result in results)]
         total = SearchState(**{key: sum(getattr(state, key) for state in states) for key in _STATE_KEYS})
         seconds = self.seconds + sum(result.seconds for result in results)
@@ -88,12 +88,12 @@ def _to_array(value: Any) -> NDArray[Any]:
 
 
 class SearchJob(ABC):
-    """A piece of a search. Its result depends on the job alone, not on the number of processes or on earlier results."""
+    """Piece of a search, whose result depends only on the job, not on the number of processes or on earlier results."""
 
     name: str
     """Name in the search memory."""
     claim_fraction: float = 1.0
-    """Fraction of its claim part that the states of this job are about; weights its progress."""
+    """Fraction of its part of the claim to which the states of this job refer, which is the weight of its progress."""
     result_type: type[Any]
     """Class of its results."""
 
@@ -102,12 +102,12 @@ class SearchJob(ABC):
         """Make the search, with time for the setup until the monotonic time ``deadline``."""
 
     def run_search(self, search: Any, deadline: float, should_stop: StopCheck, report_progress: Callable[[], None]) -> bool:
-        """Continue a search; return True if nothing is open except what is deferred to child jobs."""
+        """Continue a search, and return True if nothing is open except parts deferred to child jobs."""
         return bool(search.run(deadline, should_stop, report_progress))
 
     @abstractmethod
     def read_result(self, search: Any, **values: Any) -> Any:
-        """Return the result of a search so far; the values are the common ones."""
+        """Return the result of a search so far, with ``values`` for the common fields."""
 
     @abstractmethod
     def empty_result(self) -> Any:
@@ -123,7 +123,7 @@ class SearchJob(ABC):
 
 
 class RunningJob:
-    """A started search job.
+    """Search job that has been started.
 
     Attributes:
         job: The job that runs.
@@ -157,11 +157,11 @@ class SearchBudget:
     """Time limit, processes, callbacks and memory of a search.
 
     Attributes:
-        deadline: Until when (``monotonic``).
-        should_stop: Asked now and then; once it says True the rest is left.
-        report_state: Is told how far all is.
-        workers: Processes.
-        memory: Of a folder, or None.
+        deadline: Monotonic time at which the search ends, s.
+        should_stop: Function that is called regularly; the search ends after it has returned True.
+        report_state: Function that is called with the progress of the whole search.
+        workers: Number of worker processes.
+        memory: Search memory in a folder; None without one.
     """
 
     deadline: float = np.inf
@@ -185,14 +185,14 @@ class SearchBudget:
 
 
 class SearchPool:
-    """The jobs of a search and their results.
+    """Pool of the jobs of a search and their results.
 
     Args:
-        jobs: One for each part of it; they may leave some of it to others.
-        budget: Whose memory and callbacks are used.
+        jobs: One job for each part of the search, which can have child jobs.
+        budget: Budget whose memory and callbacks are used.
 
     Attributes:
-        nodes: Cells that were looked at.
+        nodes: Number of examined cells.
     """
 
     def __init__(self, jobs: Sequence[SearchJob], budget: SearchBudget) -> None:
@@ -255,7 +255,7 @@ class SearchPool:
                 self._record_result(job, started.result())
             else:
                 running.append(started)
-        # What is remembered is done one after the other, so that a search that is killed has something to resume from.
+        # With a memory, jobs run in sequence, so that a killed search has finished results to resume from.
         time_slice = np.inf if self._memory is not None and np.isinf(deadline) else _TIME_SLICE_S
         while (running or self._open_jobs) and monotonic() < deadline and not should_stop():
             waiting, self._open_jobs = self._open_jobs, []
@@ -264,7 +264,7 @@ class SearchPool:
             for remaining, next_job in zip(range(len(continuations), 0, -1), continuations, strict=True):
                 now = monotonic()
                 duration = (deadline - now) / remaining
-                # Beginnings are whole unless time is short: what they find counts.
+                # Setups are complete unless time is short, because their results count.
                 work = next_job if isinstance(next_job, RunningJob) else RunningJob(next_job, now + duration / 2)
                 work.run(min(now + duration, monotonic() + time_slice), should_stop, partial(self._update_running, work))
                 if work.finished:
@@ -279,7 +279,7 @@ class SearchPool:
 
         Raises:
             InputError: A part would take too many cells.
-            HoldfastError: A process ended, perhaps for want of memory.
+            HoldfastError: A process ended, possibly because of a lack of memory.
         """
         context = get_context("spawn")
         messages, stop_event = context.SimpleQueue(), context.Event()
@@ -304,7 +304,7 @@ class SearchPool:
                         if name not in self._results:
                             self._update_state(jobs_by_name[name], state)
             except BrokenProcessPool as error:
-                reason = "perhaps for want of memory; what is done is kept with a store, and fewer workers need less"
+                reason = "possibly for lack of memory; a store keeps finished results, and fewer workers need less memory"
                 raise HoldfastError(f"a process of the search ended, {reason}") from error
             finally:
                 stop_event.set()

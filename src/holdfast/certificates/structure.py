@@ -1,9 +1,10 @@
 """Structural zeros: joints between a spherical shoulder and a spherical wrist, whose lock removes all relative manipulability
 in every configuration.
 
-A force along the line from shoulder to wrist has no moment about the axes that go through one of these points: about none but
-that of the joint between. So the arm cannot move that joint and keep its tool still. That axes meet is an identity between
-numbers, which no file with a few digits of pi/2 fulfils: it is proved, in rationals, of a geometry near that of the file.
+A force along the line from shoulder to wrist has no moment about the axes through one of these points, so it has a moment only
+about the axis of the joint between them. The arm therefore cannot move that joint and keep its tool still. That axes meet is an
+exact identity, which a file with a few digits of pi/2 does not satisfy. It is proved in rational arithmetic for a geometry
+close to that of the file.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from holdfast.certificates.taylor import CertificateChain
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 
-_QUARTER_TURN_TOLERANCE_RAD = 1e-4  # rad, of a rotation from quarter turns
-_POINT_DIGITS = 9  # of points on axes, m
+_QUARTER_TURN_TOLERANCE_RAD = 1e-4  # rad, largest angle between a rotation and quarter turns
+_POINT_DIGITS = 9  # decimals of points on axes, m
 _QUATERNION_SCALE = 2**24
 
 
@@ -33,11 +34,11 @@ class StructuralZero(CertificateResult):
     """Result of the search for a structural zero, with the changes of the geometry that make it exact.
 
     Attributes:
-        claim: What was asked.
-        ok: The axes before the joint meet in one point, and those behind it in another.
-        turned: rad, by which a frame was turned at most.
-        shifted: m, by which a frame was shifted at most, or would have to be.
-        document: The certificate, as its file holds it; None without a proof.
+        claim: Claim that was searched.
+        ok: True if the axes before the joint meet in one point, and those behind it in another.
+        turned: Largest angle by which a frame was rotated, rad.
+        shifted: Largest distance by which a frame was shifted, or would have to be, m.
+        document: The certificate in the form of its file; None without a proof.
     """
 
     claim: StructuralZeroClaim
@@ -47,7 +48,7 @@ class StructuralZero(CertificateResult):
     document: dict[str, Any] | None
 
     def write(self, file: str | Path) -> Path:
-        """Write the certificate.
+        """Write the certificate to ``file`` and return its path.
 
         Raises:
             InputError: There is no proof.
@@ -59,7 +60,7 @@ class StructuralZero(CertificateResult):
 
 
 def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
-    """Prove a structural zero if the geometry is within the tolerance of one whose axes meet exactly."""
+    """Prove a structural zero if the geometry is within the tolerance of a geometry whose axes meet exactly."""
     chain, n, k = CertificateChain.from_arm(claim.arm), claim.arm.n, claim.locked
     rotations = [_nearest_integer_quaternion(rotation) for rotation in chain.rotations[:n]]
     points, shift = [Fraction(0)] * n, 0.0
@@ -97,7 +98,7 @@ def prove_structural_zero(claim: StructuralZeroClaim) -> StructuralZero:
 
 
 def _nearest_integer_quaternion(rotation: FloatArray) -> tuple[int, int, int, int]:
-    """Return an integer quaternion: of quarter turns about the axes if they are close, otherwise with many digits."""
+    """Return an integer quaternion of quarter turns about the axes if they are close, otherwise one with many digits."""
     from scipy.spatial.transform import Rotation
 
     rounded = np.round(rotation)

@@ -1,9 +1,8 @@
-"""The Taylor form of a reach: the boxes of targets and locked angles that one configuration proves.
+"""Taylor form of a reach, which determines the boxes of targets and locked values that one configuration proves.
 
-Around a configuration the free joints follow the target and the locked joint along ``q = q_c + D (delta, s)``, and
-``s -> s - g`` maps a box of corrections into itself where the bound ``e(S)`` of what is left of the error is at most S: by
-Brouwer's theorem it then stays where it is somewhere, and there g = 0. Everything here is doubles and may be wrong: the
-verifier decides.
+Around a configuration the free joints follow the target and the locked joint along ``q = q_c + D (delta, s)``. If the bound
+``e(S)`` of the remaining error is at most S, ``s -> s - g`` maps the box S of corrections into itself. By Brouwer's theorem it
+then has a fixed point, at which g = 0. All numbers here are doubles without error bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -18,11 +17,11 @@ from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
 
-CENTER_UNIT = 2.0**-24  # rad: centres are written in multiples of it
-_MAX_TEST_STEPS = 40  # of tests, each of several rounds
-_SINGULAR_ERROR = 1e6  # m: the error where the arm is singular
-_NO_LIMIT = 1e6  # rad or m, for a limit that is not there
-_MAX_SLIDE_M = 5.0  # m: a slide without limits is not tried beyond
+CENTER_UNIT = 2.0**-24  # rad: unit of stored centers
+_MAX_TEST_STEPS = 40  # steps of tests, each with several rounds
+_SINGULAR_ERROR = 1e6  # m: error that stands for a singular arm
+_NO_LIMIT = 1e6  # rad or m: stands for no limit
+_MAX_SLIDE_M = 5.0  # m: range that is tried for a prismatic joint without limits
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,10 +29,11 @@ class CertificateChain:
     """Joints about or along the z axes of their frames, in the form that certificates contain.
 
     Attributes:
-        rotations: (n + 1, 3, 3) of each joint's frame in the one before, the tool's last.
-        origins: (n + 1, 3) likewise, m.
-        lengths: (n,) m, of what joint k and those before it turn and joint k + 1 does not; of a slide without its value.
-        slides: (n,) which joints slide.
+        rotations: (n + 1, 3, 3) rotation of each joint's frame in the previous frame, then of the tool.
+        origins: (n + 1, 3) origin of each joint's frame in the previous frame, then of the tool, m.
+        lengths: (n,) lengths, m, that joint k and the joints before it rotate, but joint k + 1 does not; for a prismatic joint
+            without its value.
+        slides: (n,) True for prismatic joints.
     """
 
     rotations: FloatArray
@@ -43,7 +43,7 @@ class CertificateChain:
 
     @classmethod
     def from_arm(cls, arm: Arm) -> CertificateChain:
-        """Build the chain of an arm, with frames rotated so that every axis is z and the base included in the first frame."""
+        """Build the chain of an arm, with frames rotated so that every axis is z, and with the base in the first frame."""
         frames, from_axis = [], np.eye(4)
         for joint in arm.joints:
             to_axis = np.eye(4)
@@ -57,9 +57,7 @@ class CertificateChain:
         return cls(rotations, origins, link_lengths(rotations, list(origins[1:]), arm.prismatic), arm.prismatic)
 
     def closest_points_on_axes(self, joint: int) -> tuple[float, float] | None:
-        """Return the heights, m, on the axes of joint k and the next joint at which these axes are closest; None if they are
-        parallel.
-        """
+        """Return the heights, m, on the axes of a joint and the next one at which they are closest; None if parallel."""
         direction, origin = self.rotations[joint + 1][:, 2], self.origins[joint + 1]
         squared_sine = direction[:2] @ direction[:2]
         if squared_sine < 1e-12:
@@ -69,12 +67,12 @@ class CertificateChain:
 
 
 def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: BoolArray) -> FloatArray:
-    """Return the lengths (k,), m, that each of some joints and those before it turn, and the next joint does not.
+    """Return the lengths (k,), m, that each of some joints and the joints before it rotate, but the next joint does not.
 
     Args:
-        rotations: (k or more, 3, 3) of each joint's frame in the one before.
-        links: (k, 3) from each joint to the next one, and to the point behind the last one.
-        slides: (k,) which joints slide.
+        rotations: (k or more, 3, 3) rotation of each joint's frame in the previous frame.
+        links: (k, 3) vectors from each joint to the next one, and from the last one to the point behind it, m.
+        slides: (k,) True for prismatic joints.
     """
     lengths = []
     for index in range(len(slides)):
@@ -86,21 +84,21 @@ def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: Boo
 
 
 class ReachSolver:
-    """Solver for configurations that put the tool at a target, with one joint locked or none.
+    """Solver for configurations with the tool at a target, for a healthy arm or one with a locked joint.
 
     Args:
         arm: The arm.
         task: ``planar``, ``planar-pose``, ``position``, ``pointing`` or ``pose``.
-        locked: Index of the locked joint; -1: none.
-        limits: (n, 2) rad.
-        rotation: (3, 3) of the tool, where it counts; None: the last numbers of a target are roll, pitch and yaw, in the plane
-            yaw alone.
-        angle: (2,) where the joint may be locked, rad or m; of a joint that turns it does not matter.
+        locked: Index of the locked joint; -1 for none.
+        limits: (n, 2) joint limits, rad and m.
+        rotation: (3, 3) rotation of the tool if the task includes it. None: the last coordinates of a target are roll, pitch
+            and yaw, or in the plane yaw alone.
+        angle: (2,) range in which the joint may lock, rad or m; not used for a revolute joint.
 
     Attributes:
-        axes: Numbers of a target: 2 or 3 coordinates, m, then roll, pitch and yaw, rad, if targets turn.
-        linear: So many of them are coordinates.
-        slides: (n,) which joints slide.
+        axes: Number of coordinates of a target: 2 or 3 positions, m, then roll, pitch and yaw, rad, if targets rotate.
+        linear: Number of positions among them.
+        slides: (n,) True for prismatic joints.
     """
 
     def __init__(
@@ -118,7 +116,7 @@ class ReachSolver:
         self.free = ~locked_mask & ~self.fixed
         self.slides = arm.prismatic
         turning, chain = {"pose": 3, "planar-pose": 1}.get(task, 0) if rotation is None else 0, CertificateChain.from_arm(arm)
-        # Heights do not count in the plane.
+        # Heights do not matter in the plane.
         lengths = np.linalg.norm(chain.origins[1:, :2], axis=1) if task == "planar-pose" else chain.lengths
         self.expansion = ToolExpansion(arm, task, turning, np.asarray(lengths), self.slides)
         self.m, self.uses_rotation = self.expansion.m, self.expansion.uses_rotation
@@ -138,7 +136,7 @@ class ReachSolver:
 
     @property
     def sampling_limits(self) -> FloatArray:
-        """(n, 2) rad and m, the limits, and default sampling ranges for joints without limits."""
+        """(n, 2) limits, rad and m, with default sampling ranges for joints without limits."""
         range_limits = np.where(self.slides, _MAX_SLIDE_M, np.pi)[:, None]
         return np.clip(self.limits, -range_limits, range_limits)
 
@@ -148,8 +146,9 @@ class ReachSolver:
         return bool(self.free.sum() > self.m)
 
     def set_nonfree_joints(self, q: FloatArray, coordinates: FloatArray) -> FloatArray:
-        """Return configurations (N, n) with the locked joint at the value in ``coordinates`` (N, A), targets and locked angles,
-        and fixed joints at their limits.
+        """Return configurations (N, n) with the locked joint at its value in ``coordinates``, and fixed joints at their limits.
+
+        ``coordinates`` (N, A) are targets and locked values.
         """
         q = np.where(self.fixed, self.limits[:, 0], q)
         if self.locked >= 0:
@@ -157,21 +156,17 @@ class ReachSolver:
         return q
 
     def append_target_rotation(self, targets: FloatArray) -> FloatArray:
-        """Return targets (N, axes) in the form that the kernels take."""
+        """Return targets (N, axes) in the form of the kernels."""
         return np.concatenate([targets, np.tile(self._rotation, (len(targets), 1))], axis=1)
 
     def measure_pose_error(self, q: FloatArray, targets: FloatArray) -> FloatArray:
-        """Return the position error, m, and the orientation error, rad, of the tool at q (N, n) for targets (N, axes), as (N,
-        2).
-        """
+        """Return position errors, m, and orientation errors, rad, of the tool at q (N, n) for targets (N, axes), as (N, 2)."""
         return self.expansion.pose_error_kernel.rows(q, self.append_target_rotation(targets))
 
     def solve_inverse_kinematics(
         self, q: FloatArray, targets: FloatArray, rounds: int = 8, desired_error: FloatArray | None = None
     ) -> FloatArray:
-        """Run Newton's method from q (N, n) towards targets (N, axes), or an error (N, m), on the free joints, within the
-        limits.
-        """
+        """Run Newton's method on the free joints from q (N, n) to targets (N, axes), or to an error (N, m), within limits."""
         target_error = np.zeros((len(q), self.m)) if desired_error is None else desired_error
         fixed_inputs = np.tile(np.concatenate([self._free, *self._limits]), (len(q), 1))
         parameters = np.concatenate([self.append_target_rotation(targets), target_error, fixed_inputs], axis=1)
@@ -187,9 +182,9 @@ class TaylorForm:
     """Taylor forms at N configurations.
 
     Attributes:
-        reach: Whose.
-        q: (N, n) centres, rad.
-        coefficients: (N, p), see :class:`holdfast.certificates.expansions.ToolExpansion`; NaN where the arm is singular.
+        reach: Solver of the forms.
+        q: (N, n) centers, rad.
+        coefficients: (N, p) coefficients of :class:`holdfast.certificates.expansions.ToolExpansion`; NaN for a singular arm.
     """
 
     reach: ReachSolver
@@ -204,7 +199,7 @@ class TaylorForm:
 
     @property
     def error(self) -> FloatArray:
-        """(N, m) error of the tool at the centers: m, and the axial part of rotations."""
+        """(N, m) error of the tool at the centers, in m, and as the axial part of rotations."""
         return self.coefficients[:, : self.reach.m]
 
     def select(self, rows: NDArray[np.intp] | BoolArray) -> TaylorForm:
@@ -214,9 +209,7 @@ class TaylorForm:
     def bound_error_and_travel(
         self, cell_half_widths: FloatArray, section_half_widths: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Bound the error less s above and below 0 (N, m) and the joint travel (N, n), for half widths of cells and
-        sections.
-        """
+        """Bound the error minus s above and below 0, (N, m) each, and the joint travel (N, n) for cells and sections."""
         upper_error, lower_error, joint_travel = self.reach.expansion.error_bound_kernel(
             self.coefficients, self._append_zero_lock_width(cell_half_widths), section_half_widths
         )
@@ -232,12 +225,12 @@ class TaylorForm:
         return np.asarray(self._count_provable_sixteenths(cell_half_widths, initial_state) == CELL_WIDTH_PARTS)
 
     def find_provable_width_fraction(self, cell_half_widths: FloatArray, minimum: FloatArray | None = None) -> FloatArray:
-        """Return the (N,) largest factor below 1 by which cells of half widths (N, c) are proved, to 1/16.
+        """Return the largest factors (N,) below 1 by which cells of half widths (N, c) are proved, to 1/16.
 
-        ``minimum`` (N,): where it is no more than that, it is told to be that, after a test instead of several.
+        A factor of at most ``minimum`` (N,) is reported as the minimum, after a single test.
         """
         initial_state = np.array([0, CELL_WIDTH_PARTS / 2, CELL_WIDTH_PARTS / 2])
-        if minimum is not None:  # no test passes of cells too small for its margins
+        if minimum is not None:  # no test passes for cells smaller than its margins
             passed = CELL_WIDTH_PARTS * minimum[:, None]
             increment = 2 ** np.ceil(np.log2(np.maximum(CELL_WIDTH_PARTS - 1 - passed, 1)))
             state = np.hstack([passed, passed + 1, np.where(passed + 1 < CELL_WIDTH_PARTS, increment, 0)])
@@ -245,10 +238,9 @@ class TaylorForm:
         return self._count_provable_sixteenths(cell_half_widths, initial_state) / CELL_WIDTH_PARTS
 
     def _count_provable_sixteenths(self, cell_half_widths: FloatArray, initial_state: FloatArray) -> FloatArray:
-        """Return the (N,) number of sixteenths of the cells' widths that pass the test.
+        """Return the number (N,) of sixteenths of the cells' widths that pass the test.
 
-        ``initial_state``: How many are known to, how many are tested first, and a power of 2, twice that by which others are
-        more.
+        ``initial_state`` contains the number known to pass, the first tested number, and a power of 2, twice the next step.
         """
         reach, (lower, upper) = self.reach, self.reach._limits
         margins = np.where(reach.free, np.minimum(self.q - lower, upper - self.q), _NO_LIMIT)
@@ -259,7 +251,7 @@ class TaylorForm:
         return np.nan_to_num(final_state[:, reach.m])
 
     def choose_split_axis(self, cell_half_widths: FloatArray, allowed: BoolArray) -> IndexArray:
-        """Return the (N,) axis, among the ``allowed`` ones (N, c), whose halving leaves the smallest error and limit excess."""
+        """Return the axis (N,) among the ``allowed`` ones (N, c) whose halving leaves the smallest error and limit excess."""
         reach, (lower, upper) = self.reach, self.reach.limits.T
         costs = np.full(cell_half_widths.shape, np.inf)
         for axis in np.flatnonzero(allowed.any(axis=0)):

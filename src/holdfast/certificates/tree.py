@@ -12,7 +12,7 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray, IndexArray
 
-# Tokens of trees, as the verifier reads them; a node that is split has SPLIT_TOKEN and the axis.
+# Tokens of trees in the format of the verifier; the token of a split node is SPLIT_TOKEN plus the axis.
 PROVED_TOKEN = 0
 UNDECIDED_TOKEN = 2
 SPLIT_TOKEN = 16
@@ -24,11 +24,12 @@ class SearchState:
     """Progress of a search.
 
     Attributes:
-        proved, undecided: Shares of all parts of the claim together.
-        refuted: Likewise, of a path; of other claims all is refuted by one witness.
-        open: The share that is still to be looked at.
-        nodes: Boxes that were looked at.
-        warning: Of how many sampled targets no configuration was found, if of many; or empty.
+        proved: Proved fraction of all parts of the claim together.
+        undecided: Undecided fraction of all parts together.
+        open: Fraction that is not examined yet.
+        nodes: Number of examined boxes.
+        refuted: Refuted fraction of a path claim; one witness refutes the whole of another claim.
+        warning: Warning with the number of sampled targets for which no configuration was found, if there are many; or empty.
     """
 
     proved: float = 0.0
@@ -43,10 +44,10 @@ StateCallback = Callable[[SearchState], None]
 
 
 class RowBatch:
-    """Base of dataclasses of arrays with one row for each of N objects."""
+    """Base of dataclasses whose arrays have one row for each of N objects."""
 
     def select(self, rows: IndexArray) -> Self:
-        """Return the objects of some rows."""
+        """Return the objects in some rows."""
         return type(self)(*(getattr(self, field.name)[rows] for field in fields(self)))  # type: ignore[arg-type]
 
     @classmethod
@@ -58,13 +59,13 @@ class RowBatch:
 
 @dataclass
 class CellBatch(RowBatch):
-    """Cells of the root box: index k of 2^depth along each axis, and inherited data.
+    """Batch of N cells of a root box with A axes, and inherited data.
 
     Attributes:
-        place, depth: (N, A).
-        name: (N,) number of each in the tree.
-        q: (N, n) a configuration to begin from, rad.
-        barren: (N,) how many cells in a row around this one were not proved to a measurable part.
+        place, depth: (N, A) index along each axis, from 0 to 2^depth - 1, and depth.
+        name: (N,) number of the cell in the tree.
+        q: (N, n) configuration at which the search begins, rad.
+        barren: (N,) number of consecutive enclosing cells of which no measurable fraction was proved.
     """
 
     place: IndexArray
@@ -80,16 +81,16 @@ class CellBatch(RowBatch):
 
 
 class BisectionTree:
-    """Growing bisection tree, or several ones next to each other.
+    """Growing bisection tree, or several parallel trees.
 
     Args:
         roots: Number of trees; their roots are the first nodes.
-        initial_token: Token of nodes that nobody has marked.
+        initial_token: Token of new nodes.
 
     Attributes:
         nodes: Number of nodes.
-        tokens: Token of each node and of those to come, see :func:`is_split`.
-        lower_children: The lower child of each node that is split, else 0; the upper one is the next.
+        tokens: Token of each node, with space for further nodes; see :func:`is_split`.
+        lower_children: Number of the lower child of each split node, else 0; the upper child has the next number.
     """
 
     def __init__(self, roots: int = 1, initial_token: int = UNDECIDED_TOKEN) -> None:
@@ -99,7 +100,7 @@ class BisectionTree:
         self.lower_children = np.zeros(capacity, dtype=np.int64)
 
     def split_nodes(self, nodes: IndexArray, axes: IndexArray) -> IndexArray:
-        """Split nodes along axes and return the halves of each (2N,), the lower one first."""
+        """Split nodes along axes, and return the halves (2N,) of all nodes, the lower one of each first."""
         lower = self.nodes + 2 * np.arange(len(nodes))
         self.nodes += 2 * len(nodes)
         while self.nodes > len(self.tokens):
@@ -122,7 +123,7 @@ class BisectionTree:
         return self.tokens[self.preorder_nodes()].tobytes()
 
     def halve_cells(self, cells: CellBatch, axis: IndexArray) -> CellBatch:
-        """Return both halves of each cell along its axis, one after the other."""
+        """Return both halves of each cell along its axis, next to each other."""
         halves = cells.select(np.repeat(np.arange(len(axis)), 2))
         rows, axes = np.arange(2 * len(axis)), np.repeat(axis, 2)
         halves.place[rows, axes] = 2 * halves.place[rows, axes] + rows % 2
@@ -149,12 +150,12 @@ class BisectionTree:
 
 
 def is_split(token: int) -> bool:
-    """Return whether a token is that of a node with two halves; those from 128 on are boxes that a lock decides."""
+    """Return whether a token marks a node with two halves; tokens from 128 on mark boxes that a lock decides."""
     return SPLIT_TOKEN <= token < SPLIT_TOKEN + _MAX_AXES
 
 
 def compute_depths(tokens: bytes) -> list[int]:
-    """Return the depth of each node of trees in pre-order, one tree after the other; that of a root is 0."""
+    """Return the depth of each node of consecutive trees in pre-order; the depth of a root is 0."""
     depths, waiting = list[int](), list[int]()
     for token in tokens:
         depths.append(waiting.pop() if waiting else 0)

@@ -1,13 +1,13 @@
-"""Verifier of certificates from any source: ``python verifier.py FILE`` needs NumPy and python-flint, and nothing of holdfast.
+"""Verifier of certificates from any source: ``python verifier.py FILE`` needs NumPy and python-flint, but not holdfast.
 
-The file holds a bisection tree, and for each leaf of it what makes a proof easy: a configuration near the targets, or a joint
-whose lock costs enough. The search that found it may be wrong; here every leaf is proved again, in balls (true numbers, and how
-far from them doubles are at most), from exact first and second derivatives and a bound for the third. What a leaf shows is
-said at the top of a module in the folder next to this file: ``targets`` (reached), ``distances`` (out of reach), ``bounds``
-(ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths). ``files`` checks the form
-of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths`` read the cells, ``chain`` encloses the arm and its
-target, ``taylor`` proves most leaves. These are 1,729 lines of code in all, without docstrings and comments; the explanation
-of certificates in the documentation says which have to be read for one claim.
+The file contains a bisection tree, and for each leaf the data that make a proof easy: a configuration near the targets, or a
+joint whose lock reduces enough. The search that found them may be wrong. Here every leaf is proved again in ball arithmetic
+(doubles with bounds of their distance from the true numbers), from exact first and second derivatives and a bound of the third.
+The modules in the folder next to this file explain at their top what a leaf proves: ``targets`` (reached), ``distances`` (out
+of reach), ``bounds`` (ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths).
+``files`` checks the form of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths`` read the cells, ``chain``
+encloses the arm and its target, ``taylor`` proves most leaves. These are 1,729 lines of code in all, without docstrings and
+comments; the explanation of certificates in the documentation lists those that have to be read for one claim.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING or __package__:
     from holdfast.certificates.verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
-else:  # run as a file: the folder lies beside it
+else:  # run as a file: the folder lies next to it
     from verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
 
 CertificateRejected = forms.CertificateRejected
@@ -55,20 +55,20 @@ CHUNK_LEAVES = 256
 
 @dataclass(frozen=True, kw_only=True)
 class CertificateVerdict:
-    """Result of the check of a certificate. Cells covered by rejected leaves count as undecided."""
+    """Result of the check of a certificate, in which cells covered by rejected leaves count as undecided."""
 
     document: dict[str, Any]
     leaves: int
     accepted: int
     rejected: int
     seconds: float = 0.0
-    undecided: Fraction  # of the root box; of a bundle in its worst part
-    unproved_targets: frozenset[tree.Cell] = frozenset()  # cells of targets for which something is undecided
+    undecided: Fraction  # fraction of the root box; for a bundle in its worst part
+    unproved_targets: frozenset[tree.Cell] = frozenset()  # cells of targets for which some locked value is undecided
     parts: tuple[CertificateVerdict, ...] = ()
     refuted: bool = False  # a configuration shows that the claim is false
-    attained_bound: float = 0.0  # of a ceiling: a value that is attained, or less; of a floor, or more
-    whichever: Fraction | None = None  # of a path: at least this part of the lock instants is proved for all locks
-    false: Fraction = Fraction(0)  # of a path: at this part of the lock instants nothing finishes it
+    attained_bound: float = 0.0  # lower bound (for a floor, upper bound) of a value that occurs
+    whichever: Fraction | None = None  # for a path: least fraction of the lock instants that is proved for all locks
+    false: Fraction = Fraction(0)  # for a path: fraction of the lock instants after which no motion finishes it
 
     @property
     def is_sampled(self) -> bool:
@@ -84,22 +84,22 @@ class CertificateVerdict:
 
     @property
     def proved(self) -> Fraction:
-        """Exact proved fraction of the claim; of a bundle in its worst part."""
+        """Exact proved fraction of the claim; for a bundle in its worst part."""
         return min((part.proved for part in self.parts), default=1 - self.undecided - self.false)
 
     @property
     def claim(self) -> str:
-        """The sentence of the claim, with the fraction of it that is verified; of a bundle, whatever locks."""
+        """Claim as a sentence, with its verified fraction; for a bundle, that for every lock."""
         proved = self.tolerant_fraction if self.parts else self.proved
         return forms.qualify_claim(self.document["claim"], proved, refuted=self.refuted, sampled=self.is_sampled)
 
     @property
     def summary(self) -> str:
-        """Summary of the result in one sentence; fractions are never rounded up to the whole or down to nothing."""
+        """Summary of the result in one sentence; fractions are never rounded up to 1 or down to 0."""
         kind, configuration = self.document["kind"], self.document.get("witness") or self.document.get("found") or ()
         witness_text = f"at ({', '.join(repr(parse_hex(value)) for value in configuration)})"
         if self.document.get("witness"):
-            return f"Refuted: {witness_text} the tool is in the box." if self.refuted else "Rejected: the witness is none."
+            return f"Refuted: {witness_text} the tool is in the box." if self.refuted else "Rejected: the witness is invalid."
         if kind in ("ceiling", "floor"):
             round_bound = math.floor if kind == "ceiling" else math.ceil
             witness_text = f"{round_bound(self.attained_bound * 1e6) / 1e6:.6f} occurs, {witness_text}"
@@ -114,9 +114,9 @@ class CertificateVerdict:
         if kind in ("ceiling", "floor"):
             text += f" of the box; {witness_text}"
         elif kind == "path":
-            text += f"; whichever joint locks, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
+            text += f"; for every joint, at least {forms.format_percent(self.tolerant_fraction)}" * bool(self.parts)
         elif "target" in self.document and self.document.get("locked") != -1:
-            text += f"; wherever the lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
+            text += f"; for every lock, at least {forms.format_percent(self.tolerant_fraction)} of the targets"
         text += f". Leaves accepted: {self.accepted}, rejected: {self.rejected}; {self.seconds:.1f} s"
         return str(text) + (f"; of {self.leaves}: sampled, not verified." if self.is_sampled else ".")
 
@@ -128,7 +128,7 @@ def _check_leaves(
     report_checked: Callable[[int], None],
     chunk_size: int = CHUNK_LEAVES,
 ) -> tuple[int, list[Any]]:
-    """Check leaves in chunks; return the number of checked leaves and the rejected ones."""
+    """Check leaves in chunks, and return the number of checked leaves and the rejected leaves."""
     checked, rejected, chosen = 0, list[Any](), iter(chosen)
     with ExitStack() as stack:
         map_chunks: Callable[..., Iterable[tuple[int, list[Any]]]] = map
@@ -143,7 +143,7 @@ def _check_leaves(
 def _verify_leaf_tree(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None]
 ) -> CertificateVerdict:
-    """Verify any claim except those of paths and bundles: one tree, each leaf of which is proved alone."""
+    """Verify any claim except those of paths and bundles: one tree whose leaves are proved independently."""
     started, claim_verifier, kind = (
         time.perf_counter(),
         kinds.CERTIFICATE_KINDS[document["kind"]].verifier(document),
@@ -173,7 +173,7 @@ def _verify_leaf_tree(
 def _verify_path(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None]
 ) -> CertificateVerdict:
-    """Verify slabs of lock instants, each proved by all of its cells together, and refuted intervals, by their leaves."""
+    """Verify slabs of lock instants, each proved by all of its cells together, and refuted intervals by their leaves."""
     started, verifiers = time.perf_counter(), (motions.PathVerifier(document), distances.PathRefutationVerifier(document))
     entries: list[Any] = [(0, x) for x in paths.read_slabs(document)] + [(1, x) for x in paths.read_refutations(document)]
     remaining, picked, rejected, parts = sample, set[int](), list[Any](), list[CertificateVerdict]()
@@ -221,7 +221,7 @@ def _verify_path(
 def _verify_bundle(
     document: dict[str, Any], sample: int | None, workers: int, report_checked: Callable[[int], None], folder: Any
 ) -> CertificateVerdict:
-    """Verify the parts of a bundle: all lie in one folder or archive, describe the same box, and none is missing."""
+    """Verify the parts of a bundle, which must lie in one folder or archive, describe the same box, and be complete."""
     shared, ranges = {key: document[key] for key in ("arm", "task", "target")}, document["working_ranges"]
     documents = [load_certificate(folder / part["file"]) for part in document["parts"]]
     for part, file, locked in zip(document["parts"], documents, [-1, *document["locks"]], strict=True):
@@ -251,10 +251,10 @@ def verify(
 ) -> CertificateVerdict:
     """Check a certificate, or a random sample of its leaves; the parts of a bundle lie next to it.
 
-    ``progress`` is told how many leaves were checked since it was told last.
+    ``progress`` is called with the number of leaves that were checked since the last call.
 
     Raises:
-        CertificateRejected: A file that cannot be checked.
+        CertificateRejected: The file cannot be checked.
     """
     require(
         balls.flint is not None,
@@ -267,13 +267,14 @@ def verify(
 
 
 def main() -> int:
-    """Check the file of the command line; return 0 if every leaf is accepted, 1 if some are rejected, 2 if the file cannot be
-    checked.
+    """Check the file of the command line.
+
+    Return 0 if every leaf is accepted, 1 if some leaves are rejected, and 2 if the file cannot be checked.
     """
     parser = argparse.ArgumentParser(description="Check a certificate of holdfast.")
     parser.add_argument("file", type=Path)
-    parser.add_argument("--sample", type=int, help="check so many leaves of each file, drawn at random")
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--sample", type=int, help="number of random leaves of each file to check")
+    parser.add_argument("--jobs", type=int, default=1, help="number of processes")
     options, checked = parser.parse_args(), [0]
 
     def report_checked(size: int) -> None:

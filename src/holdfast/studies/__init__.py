@@ -1,7 +1,7 @@
 """Larger computations over regions, designs, and laws: assessments, designs, and study files.
 
-A module belongs here if it combines many results of other wings into one answer. The names of ``study_files`` are offered
-here, too.
+A module belongs here if it combines many results of other packages into one answer. This package also exports the names of
+``study_files``.
 """
 
 from holdfast.core._lazy import offer

@@ -242,8 +242,8 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
     other = hf.control.damped(pa10_7, 0.1, "position")
     for arguments, words in [
         (([], q0, target), "no law to compare"),
-        (([laws[0], laws[0]], q0, target), "two laws are called 'pseudoinverse'"),
-        (([laws[0], other], q0, target), "of another arm or task"),
+        (([laws[0], laws[0]], q0, target), "two laws have the name 'pseudoinverse'"),
+        (([laws[0], other], q0, target), "has another arm or task"),
         ((laws, q0[:3], target[:2]), "q0 has 3 rows and target 2"),
     ]:
         with pytest.raises(hf.InputError, match=words):
@@ -256,8 +256,8 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
         with pytest.raises(hf.TaskError, match=words):
             hf.compare_laws(laws, q0, target, failures=failures)
     for call, words in [
-        (lambda: compared.case("magic"), "there is no law 'magic'"),
-        (lambda: compared.case("pseudoinverse", "elbow"), "'elbow' was not locked"),
+        (lambda: compared.case("magic"), "law 'magic' is not in this comparison"),
+        (lambda: compared.case("pseudoinverse", "elbow"), "failure 'elbow' is not in this comparison"),
         (lambda: compared.case("pseudoinverse").share("lost"), "outcome 'lost'"),
     ]:
         with pytest.raises(hf.InputError, match=words):

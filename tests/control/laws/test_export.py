@@ -196,7 +196,7 @@ def test_the_test_beside_it_passes_and_can_fail(slug, tmp_path):
     test.write_text(text.replace(repr(float(lists[2][0])), repr(float(lists[2][0]) + 1e-6), 1))
     code, told = run(tmp_path, source, test)
     assert code == 1
-    assert "case 1: returned 0, rates differ by" in told
+    assert "case 1: returned 0, the relative error of the rates is" in told
 
 
 @needs_compiler

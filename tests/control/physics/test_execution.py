@@ -176,7 +176,7 @@ def test_limits_speeds_and_objects_are_looked_at(arm):
         ({"time": np.r_[TIME[:-1], TIME[-2]]}, "every time must be after the one before"),
         ({"time": TIME * 1e5}, "it must take 3600 s or less"),
         ({"q": np.where(WAY > 0.8, np.nan, WAY)}, "NaN or infinity"),
-        ({"locked": {"lift": 0.3}}, "locked at 0.3 and the motion begins with it at -0.4"),
+        ({"locked": {"lift": 0.3}}, "locked at 0.3, but the motion begins with it at -0.4"),
         ({"locked": ["lift"], "lock_time": [0.1, 0.2]}, "or 1, one for each joint that locks"),
         ({"notice": 0.1}, "no joint locks"),
         ({"locked": ["lift"], "notice": -0.1}, "notice is -0.1 s"),

@@ -272,7 +272,7 @@ def test_wrong_input_is_answered_with_a_sentence(options, sentence):
 def test_arms_that_cannot_swing_are_refused():
     with pytest.raises(hf.ArmError, match="link after joint 'joint1': it has no inertial data"):
         hf.free_swing(hf.arms.load("pa10-7dof"), np.zeros(7), 3)
-    with pytest.raises(hf.ArmError, match="slides and has no lower limit, where gravity takes it"):
+    with pytest.raises(hf.ArmError, match="has no lower limit, towards which gravity moves it"):
         hf.free_swing(slide(-np.inf, 1.0), [0.0], 0)
     with pytest.raises(hf.ArmError, match="nothing that it carries has mass"):
         hf.free_swing(replace(pendulum(), links=(hf.Link(0.0, np.zeros(3), np.zeros((3, 3))),)), [0.0], 0)

@@ -109,9 +109,11 @@ def test_a_driven_arm_is_held_by_a_wall_that_the_kinematic_run_goes_through():
 
 def test_a_start_within_an_object_and_a_cloud_are_refused():
     arm = pendulum()
-    with pytest.raises(InputError, match=r"q puts hinge 0\.0\d+ m into object 'floor' of the cell; start where"):
+    with pytest.raises(
+        InputError, match=r"q puts hinge 0\.0\d+ m into object 'floor' of the cell; start at a collision-free configuration"
+    ):
         hf.free_swing(arm, [STOP - 0.1], 0, clearance=bob(arm, Cell([FLOOR])))
     clearance = bob(arm, Cell([FLOOR]))
     clearance.cell = Cell([Points("scan", np.zeros((3, 3)), radius=0.01)])
-    with pytest.raises(InputError, match="object 'scan' is a cloud of points, for which MuJoCo has no body"):
+    with pytest.raises(InputError, match="object 'scan' is a point cloud, for which MuJoCo has no body"):
         hf.free_swing(arm, [0.0], 0, clearance=clearance)

@@ -301,7 +301,7 @@ def test_gains(panda, law, home, goal):
 
 
 def test_wrong_input_is_one_sentence(law, home, goal):
-    with pytest.raises(InputError, match="one run at a time, and there are 2"):
+    with pytest.raises(InputError, match="q0 and target give 2 runs"):
         hf.simulate_physics(law, [home, home], goal)
     with pytest.raises(InputError, match="time_limit is -1"):
         hf.simulate_physics(law, home, goal, time_limit=-1)

@@ -625,7 +625,7 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
         ({"locked": np.ones((2, 3)), "q0": np.zeros((3, 3))}, "the same number, or one for all"),
         ({"q0": np.zeros((2, 3)), "target": np.ones((3, 2))}, "the same number, or one for all"),
         ({"method": "euler"}, "adaptive or rk4"),
-        ({"cycles": True, "method": "rk4"}, "method of their own"),
+        ({"cycles": True, "method": "rk4"}, "which have a fixed method"),
         ({"step": 0.1}, "belongs to method='rk4'"),
         ({"method": "rk4", "step": 5.0}, "not stable"),
         ({"time_limit": 0}, "time_limit is 0"),

@@ -162,8 +162,8 @@ def test_a_floor(cli, tmp_path):
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --out arm.urdf", "is there, and no certificate"),
         ("tolerant planar-3r --box '1.5 0.5' --size 0.1 --out arm.urdf", "is there, and no certificate"),
         ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within must not be negative"),
-        ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail slides; bounds are for arms whose joints all turn"),
-        ("structural-zero ur5-rail rail", "structural zeros are for arms whose joints all turn"),
+        ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail is prismatic; bounds are for arms with revolute joints only"),
+        ("structural-zero ur5-rail rail", "structural zeros are for arms with revolute joints only"),
         ("path planar-3r motion.csv --during 1", "--during takes two parts"),
     ],
 )

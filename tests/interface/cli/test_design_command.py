@@ -91,7 +91,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
         (("--vary", "a3=0.5..2", "--local-searches", "-1"), "local_searches is -1; it must be 0 or more"),
         (("--vary", "a3=0.5..2", "--maximise", "condition-number"), "better when smaller"),
         (("--vary", "a3=0.5..2", "--maximise", "dexterity"), "dexterity"),
-        (("--vary", "alpha1=-10..10deg"), "a planar task needs designs that move in the plane of 'planar-3r'"),
+        (("--vary", "alpha1=-10..10deg"), "alpha1 would move 'planar-3r' out of the plane of its task"),
         (("--vary", "a3=0.5..2", "--region", "none.yaml"), "none.yaml"),
         (("--vary", "a3=0.5..2", "--out", "/proc/none"), "cannot write to"),
     ],

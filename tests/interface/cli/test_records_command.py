@@ -60,7 +60,7 @@ def test_a_submission_of_a_new_record(tmp_path, cli):
     assert at.check().ok
     for wrong, said in (
         (("planar-3r", "--task", "planar"), "is singular for task planar"),
-        (("panda", "--task", "pointing"), "records are of tasks"),
+        (("panda", "--task", "pointing"), "for a record it must be"),
     ):
         assert said in cli("record-designs", "new", *wrong)[2]
 
@@ -86,7 +86,7 @@ def test_arms_are_judged_on_the_command_line(tmp_path, cli):
     assert cli(*words, "--out", str(tmp_path))[0] == 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "planar-3r: judged as a whole" in page
-    assert "is no measure; there are" in cli("compare-arms", "planar-3r", "--task", "planar", "--measures", "speed")[2]
+    assert "measure 'speed' is not known; use" in cli("compare-arms", "planar-3r", "--task", "planar", "--measures", "speed")[2]
 
 
 def test_ceilings_on_the_command_line(cli):
@@ -114,7 +114,7 @@ def test_a_record_as_urdf_and_the_book_as_a_folder(tmp_path, cli):
     file.write_text(out, encoding="utf-8")
     record = hf.designs.record_design("pose-9R-k2-001")
     assert hf.indices.relative_manipulability(hf.Arm.from_urdf(file), "pose", 2)(record.q) == pytest.approx(record.data.value)
-    assert "is a null space alone" in cli("record-designs", "show", "jacobian-9-6-2-001", "--urdf")[2]
+    assert "has only a null space" in cli("record-designs", "show", "jacobian-9-6-2-001", "--urdf")[2]
     book = tmp_path / "book"
     assert cli("record-designs", "list", "--out", str(book))[0] == 0
     page = (book / "records.html").read_text(encoding="utf-8")

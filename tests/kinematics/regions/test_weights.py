@@ -312,11 +312,11 @@ def test_a_sampler_draws_the_poses(arm, tmp_path):
     expected, n = (27 - 0.125) / (42.875 - 0.125), run.distribution.effective()
     assert 1 - run.distribution.unreached_share == pytest.approx(expected, abs=5 * np.sqrt(0.25 / n))
     for refused in (lambda: hf.assess(arm, run.region, task="planar", store=tmp_path / "x"), lambda: run.save(tmp_path / "x")):
-        with pytest.raises(InputError, match="region 'ring' has a function of your own"):
+        with pytest.raises(InputError, match="region 'ring' has a custom function"):
             refused()
     assert not (tmp_path / "x").exists()
     assert "keep the script" in run.report(tmp_path / "r.html").read_text()
-    with pytest.raises(InputError, match="use sampling 'random'"):
+    with pytest.raises(InputError, match="it must be 'random'"):
         hf.assess(arm, run.region, task="planar", sampling="sobol")
 
 

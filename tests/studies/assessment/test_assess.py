@@ -559,7 +559,7 @@ def test_an_index_of_ones_own_stays_in_memory(three, tmp_path):
     np.testing.assert_allclose(columns(run)["by_failure"], expected, rtol=1e-9)
     assert run.distribution.highest < 0
     for refused in (lambda: assess(three, THREE, mine, poses=10, store=tmp_path / "run"), lambda: run.save(tmp_path / "run")):
-        with pytest.raises(InputError, match="your own"):
+        with pytest.raises(InputError, match="custom function"):
             refused()
     assert not (tmp_path / "run").exists()
 
@@ -570,7 +570,7 @@ def test_an_index_of_ones_own_stays_in_memory(three, tmp_path):
 def test_a_task_that_is_not_that_of_the_index_is_refused(three):
     """It was ignored without a word."""
     index = by_name("manipulability", three, "planar")
-    with pytest.raises(InputError, match=r"index is for task planar \(2 rows\), asked for is position \(3 rows\)"):
+    with pytest.raises(InputError, match=r"index is for task planar \(2 rows\), but task is position \(3 rows\)"):
         assess(three, THREE, index, poses=5, task="position")
     same = assess(three, THREE, index, poses=5, task="planar")
     assert same.index is index
@@ -580,7 +580,7 @@ def test_a_task_that_is_not_that_of_the_index_is_refused(three):
 def test_a_task_of_another_length_is_refused(pa10):
     index = by_name("manipulability", pa10, "pose", length=0.5)
     assert assess(pa10, PAPER, index, poses=2, task="pose").index.task.length == 0.5
-    with pytest.raises(InputError, match=r"characteristic length 0.5 m, asked for is .* characteristic length 2 m"):
+    with pytest.raises(InputError, match=r"characteristic length 0.5 m, but task is .* characteristic length 2 m"):
         assess(pa10, PAPER, index, poses=2, task=as_task(pa10, "pose", 2.0))
 
 

@@ -76,7 +76,7 @@ def test_the_best(comparison, runs):
     rows = {r["name"]: r for r in two.table}
     best = max(rows, key=lambda n: (rows[n]["optimised_probability"], rows[n]["optimised_median"]))
     assert two.best(optimised=True) == best
-    with pytest.raises(hf.InputError, match=r"no candidate has task 'planar'; there are pose, position"):
+    with pytest.raises(hf.InputError, match=r"no candidate has task 'planar'; use pose, position"):
         comparison.best("planar")
     with pytest.raises(hf.InputError, match="not optimised"):
         comparison.best(optimised=True)
@@ -117,7 +117,7 @@ def test_what_cannot_be_compared(runs):
     ):
         with pytest.raises(hf.InputError, match=words):
             hf.compare_assessments(pair, list("ab")[: len(pair)])
-    with pytest.raises(hf.InputError, match="two candidates are called 'x'"):
+    with pytest.raises(hf.InputError, match="two candidates have the name 'x'"):
         hf.compare_assessments(runs[:2], ["x", "x"])
     with pytest.raises(hf.InputError, match="1 names for 2"):
         hf.compare_assessments(runs[:2], ["x"])
@@ -198,7 +198,7 @@ def test_a_folder_of_it(runs, tmp_path):
     back = load_comparison(out, 0.05)
     assert (back.names, back.tools, back.table, back.notes) == (two.names, two.tools, two.table, two.notes)
     assert hf.load(out / "side").arm.fingerprint == SIDE.fingerprint
-    with pytest.raises(hf.InputError, match="candidate 'a/b' is not the name of a folder"):
+    with pytest.raises(hf.InputError, match="candidate 'a/b' is not a valid folder name"):
         hf.compare_assessments(runs[:2], ["a/b", "c"]).save(tmp_path / "other")
     assert not (tmp_path / "other").exists()
     with pytest.raises(hf.InputError, match="there are 1 tools for 2 assessments"):

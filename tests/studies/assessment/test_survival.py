@@ -228,7 +228,7 @@ def test_joints_not_named_keep_their_rule_or_are_left_out(arm, region, tmp_path)
     assert again.survival() == some.survival()
     assert some.expected_survival({"joint2": 3.0}) == some.survival()["joint2"].value
     for ask in (lambda: again.survival("joint1"), lambda: again.expected_survival({0: 1.0, 1: 1.0})):
-        with pytest.raises(hf.InputError, match="did not look at a lock of 'joint1'"):
+        with pytest.raises(hf.InputError, match="did not compute a lock of 'joint1'"):
             ask()
     with pytest.raises(hf.StoreError, match="its lock_at is"):
         hf.assess(arm, region, poses=1100, seed=2, task="planar", locked={"joint2": 0.6}, store=tmp_path / "run")

@@ -98,7 +98,7 @@ def test_sets_of_joints_count_where_the_joint_has_no_part(pa10):
     np.testing.assert_array_equal(run.if_never_fails(8).values, run.distribution.values)
     assert {u.joint for u in run.upgrades(0.1)} == {pa10.joint_names[k] for k in (0, 1, 3)}
     alone = hf.assess(pa10, PAPER, hf.indices.relative_manipulability(pa10, failures=[[2]]), poses=20)
-    with pytest.raises(hf.InputError, match="nothing could fail"):
+    with pytest.raises(hf.InputError, match="no failure remains without it"):
         alone.if_never_fails(2)
     assert alone.upgrades(0.1) == []
 

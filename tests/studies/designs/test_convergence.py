@@ -243,7 +243,7 @@ def test_arrivals_of_designs_by_runs_of_scipy():
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"vary": {"a1": (0.0, 2.0)}}, "length 0"),
+        ({"vary": {"a1": (0.0, 2.0)}}, "can be 0 or less"),
         ({"vary": {"upper1": (3.0, 4.0)}, "exact": False}, "joint limit"),
         ({"vary": {"alpha1": (-0.1, 0.1)}, "exact": True}, "not a link length"),
         ({"vary": LENGTHS, "objective": "speed"}, "not known"),

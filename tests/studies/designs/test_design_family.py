@@ -76,7 +76,7 @@ def test_an_index_that_is_better_when_smaller_is_refused(space3):
 
 
 def test_a_planar_task_keeps_its_plane(planar3):
-    with pytest.raises(TaskError, match="out of it"):
+    with pytest.raises(TaskError, match="out of the plane"):
         Family(design_space(planar3, {"alpha2": (-0.5, 0.5)}), task="planar")
 
 

@@ -126,7 +126,7 @@ def test_draws_fill_the_bounds_and_more_begin_with_the_same(pa10: hf.Arm) -> Non
 @pytest.mark.parametrize(
     ("vary", "sentence"),
     [
-        ([], "nothing of 'five' is to be varied; give at least one of a3"),
+        ([], "no parameter of 'five' is varied; give at least one of a3"),
         (["link3=0..1"], "--vary 'link3' is not a parameter of an arm; write a3"),
         (["a0=0..1"], "'a0' is not a parameter"),
         (["tool.w=0..1"], "'tool.w' is not a parameter"),
@@ -146,7 +146,7 @@ def test_draws_fill_the_bounds_and_more_begin_with_the_same(pa10: hf.Arm) -> Non
         (["a3=0.2..0.2"], "both bounds of a3 are 0.2 m"),
         (["a6=0..1"], "a6: 'five' has no row 6; its Denavit-Hartenberg table has rows 1 to 5"),
         (["a3=0..0.1"], "a3 of 'five' is 0.2 m, outside the bounds 0 m to 0.1 m; widen them"),
-        (["a3=0..1", "a3=0..2"], "a3 is to be varied twice"),
+        (["a3=0..1", "a3=0..2"], "a3 is varied twice"),
         (["lower2=-2..1rad"], "the limits of joint 'joint2' can cross"),
         (["lower2=-2..0.5rad", "upper2=0.4..2rad"], "lower2 may be as high as 28.6479 deg and upper2 as low as 22.9183 deg"),
         ({"a3": (0.1,)}, "bounds of a3 are (0.1,); they must be two numbers"),
@@ -174,12 +174,12 @@ def test_refused_designs(pa10: hf.Arm) -> None:
         ([np.nan, 1.0], "a3 is nan m"),
         ([0.0], "a design has 1 values; it must have 2, a3, alpha4"),
         (["a", "b"], "a design must be 2 numbers, a3, alpha4"),
-        ([[0.0, 0.0]], "one design is (2,) numbers"),
+        ([[0.0, 0.0]], "one design has the shape (2,)"),
     ]:
         with pytest.raises(hf.InputError) as error:
             space.arm_of(values)
         assert sentence in str(error.value)
-    with pytest.raises(hf.InputError, match="draw at least 1"):
+    with pytest.raises(hf.InputError, match="it must be 1 or more"):
         space.draw(0)
 
 

@@ -66,20 +66,20 @@ def test_what_intervals_do_not_tell_apart_is_equal(judged):
     order = judged.values[:, k].argmax()
     apart = judged.low[order, k] > judged.high[1 - order, k]
     assert judged.front(name).tolist() == ([order] if apart else [0, 1])
-    with pytest.raises(hf.InputError, match="there is no column 'speed'"):
+    with pytest.raises(hf.InputError, match="column 'speed' is not known"):
         judged.front("speed")
 
 
 def test_what_cannot_be_judged(pa10):
     arm = hf.arms.load("planar-3r")
     for options, said in (
-        ({"measures": ["speed"]}, "'speed' is no measure; there are quantile"),
+        ({"measures": ["speed"]}, "measure 'speed' is not known; use quantile"),
         ({"poses": 0}, "at least 1 pose"),
         ({"level": 1.0}, "a level between 0 and 1"),
     ):
         with pytest.raises(hf.InputError, match=said):
             hf.designs.compare_arms(arm, task="planar", **options)
-    with pytest.raises(hf.InputError, match="no arm to judge"):
+    with pytest.raises(hf.InputError, match="no arm to compare"):
         hf.designs.compare_arms([])
     with pytest.raises(hf.TaskError, match="needs one degree of redundancy; here it is 3"):
         hf.designs.compare_arms(pa10, measures=["self-motion-size"])

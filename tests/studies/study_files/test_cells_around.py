@@ -103,5 +103,5 @@ def test_a_cell_that_cannot_be_used_is_said(folder):
     with pytest.raises(InputError, match=r"study file .*none\.yaml"):
         read_study_file(file)
     file.write_text(FILE.replace("[planar-3r]", "[{arm: planar-3r, vary: {a1: [0.6, 1.4]}, designs: 4}]"))
-    with pytest.raises(InputError, match=r"assess\.cell: designs of 'planar-3r' are not looked at in a cell"):
+    with pytest.raises(InputError, match=r"assess\.cell: designs of 'planar-3r' are not checked in a cell"):
         read_study_file(file)

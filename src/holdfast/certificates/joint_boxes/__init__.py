@@ -1,1 +1,1 @@
-"""Claims decided by bisecting boxes of joints: exclusion of targets, and bounds of relative manipulability."""
+"""Claims that are decided by bisecting boxes of joints: exclusion of targets, and bounds of relative manipulability."""

@@ -24,19 +24,19 @@ from holdfast.kinematics.indices import relative_manipulability
 _SAMPLE_COUNT = 20_000
 _LOCAL_SEARCH_COUNT = 64
 _LOCAL_SEARCH_STEPS = 80
-_SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # of screws: axes, then moments
+_SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of screws: axes, then moments
 
 
 @dataclass(frozen=True, kw_only=True)
 class ManipulabilityBound(BisectionResult):
-    """Result of the prover for a bound of relative manipulability. It is not verified: :func:`check_certificate` does that.
+    """Result of the prover for a bound of relative manipulability, not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        proved: Exact share of the box of configurations in which the bound holds.
-        extreme: (n,) rad, the best configuration of the box that was found; of a floor, the worst.
-        value: Least relative manipulability there. The greatest of the box is from this to the ceiling; the lowest from the
-            floor to this.
+        claim: Claim that was searched.
+        proved: Exact fraction of the box of configurations in which the bound holds.
+        extreme: (n,) best configuration of the box that was found, rad; for a floor the worst one.
+        value: Least relative manipulability at ``extreme``. The maximum over the box lies between this value and the ceiling;
+            the minimum lies between the floor and this value.
     """
 
     claim: BoundClaim
@@ -58,7 +58,7 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
     if claim.kind == "floor":
         test = ManipulabilityFloorTest(chain, _SCREW_ROWS[claim.task], claim.locks, claim.threshold)
     if _maximization_sign(claim) * (value - claim.threshold) <= 0:
-        advice = f"a smaller box, or a threshold farther from {value:.4g}, which occurs, takes fewer"
+        advice = f"use a smaller box, or a threshold farther from {value:.4g}, which occurs"
         require_feasible_box_count(test, claim.joint_box, halvings, seed, advice)
         bisection = bisect_box(test, claim.joint_box, halvings, budget)
     fields = {"tree": documents.compress_bytes(bisection.tree), "found": documents.encode_floats(extreme)}
@@ -73,9 +73,7 @@ def _maximization_sign(claim: BoundClaim) -> float:
 
 
 def _search_extreme(claim: BoundClaim, rng: np.random.Generator) -> tuple[FloatArray, float]:
-    """Return the best or worst configuration of samples, corners among them, refined by random local searches from some of
-    them.
-    """
+    """Return the best or worst of sampled configurations and corners, refined by random local searches from some of them."""
     index = relative_manipulability(claim.arm, claim.task, failures=list(claim.locks))
     (lower, upper), sign = claim.joint_box.T, _maximization_sign(claim)
     inside, corners = rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT // 4, len(lower))) / 2

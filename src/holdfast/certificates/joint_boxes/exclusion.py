@@ -1,9 +1,9 @@
 """Exclusion of targets: boxes of configurations and targets are bisected until one distance excludes each box.
 
-The position of a point of link k, less the target, must be as long as the tool is from that point. How far the tool can be from
-it is a lemma, about the joints behind it alone, proved by a bisection of its own; a box is excluded where the distance from the
-target to the point lies outside of the lemma, which concerns the joints before it alone. With a point of the base on the first
-axes (a shoulder) the lemma is the whole proof. The tool itself is the last such point: there the distance must be 0.
+The distance of a point of link k from the target must equal that of the tool from the point. A lemma, proved by a separate
+bisection, bounds the latter and depends only on the joints behind the point. A box is excluded if the distance of the point
+from the target, which depends only on the joints before the point, lies outside the lemma's range. With a point of the base on
+the first axes (a shoulder), the lemma is the whole proof. The last such point is the tool, whose distance must be 0.
 """
 
 from __future__ import annotations
@@ -30,24 +30,24 @@ from holdfast.certificates.search_pool import SearchBudget
 from holdfast.certificates.taylor import CertificateChain, ReachSolver
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0: the tool itself is elsewhere
+FIRST_LEMMA_TOKEN = 3  # token of a box that the first lemma excludes; 0 if the tool point itself excludes it
 _MAX_LEMMAS = 12
 _SAMPLE_COUNT = 2048
 _LOCAL_SEARCH_COUNT = 32
 _LOCAL_SEARCH_STEPS = 60
 _MAX_LEMMA_NODES = 40_000
-_LEMMA_WIDENING = 1e-3, 2e-4  # by what part of its range, and of the length behind it, a lemma is wider than what was found
+_LEMMA_WIDENING = 1e-3, 2e-4  # fractions of the range that was found, and of the length behind the point, that widen a lemma
 _MAX_LEMMA_HALVINGS = 40
-_WITNESS_TOLERANCE = 1e-10  # m and rad, of the target of a witness
-_WITNESS_LIMIT_MARGIN = 1e-6  # rad and m, of a witness from limits
+_WITNESS_TOLERANCE = 1e-10  # m and rad: largest error of a witness at its target
+_WITNESS_LIMIT_MARGIN = 1e-6  # rad and m: least distance of a witness from limits
 
 
 class TaskErrorBound:
     """Lower bound of the task error of a claim: if some combination of rows is never 0, the tool misses the target.
 
     Args:
-        claim: Of which nothing is reached.
-        joints: (n, 2) rad and m, where they may be.
+        claim: Claim that no target is reached.
+        joints: (n, 2) ranges of the joints, rad and m.
     """
 
     def __init__(self, claim: OutOfReachClaim, joints: FloatArray) -> None:
@@ -55,7 +55,7 @@ class TaskErrorBound:
         self.reach = ReachSolver(claim.arm, claim.task, claim.locked, joints, claim.rotation, claim.angle)
         self._linear = self.reach.linear
 
-    def __reduce__(self) -> tuple[Any, ...]:  # to another process, which compiles its own
+    def __reduce__(self) -> tuple[Any, ...]:  # another process compiles its own
         return TaskErrorBound, self._arguments
 
     def lower_error_bound(
@@ -64,7 +64,7 @@ class TaskErrorBound:
         """Bound a combination of rows away from 0 over q +- half (N, n) and targets +- target_half (N, a).
 
         Returns:
-            The bound (N,), what it is in the middles (N,), and what of it each joint and axis of the target costs (N, n + a).
+            Bounds (N,), their values at the middles (N,), and the reduction by each joint and target axis (N, n + a).
         """
         reach, linear = self.reach, self._linear
         count, n, extra_rows = len(q), q.shape[1], int(reach.uses_rotation)
@@ -95,7 +95,7 @@ class TaskErrorBound:
             remainder_costs = (3 * remainder / np.maximum(half_widths.sum(axis=1), 1e-300))[:, None] * half_widths
             joint_costs = own_costs + pair_costs + remainder_costs
             all_costs = np.concatenate([joint_costs[:, :n], target_costs, joint_costs[:, n:]], axis=1)
-            # What a combination tells is how much of its value is lost, not how large it is: rows are m and rad.
+            # Rows are in m and rad, so combinations are compared by the lost fraction of their value, not by the value.
             improved = bound / np.maximum(center_value, 1e-12) > best[0] / np.maximum(best[1], 1e-12)
             best = tuple(  # type: ignore[assignment]
                 np.where(improved if new.ndim == 1 else improved[:, None], new, old)
@@ -106,13 +106,13 @@ class TaskErrorBound:
 
 @dataclass(frozen=True, eq=False)
 class DistanceRangeLemma:
-    """Bounds of the distance, ``least`` to ``most`` (m), of the tool from a point of a link, for all values of the joints
-    behind the link.
+    """Bounds of the distance of the tool from a point of a link, for all values of the joints behind the link.
 
     Attributes:
-        link: Which link: 0 is the base.
-        point: (3,) m in its frame.
-        tree: Bisection of the joints behind it, each leaf of which keeps to it.
+        link: Index of the link; 0 is the base.
+        point: (3,) position of the point in the frame of the link, m.
+        least, most: Bounds of the distance, m.
+        tree: Bisection of the joints behind the link, each leaf of which satisfies the bounds.
     """
 
     link: int
@@ -127,8 +127,8 @@ class Exclusion(Bisection):
     """Result of the search for an exclusion: the bisection of the box of all joints, then the target's coordinates.
 
     Attributes:
-        lemmas: Those that the tree uses; their boxes count as leaves and nodes.
-        witness: (n,) rad, a configuration whose tool is in the box of targets: the claim is false.
+        lemmas: Lemmas that the tree uses; their boxes count as leaves and nodes.
+        witness: (n,) configuration, rad, with its tool in the box of targets, which refutes the claim.
     """
 
     lemmas: list[DistanceRangeLemma] = field(default_factory=list)
@@ -136,7 +136,7 @@ class Exclusion(Bisection):
 
 
 def joint_ranges(claim: OutOfReachClaim) -> FloatArray:
-    """Return (n, 2) ranges of the joints, rad, the locked one included; revolute joints turn one full revolution at most."""
+    """Return ranges (n, 2) of the joints, rad, including the locked joint; those of revolute joints are at most one turn."""
     limits = claim.limits.copy()
     if claim.angle is not None:
         limits[claim.locked] = claim.angle
@@ -150,7 +150,7 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
     if witness is not None:
         return Exclusion(b"\2", Fraction(1), 0, 1, True, witness=witness)
     chain, joints = CertificateChain.from_arm(claim.arm), joint_ranges(claim)
-    if claim.task.startswith("planar"):  # all of it happens in the plane
+    if claim.task.startswith("planar"):  # the arm moves in the plane
         chain = replace(chain, origins=chain.origins * [1, 1, 0])
     box, error_bound = np.vstack([joints, claim.box]), TaskErrorBound(claim, joints)
     lemmas, tested = list[DistanceRangeLemma](), 0
@@ -164,7 +164,7 @@ def search_witness_or_exclusion(claim: OutOfReachClaim, halvings: int, seed: int
             if root_tokens[0] != OPEN_TOKEN:  # nothing more is needed
                 break
     test = _ExclusionTest(chain, lemmas, error_bound)
-    require_feasible_box_count(test, box, halvings, seed, "a smaller box, or a narrower interval of the lock, takes fewer")
+    require_feasible_box_count(test, box, halvings, seed, "use a smaller box, or a narrower interval of the lock")
     bisection = bisect_box(test, box, halvings, budget)
     tree = bisection.tree
     used_indices = [index for index in range(len(lemmas)) if FIRST_LEMMA_TOKEN + index in tree]
@@ -224,7 +224,7 @@ def _prove_distance_range(
     max_reach += float(np.abs(joints[link:]).max(axis=1)[segment.slides].sum())
     margin = max(_LEMMA_WIDENING[0] * (max_distance - min_distance), _LEMMA_WIDENING[1] * max_reach)
     interval = max(0.0, min_distance - margin), max_distance + margin
-    if link == 0:  # where this alone excludes all targets, as wide as does
+    if link == 0:  # if this lemma alone excludes all targets, it can be as wide as possible
         offsets = target_box - point[: len(target_box), None]
         lower = float(np.linalg.norm(np.maximum(np.maximum(offsets[:, 0], -offsets[:, 1]), 0)))
         upper = float(np.linalg.norm(np.abs(offsets).max(axis=1)))
@@ -251,7 +251,7 @@ def _prove_distance_range(
 def _test_distance_range(
     segment: ChainSegment, point: FloatArray, moves: BoolArray, lower: float, upper: float, middle: FloatArray, half: FloatArray
 ) -> tuple[IndexArray, FloatArray]:
-    """Test which boxes of joints keep the end from ``lower`` to ``upper`` from a point; only joints that move it count."""
+    """Test which boxes of joints keep the end at a distance from ``lower`` to ``upper``; only joints that move it count."""
     half = half * moves
     points, zeros = np.broadcast_to(point, (len(middle), 3)), np.zeros((len(middle), 3))
     tokens, gain = np.zeros(len(middle), dtype=np.int64), np.zeros(half.shape)
@@ -268,9 +268,7 @@ def _test_distance_range(
 def _search_distance_range(
     segment: ChainSegment, joints: FloatArray, point: FloatArray, rng: np.random.Generator
 ) -> tuple[float, float]:
-    """Return the least and greatest distance found between the end and a point, by random local searches from samples and
-    corners.
-    """
+    """Return the least and greatest distance found between end and point, by local searches from samples and corners."""
     lower, upper = joints.T
     fractions = np.concatenate([rng.random((_SAMPLE_COUNT, len(lower))), rng.integers(0, 3, (_SAMPLE_COUNT, len(lower))) / 2])
     q, extremes = lower + (upper - lower) * fractions, list[float]()

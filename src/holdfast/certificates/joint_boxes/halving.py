@@ -25,30 +25,30 @@ from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
 BoxTest = Callable[[FloatArray, FloatArray], tuple[IndexArray, FloatArray]]
-BoxBatch = tuple[FloatArray, IndexArray]  # middles, and how often each axis was halved
+BoxBatch = tuple[FloatArray, IndexArray]  # middles, and number of bisections of each axis
 
-OPEN_TOKEN = -1  # what is not decided yet
-DEFERRED_TOKEN = 1  # token of what others look at
-DISTANCE_MARGIN_M = 1e-7  # m, so that the verifier's rounding costs nothing
+OPEN_TOKEN = -1  # token of a box that is not decided yet
+DEFERRED_TOKEN = 1  # token of a box that is deferred to other jobs
+DISTANCE_MARGIN_M = 1e-7  # m: margin for the verifier's rounding
 _BATCH_BOXES = 4096
-_ESTIMATE_PATHS = 101  # for an estimate
-_MAX_ESTIMATE_DEPTH = 60  # halvings after which nobody asks
+_ESTIMATE_PATHS = 101  # sampled paths of an estimate
+_MAX_ESTIMATE_DEPTH = 60  # bisections at which an estimate stops
 _BOXES_PER_JOB = 1 << 14  # boxes that a job makes
-_MAX_CHILD_JOBS = 16  # jobs that it leaves
+_MAX_CHILD_JOBS = 16  # jobs to which it defers the rest
 
 
 class BoxBisection:
-    """Bisection of boxes.
+    """Search that bisects boxes until each is decided.
 
     Args:
-        box: (A, 2), low and high along each axis, of the whole.
-        halvings: Of each axis, at most.
-        boxes: Middles (N, A) and how often each axis was halved (N, A), of those to begin with; None: the whole.
+        box: (A, 2) low and high end of the whole box along each axis.
+        halvings: Largest number of bisections of each axis.
+        boxes: Middles (N, A) and numbers of bisections (N, A) of the first boxes; None: the whole box.
 
     Attributes:
-        tree: What is found; boxes that still wait have DEFERRED_TOKEN.
-        tested: Boxes that were looked at.
-        proved, undecided: Parts of the whole.
+        tree: Bisection tree, in which waiting boxes have DEFERRED_TOKEN.
+        tested: Number of tested boxes.
+        proved, undecided: Proved and undecided fraction of the whole box.
     """
 
     def __init__(self, box: FloatArray, halvings: int, boxes: BoxBatch | None = None) -> None:
@@ -72,10 +72,10 @@ class BoxBisection:
         report_progress: Callable[[], None] = lambda: None,
         max_nodes: int = 1 << 24,
     ) -> bool:
-        """Bisect until all is decided, or until a monotonic time, a stop request or ``max_nodes`` nodes; then return False.
+        """Bisect until all boxes are decided, or return False at a monotonic time, a stop request or ``max_nodes`` nodes.
 
-        The test takes middles and half widths (N, A) and gives a token or OPEN for each (N,), and what halving each axis would
-        gain (N, A). ``report_progress`` is called after each step. May be called again.
+        The test takes middles and half widths (N, A), and returns a token or OPEN for each box (N,), and the gain of halving
+        each axis (N, A). ``report_progress`` is called after each step. The method can be called again.
         """
         while self._waiting:
             if monotonic() > deadline or should_stop() or self.tree.nodes > max_nodes:
@@ -104,21 +104,21 @@ class BoxBisection:
 
 
 def root_box(box: FloatArray) -> BoxBatch:
-    """Return the whole as a batch of one box."""
+    """Return the whole box as a batch of one box."""
     return box.mean(axis=1)[None], np.zeros((1, len(box)), dtype=np.int64)
 
 
 def choose_halved_axes(
     test: BoxTest, middle: FloatArray, half: FloatArray, is_allowed: BoolArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Test boxes and return their tokens and the axis to halve of each (N,); -1 where it is decided or no axis would gain."""
+    """Test boxes, and return their tokens and the axis to halve of each (N,); -1 for decided boxes and without any gain."""
     tokens, gain = test(middle, half)
     gain = np.where(is_allowed & (half > 0), np.nan_to_num(gain, nan=0.0), -1.0)
     return tokens, np.where((tokens == OPEN_TOKEN) & (gain.max(axis=1) > 0), gain.argmax(axis=1), -1)
 
 
 class BoxVerdicts:
-    """Tokens of boxes on which several tests are tried, and the gain of halving each axis for the test that comes nearest.
+    """Tokens of boxes after several tests, and the gain of halving each axis for the test that comes closest to a decision.
 
     Args:
         half: (N, A) half widths of the boxes.
@@ -130,7 +130,7 @@ class BoxVerdicts:
 
     @property
     def open_rows(self) -> IndexArray:
-        """Numbers of the boxes that no test decides."""
+        """Indices of the boxes that no test decides."""
         return np.flatnonzero(self.tokens == OPEN_TOKEN)
 
     def record(
@@ -146,13 +146,13 @@ class BoxVerdicts:
 
 
 def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, seed: int, advice: str) -> None:
-    """Raise an error if the search would take more boxes than a certificate may have, estimated by paths from the root to
-    decided points.
+    """Raise an error if the search would take more boxes than a certificate can have.
 
-    As many boxes as 2 to the halvings of a path fill the whole; the median counts.
+    The number is estimated by paths from the root to decided points. The box of a path with k bisections fits 2^k times into
+    the whole box; the estimate is the median.
 
     Raises:
-        InputError: With the estimate, and with the advice.
+        InputError: The estimate is too large; the message contains the advice.
     """
     rng = np.random.default_rng([seed, _ESTIMATE_PATHS])
     middle, half = np.tile(box.mean(axis=1), (_ESTIMATE_PATHS, 1)), np.tile(np.diff(box)[:, 0] / 2, (_ESTIMATE_PATHS, 1))
@@ -167,7 +167,7 @@ def require_feasible_box_count(test: BoxTest, box: FloatArray, halvings: int, se
     if 2**typical_depth > MAX_LEAVES:
         suffix = " or more" if typical_depth >= _MAX_ESTIMATE_DEPTH else ""
         raise InputError(
-            f"single boxes decide so little of this that it would take some {2**typical_depth:.0e} boxes{suffix}; {advice}"
+            f"single boxes decide so little that the search would take about {2**typical_depth:.0e} boxes{suffix}; {advice}"
         )
 
 
@@ -176,7 +176,7 @@ class JointBoxResult(JobResult):
     """Result of a bisection job.
 
     Attributes:
-        trees: Of its boxes, one after the other, in pre-order.
+        trees: Trees of its boxes in pre-order, concatenated.
     """
 
     trees: bytes
@@ -184,15 +184,15 @@ class JointBoxResult(JobResult):
 
 @dataclass(frozen=True, eq=False)
 class JointBoxJob(SearchJob):
-    """Bisection of some boxes of a root box, to the whole of which its states refer.
+    """Job that bisects some boxes of a root box; its states refer to the whole root box.
 
     Attributes:
-        test: Of boxes, as of :class:`holdfast.certificates.joint_boxes.halving.BoxBisection`.
-        box: (A, 2) the whole.
-        halvings: Of each axis of it, at most.
-        max_boxes: Boxes that it makes, and each of those that it leaves some to.
-        name: For a memory.
-        boxes: Middles and how often they were halved; None: the whole.
+        test: Test of boxes, as in :class:`holdfast.certificates.joint_boxes.halving.BoxBisection`.
+        box: (A, 2) root box.
+        halvings: Largest number of bisections of each axis of the root box.
+        max_boxes: Number of boxes that this job and each of its child jobs make.
+        name: Name in the search memory.
+        boxes: Middles and numbers of bisections of the first boxes; None: the root box.
     """
 
     result_type = JointBoxResult
@@ -239,7 +239,7 @@ class JointBoxJob(SearchJob):
         ]
 
     def _deferred_boxes(self, trees: bytes) -> Iterator[tuple[FloatArray, IndexArray]]:
-        """Yield the middles of the deferred boxes and how often each axis was halved."""
+        """Yield the middles of the deferred boxes, and the number of bisections of each axis."""
         width, waiting = self.box[:, 1] - self.box[:, 0], list(zip(*self._roots, strict=True))[::-1]
         for token in trees:
             middle, depth = waiting.pop()
@@ -264,14 +264,14 @@ class JointBoxJob(SearchJob):
 
 @dataclass(frozen=True, eq=False)
 class Bisection:
-    """A bisected box.
+    """Result of the bisection of a box.
 
     Attributes:
-        tree: In pre-order.
-        undecided: Exact part of it.
-        leaves: Boxes that are decided.
-        nodes: Boxes that were looked at.
-        finished: False if it was stopped.
+        tree: Tokens of the tree in pre-order.
+        undecided: Exact undecided fraction of the box.
+        leaves: Number of decided boxes.
+        nodes: Number of examined boxes.
+        finished: False if the bisection was stopped.
     """
 
     tree: bytes
@@ -282,7 +282,7 @@ class Bisection:
 
 
 def bisect_box(test: BoxTest, box: FloatArray, halvings: int, budget: SearchBudget) -> Bisection:
-    """Decide as much of a box as possible with at most as many boxes as a certificate may have."""
+    """Decide as much of a box as possible within the number of boxes that a certificate can have."""
     (result,) = budget.run_jobs([JointBoxJob(test, box, halvings, _BOXES_PER_JOB)], MAX_LEAVES)
     return summarize_tree(result.trees, result.nodes, result.finished)
 

@@ -1,9 +1,9 @@
 """Lower bounds of relative manipulability: for each box of configurations, a motion of the joints that keeps the tool in place.
 
-With any x for which J x = 0, the relative manipulability after a lock of joint k is at least |x_k| / |x|. In each box x follows
-the joints, x = nu + N (q - q_c) + P s, with nu and N from the middle, such that J x is of second order, and P the
-pseudo-inverse there: that some small s makes J x = 0 is Brouwer's theorem once more. J is made of screws.
-Everything here may be wrong: the verifier decides.
+For any x with J x = 0, the relative manipulability after a lock of joint k is at least |x_k| / |x|. In each box x follows the
+joints, x = nu + N (q - q_c) + P s, with nu and N from the middle such that J x is of second order, and with the pseudo-inverse
+P at the middle. By Brouwer's theorem, J x = 0 for some small s. J consists of screws.
+The numbers here have no error bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ _SECTION_ROUNDS = 12
 
 
 class ManipulabilityFloorTest:
-    """Test of boxes of configurations: relative manipulability is at least a threshold after each of some locks.
+    """Test whether relative manipulability is at least a threshold after each of some locks, in boxes of configurations.
 
     Args:
-        chain: The arm.
-        screw_rows: Of axes, then of moments, that are all of its motion.
-        locks: Joints.
-        threshold: Above 0, below 1.
+        chain: Kinematic chain of the arm.
+        screw_rows: Rows of axes, then of moments, that describe its whole motion.
+        locks: Indices of the joints that may lock.
+        threshold: Lower bound, above 0 and below 1.
     """
 
     def __init__(self, chain: CertificateChain, screw_rows: list[int], locks: tuple[int, ...], threshold: float) -> None:
@@ -65,11 +65,9 @@ class ManipulabilityFloorTest:
     def _enclose_null_motion(
         self, nu: FloatArray, screws: Screws, jacobian: FloatArray, inverse: FloatArray, half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, BoolArray]:
-        """Return how far x goes with the joints and by P s (N, n) each, its response (N, n, n), the costs, and whether s
-        exists.
-        """
+        """Return the changes of x with the joints and by P s, (N, n) each, its response (N, n, n), costs, and flags for s."""
         rows, side = self.screw_rows, self.screws.side
-        moving_brackets = screws.brackets * np.abs(self.screws.sign).T[None, :, :, None]  # (N, j, l, 6): l where j moves it
+        moving_brackets = screws.brackets * np.abs(self.screws.sign).T[None, :, :, None]  # (N, j, l, 6), j moves l
         by_joint = np.einsum("njlb,nl->njb", moving_brackets, nu)
         gradient = (side[:, None] * by_joint)[:, :, rows]
         response = -np.einsum("nlb,njb->nlj", inverse, gradient)

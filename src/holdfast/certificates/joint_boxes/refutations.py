@@ -1,4 +1,4 @@
-"""Search for proofs that no target of a box is reached."""
+"""Search for proofs that no target of a box is reached, or for a configuration that refutes this."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from holdfast.certificates.search_pool import SearchBudget
 
 @dataclass(frozen=True, kw_only=True)
 class Refutation(BisectionResult):
-    """Result of the prover for a claim that nothing is reached. It is not verified: :func:`check_certificate` does that.
+    """Result of the prover for an out-of-reach claim, which is not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        proved: Exact share of pairs of target and configuration that are told apart.
-        witness: (n,) rad, a configuration whose tool is in the box: the claim is false, and the document says so. None: none
-            was found.
+        claim: Claim that was searched.
+        proved: Exact fraction of the pairs of target and configuration that are excluded.
+        witness: (n,) configuration, rad, with its tool in the box, which refutes the claim and is in the document; None if
+            none was found.
     """
 
     claim: OutOfReachClaim
@@ -38,7 +38,7 @@ class Refutation(BisectionResult):
 
 
 def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget: SearchBudget) -> Refutation:
-    """Search for a proof that nothing is reached, with the options of :func:`holdfast.certify`."""
+    """Search for a proof that no target is reached, with the options of :func:`holdfast.certify`."""
     started = perf_counter()
     exclusion = search_witness_or_exclusion(claim, halvings, seed, budget)
     return Refutation.from_search(

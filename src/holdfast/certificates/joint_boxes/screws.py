@@ -1,8 +1,8 @@
 """Screws of an arm's axes in the frame of a middle link, with their derivatives by the joints.
 
-The derivative of screw l by joint j, which is nearer to the middle, is the bracket of screws j and l, and so on: exact at the
-centre of a box. What is left behind first and second order is bounded by the lengths between axes. The first and the last joint
-move no axis.
+The derivative of screw l by joint j, which is nearer to the middle, is the bracket of screws j and l, and so on for further
+derivatives, exactly at the centre of a box. The lengths between axes bound the terms after first and second order. The first
+and the last joint move no axis.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ class Screws:
 
     Attributes:
         axes: (N, l, 6) axes, then their moments.
-        brackets: (N, j, l, 6) of joint j and axis l.
-        links: (N, n) lengths from axis to axis, m.
-        distances: (N, n) of the axes from the point, m.
+        brackets: (N, j, l, 6) brackets of joint j and axis l.
+        links: (N, n) distances between successive axes, m.
+        distances: (N, n) distances of the axes from the point, m.
     """
 
     axes: FloatArray
@@ -34,12 +34,12 @@ class Screws:
 
 
 class ScrewModel:
-    """The screws of a chain: axes, then their moments about a point of the middle axis.
+    """Model of the screws of a chain: axes, then their moments about a point of the middle axis.
 
     Attributes:
-        n, middle: Joints; the link behind joint ``middle - 1`` does not move.
-        sign: (n, n) of axis l and joint j: 1 where j moves l behind the middle, -1 before it, else 0.
-        nearer: (n, n) 1 where joint i is as near to the middle as j, or nearer.
+        n, middle: Number of joints, and the middle; the link behind joint ``middle - 1`` does not move.
+        sign: (n, n) for axis l and joint j: 1 if j moves l behind the middle, -1 if it moves l before the middle, else 0.
+        nearer: (n, n) 1 if joint i is at least as near to the middle as j.
         side: (n,) 1 behind the middle, -1 before it.
     """
 
@@ -59,7 +59,7 @@ class ScrewModel:
         previous, z, points = self._arm.locate_point_and_axes(q)
         links = np.zeros(z.shape[:2])
         for joint in [*range(self.middle, self.n), *range(self.middle - 1, -1, -1)]:
-            # Of the middle axis the point that is nearest to the tool, then of each the one nearest to that of its neighbour.
+            # The point of the middle axis nearest to the tool, then the point of each axis nearest to that of its neighbour.
             previous = previous if joint == self.middle else points[:, joint - 1 if joint > self.middle else joint + 1]
             points[:, joint] += z[:, joint] * np.einsum("na,na->n", z[:, joint], previous - points[:, joint])[:, None]
             links[:, joint] = np.linalg.norm(points[:, joint] - previous, axis=1)
@@ -75,7 +75,7 @@ class ScrewModel:
         v1, v2, v3 = (np.zeros_like(c) for _ in range(3))
         for first, step, end in ((self.middle + 1, 1, self.n), (self.middle - 2, -1, -1)):
             angle_sum = np.zeros(len(half))
-            # The link to axis j is turned by the joints from the middle to the one before.
+            # The joints from the middle up to the previous one rotate the link to axis j.
             for joint in range(first, end, step):
                 angle_sum = angle_sum + half[:, joint - step]
                 carried = slice(joint, None) if step > 0 else slice(None, joint + 1)

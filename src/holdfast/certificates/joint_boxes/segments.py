@@ -1,8 +1,8 @@
 """Bounds of the distance between a point of a link and a target over boxes of joints and targets, in doubles, for batches.
 
-Along any direction e the distance is at least e.(y - x), whose first and second derivatives at the centre of a box are exact
-and whose third is bounded by the lengths that joints carry. The greatest distance is bounded through half its square.
-Everything here may be wrong: the verifier decides.
+Along any direction e the distance is at least e.(y - x). Its first and second derivatives at the centre of a box are exact, and
+the lengths that joints carry bound the third. The greatest distance is bounded through half its square. The numbers here have
+no error bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -14,19 +14,20 @@ import numpy as np
 from holdfast.certificates.taylor import CertificateChain, link_lengths
 from holdfast.core.typing import BoolArray, FloatArray
 
-_ON_AXIS_TOLERANCE_M = 1e-9  # m, of a point from an axis that it lies on
+_ON_AXIS_TOLERANCE_M = 1e-9  # m: largest distance of a point from an axis on which it lies
 
 
 @dataclass(frozen=True, eq=False)
 class ChainSegment:
-    """Successive joints of a chain, from a link, in whose frame coordinates are, to a point of a later one.
+    """Segment of k successive joints of a chain, from a link, in whose frame coordinates are given, to a point of a later link.
 
     Attributes:
-        rotations: (k, 3, 3) of each joint's frame in the one before.
-        origins: (k, 3) likewise, m.
-        end: (3,) m, the point in the last of these frames.
-        lengths: (k,) m, of what joint k and those before it turn and the next one does not; of a slide without its value.
-        slides: (k,) which of them slide.
+        rotations: (k, 3, 3) rotation of each joint's frame in the previous frame.
+        origins: (k, 3) origin of each joint's frame in the previous frame, m.
+        end: (3,) point in the last of these frames, m.
+        lengths: (k,) lengths, m, that each joint and the joints before it rotate, but the next one does not; for a prismatic
+            joint without its value.
+        slides: (k,) True for prismatic joints.
     """
 
     rotations: FloatArray
@@ -37,15 +38,13 @@ class ChainSegment:
 
     @classmethod
     def from_chain(cls, chain: CertificateChain, first: int, last: int, end: FloatArray) -> ChainSegment:
-        """Cut the joints first to last - 1 out of a chain."""
+        """Make the segment of the joints ``first`` to ``last - 1`` of a chain."""
         rotations, slides = chain.rotations[first:last], chain.slides[first:last]
         lengths = link_lengths(rotations, [*chain.origins[first + 1 : last], end], slides)
         return cls(rotations, chain.origins[first:last], np.asarray(end), lengths, slides)
 
     def point_axes_and_derivatives(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the point (N, 3), the rotation axes (N, k, 3), 0 for slides, and the derivatives of the point (N, k, 3) at q
-        (N, k).
-        """
+        """Return point (N, 3), rotation axes (N, k, 3), 0 for prismatic joints, and point derivatives (N, k, 3) at q (N, k)."""
         tip, axes, origins = self.locate_point_and_axes(q)
         rotary_columns = np.cross(axes, tip[:, None] - origins)
         return tip, axes * ~self.slides[:, None], np.where(self.slides[:, None], axes, rotary_columns)
@@ -70,7 +69,7 @@ class ChainSegment:
         return tip, axes, origins
 
     def count_leading_axes_through(self, point: FloatArray) -> int:
-        """Count the first joints whose axes go through a point (3,), so that they do not change its distance."""
+        """Return the number of first joints whose axes pass through a point (3,) and so do not change its distance."""
         rotation, origin = np.eye(3), np.zeros(3)
         for index in range(len(self.lengths)):
             origin = origin + rotation @ self.origins[index]
@@ -80,9 +79,7 @@ class ChainSegment:
         return len(self.lengths)
 
     def _derivative_bounds(self, q: FloatArray, half: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return bounds of three derivatives of the point by the joint ranges (3, N), and each joint's contribution to the
-        third (N, k).
-        """
+        """Return bounds (3, N) of three derivatives of the point, and joint contributions (N, k) to the third."""
         c, slide_range = np.cumsum(half * ~self.slides, axis=1), half * self.slides
         max_lengths = self.lengths + np.abs(q) * self.slides + slide_range
         orders = np.array([(c**k * max_lengths + k * c ** (k - 1) * slide_range).sum(axis=1) for k in (1, 2, 3)])
@@ -95,8 +92,8 @@ class ChainSegment:
         """Bound the distance of the point from targets x +- target_half (N, 3) from below, over q +- half (N, k).
 
         Returns:
-            The distance (N,), that of the middles less than it may be, and what of it each joint and target coordinate costs
-            (N, k + 3).
+            Bounds (N,) of the distance, lower bounds (N,) of the distance of the middles, and the reductions (N, k + 3) by each
+            joint and target coordinate.
         """
         tip, axes, columns = self.point_axes_and_derivatives(q)
         v = tip - targets
@@ -124,9 +121,7 @@ class ChainSegment:
     def upper_distance_bound(
         self, q: FloatArray, half: FloatArray, targets: FloatArray, target_half: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Bound the distance from above, as :meth:`lower_distance_bound`: the bound, the distance of the middles, and the cost
-        of each axis.
-        """
+        """Bound the distance from above, with arguments and results in the form of :meth:`lower_distance_bound`."""
         tip, axes, columns = self.point_axes_and_derivatives(q)
         count, joint_count = q.shape
         v = tip - targets
@@ -146,23 +141,22 @@ class ChainSegment:
 
 
 def limit_to_one_turn(limits: FloatArray, slides: BoolArray) -> FloatArray:
-    """Return limits (n, 2), rad and m, in which joints that turn make one full turn at most."""
+    """Return limits (n, 2), rad and m, with ranges of revolute joints of at most one full turn."""
     half_turn, limits = np.nextafter(np.pi, 4), limits.copy()
     limits[~slides & (limits[:, 1] - limits[:, 0] >= 2 * np.pi)] = -half_turn, half_turn
     return limits
 
 
 def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random.Generator) -> list[tuple[int, FloatArray]]:
-    """Return links and points on their axes, each the point of the next axis that is closest to the axis behind it: (link,
-    (3,)).
+    """Return pairs of a link and a point (3,) of the next axis that is closest to the axis behind it.
 
-    Where the next joint slides there is none: it takes every point of its axis elsewhere.
+    If the next joint is prismatic, there is no such point, because the joint moves every point of its axis.
     """
     n, axis_points = len(chain.lengths), list[tuple[int, FloatArray]]()
     q, previous = rng.uniform(joints[:, 0], joints[:, 1], (8, n)), np.full((8, 3), np.inf)
     for joint in np.flatnonzero(~chain.slides).tolist():
         heights = chain.closest_points_on_axes(joint) if joint + 1 < n else None
-        # Of parallel axes, and the last one, the height of what comes next.
+        # For parallel axes, and for the last axis, take the height of the next frame.
         point = chain.origins[joint] + chain.rotations[joint][:, 2] * (heights[0] if heights else chain.origins[joint + 1][2])
         positions = ChainSegment.from_chain(chain, 0, joint, point).point_axes_and_derivatives(q[:, :joint])[0]
         if np.abs(positions - previous).max() > 1e-6:
@@ -172,13 +166,14 @@ def find_axis_points(chain: CertificateChain, joints: FloatArray, rng: np.random
 
 
 def curvature_costs(gradient: FloatArray, second: FloatArray, half: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the cost of gradient and own curvature of each variable (N, k), and its part in all pairs (N, k), half of which is
-    their sum.
+    """Return the cost (N, k) of gradient and own curvature of each variable, and its contribution (N, k) to all pairs.
+
+    Half of the sum of the contributions is the cost of all pairs.
 
     Args:
-        gradient: (N, k), not negative.
-        second: (N, k, k) second derivatives, of which those for j <= k count.
-        half: (N, k).
+        gradient: (N, k) magnitudes of the gradient.
+        second: (N, k, k) second derivatives, of which those for j <= k are used.
+        half: (N, k) half widths.
     """
     curvature = np.diagonal(second, axis1=1, axis2=2)
     at_end = gradient * half - curvature * half**2 / 2

@@ -1,10 +1,10 @@
-"""Upper bounds of relative manipulability: a wrench for each box of configurations bounds it from above.
+"""Upper bounds of relative manipulability by a wrench for each box of configurations.
 
-Let a_l be the moment of a wrench y about the axis of joint l. Whatever y is, the relative manipulability after a lock of joint
-k is at most sqrt(A / (A + a_k^2)), A the sum of the other a_l^2; the best y gives exactly it. In each box y moves with the
-joints, y = y_0 + Y (q - q_c), where Y keeps the a_l as still as it can. Screws are those of axes seen from a link in the middle
-of the arm, so that the first and the last joint count nothing; their first and second derivatives are brackets, exact at the
-centre. Everything here may be wrong: the verifier decides.
+Let a_l be the moment of a wrench y about the axis of joint l. For every y, the relative manipulability after a lock of joint k
+is at most sqrt(A / (A + a_k^2)), where A is the sum of the other a_l^2; the best y attains it. In each box y moves with the
+joints, y = y_0 + Y (q - q_c), where Y keeps the a_l as constant as possible. Screws are those of axes in the frame of a middle
+link, so the first and the last joint do not matter. Their first and second derivatives are brackets, exact at the centre. The
+numbers here have no error bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from holdfast.certificates.joint_boxes.screws import ScrewModel, Screws
 from holdfast.certificates.taylor import CertificateChain
 from holdfast.core.typing import FloatArray, IndexArray
 
-FIRST_LOCK_TOKEN = 128  # token of a box in which joint 0 costs enough
+FIRST_LOCK_TOKEN = 128  # token of a box in which a lock of joint 0 reduces enough
 _BOUND_MARGIN = 1e-9
-_DAMPING_FACTOR = 0.01  # times the square of the largest half width that counts, added to the squares of the screws
+_DAMPING_FACTOR = 0.01  # factor of the square of the largest relevant half width, added to the squares of the screws
 
 
 class ManipulabilityCeilingTest:
-    """Test of boxes of configurations: relative manipulability is at most a threshold after one of some locks.
+    """Test whether relative manipulability is at most a threshold after one of some locks, in boxes of configurations.
 
     Args:
-        chain: The arm.
-        locks: Joints, one of which suffices.
-        threshold: Above 0, below 1.
+        chain: Kinematic chain of the arm.
+        locks: Indices of the joints, one of which suffices.
+        threshold: Upper bound, above 0 and below 1.
     """
 
     def __init__(self, chain: CertificateChain, locks: tuple[int, ...], threshold: float) -> None:

@@ -1,1 +1,1 @@
-"""Suggest claims from samples: working ranges for a box of targets, and a box inside a failure-tolerant workspace."""
+"""Suggestion of claims from samples: working ranges for a box of targets, and a box in a failure-tolerant workspace."""

@@ -1,4 +1,4 @@
-"""Sample the box of targets of a claim."""
+"""Sampling of the box of targets of a claim."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def sample_box_poses(claim: TolerantClaim, count: int, seed: int, sample: int) -
         claim: Claim about every target of the box.
         count: Number of targets inside.
         seed: Seed of all samples.
-        sample: Number of the sample; each number gives other targets.
+        sample: Number of the sample; each number selects different targets.
     """
     from scipy.stats import qmc
 
@@ -35,7 +35,7 @@ def sample_box_poses(claim: TolerantClaim, count: int, seed: int, sample: int) -
     poses[:, :position_count, 3] = rows[:, :position_count]
     if claim.rotation is not None:
         poses[:, :3, :3] = claim.rotation
-    elif rows.shape[1] > position_count:  # of a planar pose yaw alone
+    elif rows.shape[1] > position_count:  # a planar pose has only yaw
         angles = np.zeros((len(rows), 3))
         angles[:, position_count - rows.shape[1] :] = rows[:, position_count:]
         poses[:, :3, :3] = [rpy_rotation(row.tolist()) for row in angles]

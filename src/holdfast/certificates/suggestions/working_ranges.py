@@ -1,4 +1,4 @@
-"""Search by samples for working ranges within which a box of targets stays reachable after a lock of one joint."""
+"""Sampling search for working ranges within which a box of targets stays reachable after a lock of one joint."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 from holdfast.model.failure_modes.sets import FailureSpec, single_joints
 
-_BISECTION_STEPS = 10  # of the distance between a value that passes and the next one of the grid, which fails
-_MAX_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tried
-_RETRY_FRACTION = 0.8  # where so many are reached, the others are tried again
+_BISECTION_STEPS = 10  # bisections between a grid value that passes and its neighbour that fails
+_MAX_CANDIDATES = 20  # combinations of intervals for which the healthy arm is tested
+_RETRY_FRACTION = 0.8  # if this fraction of the targets is reached, the others are tried again
 _MORE_RESTARTS = 400
-_MAX_SHORTENINGS = 4  # of ranges that a fresh sample may shorten
+_MAX_SHORTENINGS = 4  # how often a held-out sample may shorten ranges
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WorkingRanges(Result):
-    """Working ranges for a failure-tolerant box, found by samples. Nothing is proved: :func:`holdfast.certify` does that.
+    """Working ranges for a failure-tolerant box that were found by sampling; :func:`holdfast.certify` can prove them.
 
     Attributes:
         claim: The claim that the box is failure-tolerant with these ranges.
-        targets: Number of targets in the sample that judges the ranges; none of them was used to find the ranges.
+        targets: Number of targets in the held-out sample, none of which was used to find the ranges.
         values: Number of values of each joint at which the joint is locked for each target.
         healthy: Number of these targets that the healthy arm reaches within the ranges.
         lost: (n,) number of these targets that are lost for at least one value at which the joint is locked.
@@ -65,19 +65,19 @@ class WorkingRanges(Result):
 
     @property
     def relative_widths(self) -> FloatArray:
-        """Width of each range (n,) as a fraction of the width of the joint's limits, of which a full turn is enough."""
+        """Width of each range (n,) as a fraction of the width of the joint's limits, or of a full turn if that is smaller."""
         return _relative_widths(self.claim.arm, self.ranges)
 
     @property
     def limiting_joint(self) -> str:
-        """Name of the joint whose locks lose most targets; if none is lost, of the joint with the smallest relative width."""
+        """Name of the joint whose locks lose most targets, or of the joint with the smallest relative width if none is lost."""
         locks, arm = list(self.claim.locks), self.claim.arm
         lost_counts, widths = self.lost[locks], self.relative_widths[locks]
         return arm.joint_names[locks[int(np.lexsort([widths, -lost_counts])[0])]]
 
     @property
     def options(self) -> list[str]:
-        """Option text ``JOINT=LOW..HIGH`` in degrees or m of each range narrower than the limits, as ``--range`` takes it."""
+        """Option ``JOINT=LOW..HIGH`` for ``--range``, in degrees or m, for each range that is narrower than the limits."""
         arm, options = self.claim.arm, []
         for index, joint in enumerate(arm.joints):
             if (self.ranges[index] != [joint.lower, joint.upper]).any():
@@ -87,7 +87,7 @@ class WorkingRanges(Result):
 
 
 @check_arguments
-@reports_progress("looking for working ranges")
+@reports_progress("searching for working ranges")
 def find_working_ranges(
     arm: Arm,
     centre: ArrayLike,
@@ -103,36 +103,37 @@ def find_working_ranges(
     margin: float = 0.05,
     seed: int = 0,
 ) -> WorkingRanges:
-    """Find wide working ranges under which a box of targets stays reachable wherever one joint locks.
+    """Find wide working ranges within which a box of targets stays reachable for every value at which one joint locks.
 
-    After a lock the other joints use all of their limits, so the intervals at which one joint may lock do not depend on the
-    ranges of the others. They are found on a grid of locked values, and their ends by bisection. Only the healthy arm, which
-    keeps all of its ranges, couples the joints: of the combinations of intervals within which it reaches every target, the one
-    with the largest smallest relative width is taken, then that with the largest sum of relative widths. If there is none,
-    the ranges of most targets are looked for by coordinate ascent, as :func:`holdfast.tolerant_workspace` does.
+    After a lock the other joints use their full limits, so the intervals in which one joint may lock do not depend on the
+    ranges of the others. These intervals are found on a grid of locked values, and their ends by bisection. Only the healthy
+    arm, which stays within all of its ranges, couples the joints. Among the combinations of intervals within which it reaches
+    every target, the search chooses the one with the largest minimum of the relative widths, then the one with the largest sum.
+    If there is none, it maximises the number of targets by coordinate ascent, as :func:`holdfast.tolerant_workspace` does.
 
     Args:
         arm: The arm.
-        centre: As of :func:`holdfast.certificates.tolerant_claim`.
-        size: Likewise.
-        rotation: Likewise.
-        rpy: Likewise.
-        task: Likewise.
-        working_ranges: ``{joint: (low, high)}``, rad or m, within which its range is looked for. Default: the joint's limits;
-            a full turn, or 1 m to either side, where there are none.
-        failures: Which joints may lock, one at a time. The others keep the ranges that are given.
-        targets: Number of targets inside the box, besides its corners.
-        values: Number of locked values of each joint; more for joints that turn by more than once.
-        margin: Fraction of an interval that is cut off at each end at which some target is lost. There the arm with the locked
-            joint is stretched or at a limit, so that little can be proved.
-        seed: Seed of all random draws.
+        centre: (3,) centre of the box of targets in the base frame, m; (2,) for an arm that moves in a plane.
+        size: Edge lengths of the box, m: one number, or one for each axis. A length may be 0.
+        rotation: (3, 3) rotation of the tool in the base frame at every target. None: the orientation is free.
+        rpy: (3, 2) lowest and highest roll, pitch and yaw, rad, or (2,) yaw, as in :func:`holdfast.certificates.reach_claim`.
+        task: ``pointing`` if only the direction of the tool's z axis matters. Default: the task that the others imply.
+        working_ranges: Ranges in which to search, as ``{joint: (low, high)}``, rad or m. Default: the joint's limits, or a full
+            turn, or 1 m to either side, if there are none.
+        failures: Joints that may lock, one at a time: ``"single"``, or a list of joints by name or index from 0. The other
+            joints keep their given ranges.
+        targets: Number of targets inside the box, in addition to its corners.
+        values: Number of locked values of each joint; more are used for joints with more than one turn.
+        margin: Fraction of an interval that is removed at each end at which some target is lost. Near this end the arm is
+            stretched or at a limit, so that little can be proved.
+        seed: Seed of all random samples.
 
     Returns:
-        Ranges whose ``claim`` :func:`holdfast.certify` proves.
+        The working ranges, with a ``claim`` for :func:`holdfast.certify`.
 
     Raises:
-        InputError: A box, joint, or range that makes no claim, or a number out of range.
-        TaskError: No failure, or one of several joints at once.
+        InputError: The box, a joint, or a range is invalid, or a number is out of range.
+        TaskError: There is no failure, or a failure of several joints at once.
 
     Source: Lewis and Maciejewski 1997 for the ranges (their artificial joint limits); the search is derived here.
     """
@@ -169,14 +170,14 @@ def find_working_ranges(
 
 
 class _RangeSearch:
-    """Samples of the box of a claim, and the ranges that they allow.
+    """Search for the ranges that samples of the box of a claim allow.
 
     Args:
         claim: Claim with the widest ranges.
-        bounds: (n, 2) these, rad and m.
-        targets: Number of targets in each sample, besides the corners.
+        bounds: (n, 2) widest ranges, rad and m.
+        targets: Number of targets in each sample, in addition to the corners.
         values: Number of locked values of each joint.
-        seed: Seed of all random draws.
+        seed: Seed of all random samples.
     """
 
     def __init__(self, claim: TolerantClaim, bounds: FloatArray, targets: int, values: int, seed: int) -> None:
@@ -199,7 +200,7 @@ class _RangeSearch:
         self._poses = np.concatenate([self._poses, sample_box_poses(self._claim, self._targets, self._seed, sample)])
 
     def _check_survival(self, values: list[FloatArray], poses: FloatArray, sample: int) -> list[BoolArray]:
-        """Return for each joint whether each pose is reached (N, K) with the joint locked at each of its values (K,)."""
+        """Return an array (N, K) for each joint, True if a pose is reached with the joint locked at one of its values (K,)."""
         table = samples.check_survival(self._arm, self._task, poses, values, self._seed + sample)
         for joint, (each, column) in enumerate(zip(table, values, strict=True)):
             lost_pose, lost_value = np.nonzero(~each & (each.mean(axis=0) >= _RETRY_FRACTION))
@@ -212,7 +213,7 @@ class _RangeSearch:
         return table
 
     def _check_healthy(self, ranges: FloatArray, poses: FloatArray) -> BoolArray:
-        """Return (N,) whether the healthy arm reaches each pose within the ranges."""
+        """Return a mask (N,) of the poses that the healthy arm reaches within the ranges."""
         limited_arm = samples.with_artificial_limits(self._arm, ranges)
         reached = samples.find_reached_poses(limited_arm, self._task, poses, self._seed)
         if _RETRY_FRACTION <= reached.mean() < 1:
@@ -241,7 +242,7 @@ class _RangeSearch:
         grid, survives = self._grids[joint], np.asarray(table.all(axis=0))
         if survives.all():
             return np.asarray(self._bounds[joint][None])
-        if self._is_periodic[joint]:  # once round, from a value that fails to itself
+        if self._is_periodic[joint]:  # one turn, from a value that fails back to itself
             first = int(np.argmin(survives))
             grid = np.append(grid[first:], grid[: first + 1] + 2 * np.pi)
             survives = np.append(survives[first:], survives[: first + 1])
@@ -258,7 +259,7 @@ class _RangeSearch:
         return np.asarray(inner)
 
     def _check_values(self, joint: int, values: FloatArray) -> BoolArray:
-        """Return (K,) whether all targets survive a lock of a joint at each of some values (K,)."""
+        """Return a mask of the values (K,) of a locked joint at which no target is lost."""
         value_lists = [values if other == joint else np.empty(0) for other in range(self._arm.n)]
         return np.asarray(self._check_survival(value_lists, self._poses, 0)[joint].all(axis=0), dtype=bool)
 
@@ -304,7 +305,7 @@ class _RangeSearch:
         return self._round_interval(joint, np.where(pair == bounds, pair, pair + shift))
 
     def _round_interval(self, index: int, pair: FloatArray) -> FloatArray:
-        """Round an interval inwards to the digits of :attr:`WorkingRanges.options`; the limits of the arm stay as they are."""
+        """Round an interval inwards to the digits of :attr:`WorkingRanges.options`; limits of the arm are not rounded."""
         joint, (lower, upper) = self._arm.joints[index], self._bounds[index]
         digits, factor = 4 if joint.prismatic else 2, joint.display_unit[0]
         if (pair == [joint.lower, joint.upper]).all() or factor * (pair[1] - pair[0]) < 3 * 10**-digits:
@@ -320,9 +321,9 @@ class _RangeSearch:
         return np.array([round_end(pair[0], 1), round_end(pair[1], -1)])
 
     def evaluate_ranges(self, ranges: FloatArray, sample: int) -> tuple[BoolArray, list[tuple[BoolArray, FloatArray]]]:
-        """Return for a held-out sample (N,) targets within the ranges, and for each joint (N, K) those that survive its locks.
+        """Return flags (N,) of held-out targets reached within the ranges, and for each joint flags (N, K) after its locks.
 
-        The values (K,) at which a joint is locked are the ends of its range and one value in each of equal parts of it.
+        A joint is locked at K values: the ends of its range, and one value in each of equal parts of it.
         """
         poses = sample_box_poses(self._claim, self._targets, self._seed, sample)
         parts, generator = max(self._values - 2, 1), np.random.default_rng([self._seed, sample, 1])

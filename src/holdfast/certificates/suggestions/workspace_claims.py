@@ -1,4 +1,4 @@
-"""A box that a sample suggests to lie inside a region, as the claim of a certificate."""
+"""Suggestion of a box that lies inside a sampled region, as the claim of a certificate."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from holdfast.kinematics.workspace import TolerantWorkspace
 
 _SEED_POINTS = 8
 _STRETCH_ROUNDS = 3
-_KEPT_FRACTION = 0.9  # of each edge: between points nobody looked
+_KEPT_FRACTION = 0.9  # fraction of each edge that is kept, because the space between points was not sampled
 
 
 @check_arguments
 def make_workspace_claim(workspace: TolerantWorkspace) -> TolerantClaim:
-    """Return the claim that a box of points of a failure-tolerant workspace is tolerant; ``certify`` proves it for every point.
+    """Make the claim that a box of points of a failure-tolerant workspace is tolerant, which ``certify`` can prove.
 
-    The box is a large one without a point outside the workspace; the artificial limits are the working ranges.
+    The box is a large one without a sampled point outside the workspace. The artificial limits become the working ranges.
 
     Args:
-        workspace: From :func:`holdfast.tolerant_workspace`.
+        workspace: Workspace of :func:`holdfast.tolerant_workspace`.
 
     Raises:
         InputError: The task is neither position nor planar in the xy plane, or too few points are inside.
     """
     rows = workspace.task.rows
     if rows.shape[0] not in (2, 3) or not np.array_equal(rows, np.eye(6)[: len(rows)]):
-        raise InputError(f"certificates of boxes are for tasks position and planar, not {workspace.task.name}")
+        raise InputError(f"task is {workspace.task.name}; for a certificate of a box it must be position or planar")
     box = find_inner_box(workspace.points[:, : len(rows)], workspace.inside)
     if box is None:
         raise InputError("too few points are inside to suggest a box; sample more")
@@ -41,13 +41,13 @@ def find_inner_box(points: FloatArray, inside: BoolArray) -> FloatArray | None:
     """Find a large box with sampled points inside the region and none outside.
 
     Args:
-        points: (N, d) m.
-        inside: (N,).
+        points: (N, d) sampled points, m.
+        inside: (N,) True for points inside the region.
 
     Returns:
-        (d, 2) m, a little smaller than what no point contradicts; None where too few points are inside.
+        (d, 2) bounds, m, of a box slightly smaller than one that no point contradicts; None if too few points are inside.
 
-    Source: derived here. From the points that are farthest from those outside, one face after the other is moved out.
+    Source: derived here. From the points that are farthest from those outside, the faces are moved outwards in turn.
     """
     from scipy.spatial import KDTree
 

@@ -1,7 +1,7 @@
-"""The search for a proof as jobs: one for each part of a claim, or one for each box of a part that takes very many cells.
+"""Jobs of the search for a proof: one for each part of a claim, or one for each box of a part with very many cells.
 
-What a job finds depends on its claim, its box and the seed alone: not on how many processes there are, nor on what was found
-before by a search that was stopped.
+The result of a job depends only on its claim, its box and the seed, not on the number of processes or on the results of an
+earlier, stopped search.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_duration
 from holdfast.core.typing import FloatArray, IndexArray
 
-_WARN_UNREACHED_FRACTION = 0.1  # of the targets drawn first: where no configuration is found of so many, it is said
-# _SPLIT_ABOVE_CELLS and _CELLS_PER_JOB: cells: of a part that is cut, and of each job of it
+_WARN_UNREACHED_FRACTION = 0.1  # fraction of the first targets without a configuration above which a warning is given
+# Estimated cells of a part above which it is split, and cells of each of its jobs.
 _SPLIT_ABOVE_CELLS = 1 << 16
 _CELLS_PER_JOB = 1 << 14
 
@@ -33,11 +33,10 @@ class TargetBoxResult(JobResult):
     """Result of a target box job.
 
     Attributes:
-        tree: Its bisection, in pre-order.
-        centers: (leaves, n) in units of 2^-24.
-        split_axes: Axes along which the box is to be halved one after the other, each half another job: nothing was looked for.
-        refusal: Why the search does not begin: no configuration of any sampled target is found, or it would take too many
-            cells; or empty.
+        tree: Bisection tree in pre-order.
+        centers: (leaves, n) centers in units of 2^-24.
+        split_axes: Axes along which the box is halved successively into further jobs, if the job did not search.
+        refusal: Reason why the search does not begin (no configuration at any sampled target, or too many cells), or empty.
     """
 
     tree: bytes = bytes([UNDECIDED_TOKEN])
@@ -49,7 +48,7 @@ class TargetBoxResult(JobResult):
         """Raise an error if the search would take too many cells, or has no configurations.
 
         Raises:
-            InputError: With the reason.
+            InputError: The search cannot begin; the message states the reason.
         """
         if self.refusal:
             raise InputError(self.refusal)
@@ -61,11 +60,11 @@ class TargetBoxJob(SearchJob):
 
     Attributes:
         claim: The claim.
-        halvings: Of each axis of all of the claim, at most.
-        seed: Of all random draws.
-        part_number: Number of the claim.
-        split_axes: Axes along which its box was halved, one after the other.
-        box_number: Of this box among them.
+        halvings: Largest number of bisections of each axis of the whole claim.
+        seed: Seed of all random samples.
+        part_number: Number of the part of the claim.
+        split_axes: Axes along which the box of the part was halved successively.
+        box_number: Number of this box among the results.
     """
 
     result_type = TargetBoxResult
@@ -105,7 +104,7 @@ class TargetBoxJob(SearchJob):
         return result.merge(child_results, tree=trees[0], centers=np.concatenate([part.centers for part in child_results]))
 
     def _box_and_axis_depths(self) -> tuple[FloatArray, IndexArray]:
-        """Return the box (A, 2) of the job, and how often each axis was halved (A,)."""
+        """Return the box (A, 2) of the job, and the number of bisections of each axis (A,)."""
         root = self.claim.box if self.claim.angle is None else np.vstack([self.claim.box, self.claim.angle])
         position, depth = np.zeros(len(root), dtype=np.int64), np.zeros(len(root), dtype=np.int64)
         for level, axis in enumerate(self.split_axes):
@@ -130,7 +129,7 @@ class TargetBoxJob(SearchJob):
         elif verifier.MAX_LEAVES < cells < np.inf and not search.refusal:
             edge_divisor = int(np.ceil((cells / verifier.MAX_LEAVES) ** (1 / int((box[:, 1] > box[:, 0]).sum()))))
             search.refusal = (
-                f"single configurations prove so little of this box that it would take some {cells:.0e} cells and "
+                f"single configurations prove so little of this box that it would take about {cells:.0e} cells and "
                 f"{format_duration(search.pool.estimated_seconds)}; with 1/{edge_divisor} of each "
                 f"edge{' and of the interval of the lock' * (claim.angle is not None)} it would fit"
             )
@@ -138,7 +137,7 @@ class TargetBoxJob(SearchJob):
         return search
 
     def read_result(self, search: TargetBoxSearch, **values: Any) -> TargetBoxResult:
-        """Return the result so far; what is open then is undecided, unless other jobs look at it."""
+        """Return the result so far, in which open cells are undecided unless other jobs search them."""
         if not search.split_axes:
             remainder = 1 - search.proved_fraction
             values["state"] = replace(values["state"], undecided=remainder, open=0.0)
@@ -148,9 +147,7 @@ class TargetBoxJob(SearchJob):
         )  # fmt: skip
 
     def _unreached_target_messages(self, search: TargetBoxSearch) -> tuple[str, str]:
-        """Return why nothing can be proved, and a warning that much cannot, judging by the first sampled targets of the whole
-        box.
-        """
+        """Return the reason why nothing can be proved, and a warning if much cannot, from the first sampled targets."""
         claim, sampled, unreached = self.claim, search.pool.sampled_targets, search.pool.unreached_targets
         if not sampled or unreached < _WARN_UNREACHED_FRACTION * sampled:
             return "", ""

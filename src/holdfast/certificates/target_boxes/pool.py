@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 from holdfast.certificates.taylor import ReachSolver, TaylorForm
 from holdfast.core.typing import FloatArray, IndexArray
 
-_INITIAL_TARGETS = 250  # targets at first
-_MAX_TARGETS = 1000  # targets at most
-_RANDOM_STARTS = 10  # random starts of each
-_CELLS_PER_TARGET = 64  # cells for each target: where there are more, there are more targets
-_MAX_SELF_MOTION_STEP_RAD = 0.5  # along self-motions, rad
-_LOCAL_SEARCH_STEPS = 10  # such steps, to prove more
-_FINAL_SEARCH_STEPS = 30  # of the best
-_TEST_CELL_SCALE = 2.0  # of cells so many times wider than without,
-_WIDEN_ABOVE_FRACTION = 0.75  # or twice as wide after so much of them is proved,
-_CELL_SCALE_RANGE = (2.0**-10, 2.0**10)  # in this range
-_ESTIMATE_SAMPLES = 200  # for the estimate
-_MAX_ESTIMATE_HALVINGS = 60  # of a sample
-_TRIALS_PER_CELL = 11  # configurations for each cell that is proved (measured: a Panda's cubes)
+_INITIAL_TARGETS = 250
+_MAX_TARGETS = 1000
+_RANDOM_STARTS = 10  # random starts of each target
+_CELLS_PER_TARGET = 64  # estimated cells for each target; more cells require more targets
+_MAX_SELF_MOTION_STEP_RAD = 0.5  # rad: largest step along self-motions
+_LOCAL_SEARCH_STEPS = 10  # steps along self-motions towards a larger proved part
+_FINAL_SEARCH_STEPS = 30  # such steps for the best configurations
+_TEST_CELL_SCALE = 2.0  # ratio of the width of a test cell to the width that was proved before
+_WIDEN_ABOVE_FRACTION = 0.75  # proved fraction of a test cell above which the next one is twice as wide
+_CELL_SCALE_RANGE = (2.0**-10, 2.0**10)  # range of the scale of test cells
+_ESTIMATE_SAMPLES = 200  # samples of the estimate
+_MAX_ESTIMATE_HALVINGS = 60  # bisections of a sample
+_TRIALS_PER_CELL = 11  # configurations for each proved cell (measured: cubes for a Panda)
 _TARGET_TOLERANCE = 1e-9  # m and rad
 
 
@@ -35,22 +35,21 @@ def step_self_motion(reach: ReachSolver, q: FloatArray, rng: np.random.Generator
 
 
 class ConfigurationPool:
-    """Configurations for random targets and locked angles of a root box, moved to where they prove much.
+    """Pool of configurations for random targets and locked values of a root box, optimised to prove large cells.
 
     Args:
-        reach: What must be reached.
-        root: (A, 2) targets along each axis, then the locked angle.
-        rng: Of all draws.
-        deadline: When to stop (``monotonic``), with what there is.
+        reach: Solver for configurations at targets.
+        root: (A, 2) range of targets along each axis, then of the locked value.
+        rng: Generator of all random samples.
+        deadline: Monotonic time at which sampling stops with the present result, s.
 
     Attributes:
-        q: (N, n) rad or m, those of the first targets.
-        estimated_cells: That the whole would take, estimated; infinite where nobody knows.
-        estimated_seconds: That this would take here.
-        mean_halvings: (A,) how often each axis is halved for them, in the mean.
-        pending_rounds: How many more times as many targets the claim asks for; more where there was no time for the first.
-        sampled_targets, unreached_targets: Targets that were drawn first, and those of them of which no configuration was
-            found.
+        q: (N, n) configurations of the first targets, rad or m.
+        estimated_cells: Estimated number of cells for the whole box; infinite if unknown.
+        estimated_seconds: Estimated time for these cells on this machine, s.
+        mean_halvings: (A,) average number of bisections of each axis for these cells.
+        pending_rounds: Number of further rounds of targets that the claim needs; larger if there was no time for the first.
+        sampled_targets, unreached_targets: Number of the first sampled targets, and of those without a configuration.
     """
 
     def __init__(self, reach: ReachSolver, root: FloatArray, rng: np.random.Generator, deadline: float) -> None:
@@ -69,21 +68,19 @@ class ConfigurationPool:
         )
 
     def sample_pending_targets(self, deadline: float) -> None:
-        """Add as many targets as the claim needs or the monotonic ``deadline`` allows; an estimate does without them."""
+        """Add the targets that the claim needs, as far as the monotonic ``deadline`` allows; an estimate does not need them."""
         self._deadline = max(self._deadline, deadline)
         while self.pending_rounds and monotonic() < self._deadline:
             self._sample_configurations()
             self.pending_rounds -= monotonic() < self._deadline
 
     def sample_in_cells(self, lower: FloatArray, width: FloatArray, deadline: float) -> None:
-        """Add configurations for targets and locked angles in some of these cells (N, A), if there is time until ``deadline``
-        (monotonic).
-        """
+        """Add configurations for targets and locked values in some of these cells (N, A), until the monotonic ``deadline``."""
         self._deadline, chosen = max(self._deadline, deadline), np.resize(self._rng.permutation(len(lower)), _INITIAL_TARGETS)
         self._sample_configurations(lower[chosen] + self._rng.random(lower[chosen].shape) * width[chosen])
 
     def _sample_configurations(self, targets: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
-        """Add configurations for more targets, where one is found, and return them with their targets."""
+        """Add configurations that are found for more targets, and return them with their targets."""
         reach = self._reach
         if targets is None:
             targets = self._root[:, 0] + self._rng.random((_INITIAL_TARGETS, len(self._root))) * self._width
@@ -100,7 +97,7 @@ class ConfigurationPool:
             self._test_half = _TEST_CELL_SCALE / 2 * self._width * 0.5 ** self._estimate_cost(q, coordinates)[1]
         q, scale, widths = self._search_self_motions(q, coordinates, np.ones(len(q)), _LOCAL_SEARCH_STEPS)
         self.add_configurations(coordinates, q)
-        # Arms reach a target in several ways, and cells halved in one that proves little stay with it: of each target the best.
+        # Cells inherit the configuration of their parent, so only the best one of the several at each target is kept.
         order = np.argsort(-scale, kind="stable")
         best_rows = order[np.unique(coordinates[order], axis=0, return_index=True)[1]]
         improved, _, _ = self._search_self_motions(q[best_rows], coordinates[best_rows], widths[best_rows], _FINAL_SEARCH_STEPS)
@@ -110,9 +107,7 @@ class ConfigurationPool:
     def _search_self_motions(
         self, q: FloatArray, coordinates: FloatArray, widths: FloatArray, steps: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Move configurations along self-motions to where they prove more; return them, the proved scale, and the scale of the
-        tested cells.
-        """
+        """Move configurations along self-motions to prove more, and return them with the proved and the tested scales."""
         q, best_scale, targets = q.copy(), np.full(len(q), -1.0), coordinates[:, : self._reach.axes]
         for step in range(1 + steps * self._reach.is_redundant):
             if monotonic() > self._deadline:
@@ -135,10 +130,8 @@ class ConfigurationPool:
         self._added.append((center / self._unit, q))
 
     def _nearest_distances_and_indices(self, center: FloatArray, count: int) -> tuple[FloatArray, IndexArray]:
-        """Return the distances (N, count), in parts of the root, and the indices of the nearest configurations, fewer if there
-        are fewer.
-        """
-        if 2 * self._indexed_count < sum(len(q) for _, q in self._added):  # else the tree is made anew too often
+        """Return distances (N, count), in parts of the root, and indices of the nearest configurations, or of all if fewer."""
+        if 2 * self._indexed_count < sum(len(q) for _, q in self._added):  # avoids frequent rebuilding of the tree
             from scipy.spatial import KDTree
 
             coordinates, self._configurations = (np.concatenate(arrays) for arrays in zip(*self._added, strict=True))
@@ -151,16 +144,12 @@ class ConfigurationPool:
         return np.asarray(distances), np.asarray(nearest)
 
     def find_nearest_configurations(self, center: FloatArray, count: int) -> FloatArray:
-        """Return the (N, count, n) nearest configurations by target and locked angle for centers (N, A), fewer if there are
-        fewer.
-        """
+        """Return the nearest configurations (N, count, n) by target and locked value for centers (N, A), or all if fewer."""
         _, nearest = self._nearest_distances_and_indices(center, count)
         return np.asarray(self._configurations[nearest])
 
     def find_best_configurations(self, center: FloatArray) -> FloatArray:
-        """Return for each center (N, A) the configuration (N, n) that proves most for the nearest sampled target; (0, n) if
-        there is none.
-        """
+        """Return the configurations (N, n) that prove most at the sampled targets nearest to centers (N, A), or (0, n)."""
         coordinates, q = (np.concatenate(arrays) for arrays in zip(*self._best_batches, strict=True))
         if not len(q):
             return np.empty((0, self._reach.n))
@@ -171,16 +160,12 @@ class ConfigurationPool:
         return np.asarray(q[self._best_index.query(center / self._unit, p=np.inf)[1]])
 
     def has_configuration_nearby(self, center: FloatArray, half: FloatArray) -> NDArray[np.bool_]:
-        """Return a mask (N,) of the cells (N, A) that contain a configuration, or have one next to them if they are
-        elongated.
-        """
+        """Return a mask (N,) of cells (N, A) that contain a configuration, or for elongated cells have one next to them."""
         distances, _ = self._nearest_distances_and_indices(center, 1)
         return np.asarray((distances <= (half / self._unit).max(axis=1, keepdims=True)).any(axis=1))
 
     def choose_split_axes(self, count: int, max_per_axis: int) -> tuple[int, ...]:
-        """Choose the axes of ``count`` halvings of the root, each at most ``max_per_axis`` times, among those that the search
-        halves anyway.
-        """
+        """Choose the axes of ``count`` halvings of the root, each at most ``max_per_axis`` times, as the search halves them."""
         remaining, axes = self.mean_halvings.copy(), list[int]()
         for _ in range(count):
             axis = int(np.argmax(remaining))
@@ -192,7 +177,7 @@ class ConfigurationPool:
     def _estimate_cost(self, q: FloatArray, coordinates: FloatArray) -> tuple[float, FloatArray, float]:
         """Estimate the cells, the halvings of each axis, and the seconds, from some configurations (N, n) of targets (N, A).
 
-        Of the cells the median of 2 to the halvings until a configuration proves its cell.
+        The number of cells is the median of 2^k, where k halvings are needed until a configuration proves its cell.
         """
         if not len(q):
             return np.inf, np.zeros(len(self._root)), np.inf
@@ -212,7 +197,7 @@ class ConfigurationPool:
         solutions = self._reach.solve_inverse_kinematics(form.q, targets)
         TaylorForm.expand_at(self._reach, solutions, targets).find_provable_width_fraction(half)
         trial_seconds = (perf_counter() - started) / len(sample)
-        finished = np.delete(halvings, open_rows, axis=0)  # one at a limit proves nothing, however small the cell
+        finished = np.delete(halvings, open_rows, axis=0)  # a configuration at a limit proves no cell of any size
         if not len(finished):
             return np.inf, np.zeros(len(self._root)), np.inf
         cells = float(2 ** np.median(finished.sum(axis=1)))

@@ -17,39 +17,39 @@ from holdfast.certificates.taylor import CENTER_UNIT, ReachSolver, TaylorForm
 from holdfast.certificates.tree import PROVED_TOKEN, BisectionTree, CellBatch, SearchState
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-_POOL_TRIALS = 3, 6  # of the pool, tried for a cell; for one that is as small as it may be
-_SELF_MOTION_TRIALS = 4  # along self-motions
+_POOL_TRIALS = 3, 6  # configurations of the pool that are tried for a cell, and for a smallest cell
+_SELF_MOTION_TRIALS = 4  # configurations along self-motions that are tried
 _BATCH_CELLS = 4096
-_ORIENTATION_SLACK_RAD = 1e-3  # rad: a tool turned away by less may come to its target
-_HOPELESS_FRACTION = 0.35  # of its cell that a configuration proves: others are tried
-_RECENTER_FRACTION = 14 / 16  # of its cell: where a configuration proves more, it is moved to prove all
-_PROMISING_FRACTION = 0.5  # of its cell: where one proves more, others on its self-motion are tried
-_MIN_FRACTION = 1 / 32  # of a cell of which nothing was proved, for its worth
+_ORIENTATION_SLACK_RAD = 1e-3  # rad: a smaller orientation error can still be corrected
+_HOPELESS_FRACTION = 0.35  # proved fraction of a cell below which other configurations are tried
+_RECENTER_FRACTION = 14 / 16  # proved fraction of a cell above which the configuration is moved to prove the whole cell
+_PROMISING_FRACTION = 0.5  # proved fraction of a cell above which others on the self-motion are tried
+_MIN_FRACTION = 1 / 32  # fraction that stands for none in the priority of a cell
 
-_SMALL_CELL_FRACTION = 0.75  # of all halvings
-_DEPTH_BONUS = 0.25  # of a halving: so much is a cell worth more for being smaller
-_MAX_RETRY_FRACTION = 0.01  # of the root: where no more is left at the end, what was given up is looked at once more,
-_FIRST_RETRY_CELLS = 16  # of its cells at first
+_SMALL_CELL_FRACTION = 0.75  # fraction of all halvings from which a cell is small
+_DEPTH_BONUS = 0.25  # priority of a smaller cell, in halvings
+_MAX_RETRY_FRACTION = 0.01  # fraction of the root up to which abandoned cells are examined again at the end
+_FIRST_RETRY_CELLS = 16  # abandoned cells in the first such attempt
 
 
 class TargetBoxSearch:
-    """The search over one root box, which can be resumed any number of times.
+    """Search over one root box, which can be resumed any number of times.
 
     Args:
-        reach: What must be reached.
-        root: (A, 2) targets along each axis, m, then the locked angle, rad.
-        halvings: Of each axis, at most; (A,) of one of them each.
-        seed: Of all random draws.
-        deadline: When the pool must be there (``monotonic``).
+        reach: Solver for configurations at targets.
+        root: (A, 2) range of targets along each axis, m, then of the locked value, rad.
+        halvings: Largest number of bisections of each axis: one number, or (A,).
+        seed: Seed of all random samples.
+        deadline: Monotonic time at which the pool must be complete, s.
 
     Attributes:
-        tree: What is found.
-        pool: Where it began.
-        nodes: Cells that were looked at.
-        open_fraction, proved_fraction: Shares of the root: still to be looked at, and proved.
-        split_axes, refusal: As of :class:`holdfast.certificates.target_boxes.jobs.TargetBoxResult`.
-        is_settled: Nothing is to be looked for here.
-        warning: Of targets of which no configuration was found.
+        tree: Bisection tree with the result.
+        pool: Pool of configurations from which the search began.
+        nodes: Number of examined cells.
+        open_fraction, proved_fraction: Fractions of the root that are not examined yet, and proved.
+        split_axes, refusal: Those of :class:`holdfast.certificates.target_boxes.jobs.TargetBoxResult`.
+        is_settled: True if this job does not search.
+        warning: Warning on targets without a configuration.
     """
 
     def __init__(
@@ -58,13 +58,13 @@ class TargetBoxSearch:
         self.reach, self.root, self.halvings = reach, root, np.broadcast_to(halvings, len(root))
         self.rng, self.tree, self.nodes = np.random.default_rng(seed), BisectionTree(), 0
         self.split_axes, self.refusal, self.warning, self.is_settled = tuple[int, ...](), "", "", False
-        self._centers = dict[int, IndexArray]()  # of each proved node, in units of 2^-24 rad
+        self._centers = dict[int, IndexArray]()  # center of each proved node, in units of 2^-24 rad
         self.width = root[:, 1] - root[:, 0]
         self.pool = ConfigurationPool(reach, root, self.rng, deadline)
         self.open_fraction = self.proved_fraction = 0.0
         self._open_cells: list[tuple[float, int, IndexArray, IndexArray, FloatArray, int]] = []
         self._abandoned_cells: list[CellBatch] = []
-        self._retry_goal: float | None = None  # what must be proved of the root by the end of such a second look
+        self._retry_goal: float | None = None  # fraction of the root that must be proved by the end of a retry
         start = self.pool.q[:1] if len(self.pool.q) else np.clip(np.zeros((1, reach.n)), *reach.limits.T)
         root_index = np.zeros((1, len(root)), dtype=np.int64)
         zeros = np.zeros(1, dtype=np.int64)
@@ -94,12 +94,12 @@ class TargetBoxSearch:
         """Search down to the smallest cells, the most promising first, until a monotonic time or a stop request.
 
         Args:
-            deadline: ``monotonic``.
-            should_stop: Asked before each batch of cells.
-            report_progress: Called after each batch of cells.
+            deadline: Monotonic time, s.
+            should_stop: Function that is called before each batch of cells.
+            report_progress: Function that is called after each batch of cells.
 
         Returns:
-            Whether nothing is left to do.
+            True if the search is complete.
         """
         if self.pool.pending_rounds:
             self.pool.sample_pending_targets((monotonic() + deadline) / 2)
@@ -115,10 +115,10 @@ class TargetBoxSearch:
         return not self._open_cells
 
     def _retry_abandoned(self, deadline: float) -> bool:
-        """Examine abandoned cells again, first a few and then all, as long as more than half of them is proved; return True if
-        any remain to be examined.
+        """Examine abandoned cells again, first a few and then all, as long as more than half of them is proved.
 
-        They cannot be proved, or all that was near them was bad: configurations are drawn for them alone.
+        Return True if any remain to be examined. Either they cannot be proved, or the configurations near them were bad, so
+        configurations are sampled for these cells alone.
         """
         cells = self.tree.merge_undecided_siblings(CellBatch.concatenate(self._abandoned_cells))
         order = self.rng.permutation(len(cells.name))
@@ -136,10 +136,10 @@ class TargetBoxSearch:
         return True
 
     def _enqueue_cells(self, cells: CellBatch, proved_fractions: FloatArray) -> None:
-        """Queue cells; ``proved_fractions`` (N,), by width, of the cells around them were proved by one configuration.
+        """Queue cells with the fractions (N,), by width, of the enclosing cells that one configuration proved.
 
-        A cell takes as many configurations as such parts fill it: what each of them proves is the same for cells of all
-        sizes where the arm is the same, so that smaller cells, which are nearer to being proved, come first by a little.
+        A cell needs as many configurations as such parts fill it. A configuration proves about the same part in cells of all
+        sizes, so smaller cells, which are closer to being proved, have a slightly higher priority.
         """
         self.open_fraction += cells.root_fraction
         axis_count, halvings = int((self.width > 0).sum()), cells.depth.sum(axis=1)
@@ -167,15 +167,15 @@ class TargetBoxSearch:
         self.tree.tokens[cells.name[is_proved]] = PROVED_TOKEN
         self._centers |= zip(cells.name[is_proved].tolist(), center_units[is_proved], strict=True)
         self.pool.add_configurations(center[is_proved], q[is_proved])
-        # Where no configuration comes nearer to the middle than the cell is wide, and none is known of another part of it, none
-        # is looked for in its parts.
+        # If no configuration comes closer to the middle than the width of the cell, and none is known for another part of it,
+        # its parts are not searched.
         distances, orientation_errors = self.reach.measure_pose_error(q, center[:, : self.reach.axes]).T
         extents = np.linalg.norm(half[:, : self.reach.linear], axis=1)
         extents = extents + half[:, self.reach.axes :].sum(axis=1) * self.reach.max_lock_displacement_rate
         is_unreachable = distances > 2 * extents
         is_unreachable |= orientation_errors > 2 * half[:, self.reach.linear :].sum(axis=1) + _ORIENTATION_SLACK_RAD
         is_unreachable[is_unreachable] = ~self.pool.has_configuration_nearby(center[is_unreachable], half[is_unreachable])
-        # Nor in small cells after nothing was proved of as many around each other as there are axes.
+        # Nor are small cells, if nothing was proved of as many consecutive enclosing cells as there are axes.
         barren = np.where(fractions > 0, 0, cells.barren + 1)
         is_small = cells.depth.sum(axis=1) >= _SMALL_CELL_FRACTION * self.halvings[has_width].sum()
         is_unreachable |= (barren >= has_width.sum()) & is_small
@@ -188,7 +188,7 @@ class TargetBoxSearch:
         self._enqueue_cells(self.tree.halve_cells(remaining, axis), np.repeat(fractions[split_rows], 2))
 
     def _try_pool(self, trials: _CellTrials) -> None:
-        """Try the configurations that prove most near each cell, and for weak cells also the nearest of the pool."""
+        """Try the configurations that prove most near each cell, and for weak cells also the nearest ones of the pool."""
         open_rows = np.flatnonzero(~trials.is_proved)
         best = self.pool.find_best_configurations(trials.center[open_rows])
         if len(best):
@@ -211,7 +211,7 @@ class TargetBoxSearch:
             self._replace_weaker_configurations(trials, open_rows, step_self_motion(self.reach, trials.q[open_rows], self.rng))
 
     def _replace_weaker_configurations(self, trials: _CellTrials, rows: IndexArray, initial: FloatArray) -> None:
-        """Replace the configurations of cells where other starting points prove more."""
+        """Replace the configurations of cells for which other starting points prove more."""
         minimum = np.minimum(trials.fractions[rows], _RECENTER_FRACTION)
         q, is_proved, fractions = self._test_configurations(initial, trials.center[rows], trials.half[rows], minimum)
         improved = is_proved | (fractions > trials.fractions[rows])
@@ -221,10 +221,9 @@ class TargetBoxSearch:
     def _test_configurations(
         self, q: FloatArray, center: FloatArray, half: FloatArray, minimum: FloatArray | None = None
     ) -> tuple[FloatArray, BoolArray, FloatArray]:
-        """Return rounded configurations near q (N, n), a mask of the cells that they prove, and the proved fractions of the
-        others, by width.
+        """Return rounded configurations near q (N, n), a mask of the cells that they prove, and the other proved fractions.
 
-        ``minimum`` (N,): Less than that is told to be that.
+        Fractions are by width. Fractions below ``minimum`` (N,) are reported as the minimum.
         """
         reach, targets = self.reach, center[:, : self.reach.axes]
 
@@ -241,7 +240,7 @@ class TargetBoxSearch:
             fractions[open_rows] = form.select(open_rows).find_provable_width_fraction(
                 half[open_rows], None if minimum is None else minimum[open_rows]
             )
-            # The error in the middle may cancel half of the curvature.
+            # The error at the middle can cancel half of the curvature.
             rows = open_rows[fractions[open_rows] > _RECENTER_FRACTION]
             form = form.select(rows)
             upper_error, lower_error, _ = form.bound_error_and_travel(half[rows], np.zeros((rows.size, reach.m)))
@@ -255,13 +254,13 @@ class TargetBoxSearch:
 
 @dataclass(eq=False)
 class _CellTrials:
-    """Cells, and what the best configuration that was tried proves of each.
+    """Batch of N cells with the best configurations that were tried.
 
     Attributes:
         center, half: (N, A) middles and half widths.
-        is_smallest: (N,) whether no axis may be halved.
-        q: (N, n) the configurations.
-        is_proved: (N,) whether they prove the cells.
+        is_smallest: (N,) True if no axis may be halved.
+        q: (N, n) configurations, rad and m.
+        is_proved: (N,) True if the configuration proves the cell.
         fractions: (N,) proved fractions, by width.
     """
 

@@ -1,1 +1,1 @@
-"""Paths of the tool that one continuous motion finishes after a lock at any instant: claims, search and proofs."""
+"""Tool paths that one continuous motion finishes after a lock at any instant, with claims, search and proofs."""

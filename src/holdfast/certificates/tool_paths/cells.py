@@ -1,4 +1,4 @@
-"""Slabs of lock instants, cells of the path behind them, and the enclosures in these cells."""
+"""Slabs of lock instants, cells of the path that follows them, and the enclosures in these cells."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 from holdfast.certificates.tree import RowBatch
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-SEGMENT_INSTANTS = 1 << 20  # instants to a segment
-PATH_CENTER_UNIT = 2.0**-28  # rad: centres are written in multiples of it, so that near singularities little is lost
-_MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # of cells, or a quarter of their slab
+SEGMENT_INSTANTS = 1 << 20  # instants in a segment
+PATH_CENTER_UNIT = 2.0**-28  # rad: unit of stored centres, fine enough that little is lost near singularities
+_MIN_CELL_INSTANTS = SEGMENT_INSTANTS >> 7  # least length of a cell, or a quarter of its slab if that is shorter
 
 
 @dataclass(frozen=True, eq=False)
 class PathCellBatch:
-    """N cells of slabs: lock instants and path intervals, in instants of a segment.
+    """Batch of N cells of slabs, with lock instants and path intervals in instants of a segment.
 
     Attributes:
-        begin, stop: (N,) the slab of lock instants, in one segment.
-        start, end: (N,) the cell of the path, in one segment; of one that is turned its middle, twice.
-        width: (N,) half widths of those along the tangent of the motion, in units of the file; 0: not turned.
+        begin, stop: (N,) ends of the slab of lock instants, in one segment.
+        start, end: (N,) ends of the cell of the path, in one segment; for a turned cell both are its middle.
+        width: (N,) half widths of turned cells along the tangent of the motion, in units of the file; 0 for other cells.
     """
 
     begin: IndexArray
@@ -40,16 +40,16 @@ class PathCellBatch:
 
 @dataclass(frozen=True, eq=False)
 class PathFormBatch(RowBatch):
-    """Enclosures in N cells, each with one column for each coordinate: lock, path, tube, section.
+    """Batch of enclosures in N cells, with columns for the coordinates lock, path, tube, and section.
 
     Attributes:
-        q: (N, n) centres, rad.
+        q: (N, n) centers, rad.
         place: (N,) middles on the path, in segments.
-        turned: (N,) whether the path is that along the tangent of the motion.
-        own: (N, m + 1, columns) how free joints, then the place on the path, follow the coordinates.
-        half: (N, columns) half widths of these, the section's as small as it may be.
-        only: (N, m) of the section box in which there is one solution.
-        good: (N,) whether that is shown, and within the limits.
+        turned: (N,) True if the path coordinate follows the tangent of the motion.
+        own: (N, m + 1, columns) derivatives of the free joints, then of the path position, by the coordinates.
+        half: (N, columns) half widths of the coordinates, for the section as small as possible.
+        only: (N, m) half widths of the section box that contains a single solution.
+        good: (N,) True if this is proved, and the motion is within the limits.
     """
 
     q: FloatArray
@@ -62,12 +62,12 @@ class PathFormBatch(RowBatch):
 
     @classmethod
     def make_zero_form(cls, n: int, m: int, coordinate_count: int) -> PathFormBatch:
-        """Make the empty form of one cell."""
+        """Make the form of one cell, filled with zeros."""
         flags, response = np.zeros(1, dtype=bool), np.zeros((1, m + 1, coordinate_count))
         return cls(np.zeros((1, n)), np.zeros(1), flags, response, response[:, 0], np.zeros((1, m)), flags)
 
     def replace_rows(self, rows: IndexArray, others: PathFormBatch) -> PathFormBatch:
-        """Return the forms with other forms in place of some rows."""
+        """Return the forms with some rows replaced by other forms."""
         order = np.arange(len(self.q))
         order[rows] = len(self.q) + np.arange(len(rows))
         return PathFormBatch.concatenate([self, others]).select(order)
@@ -75,16 +75,16 @@ class PathFormBatch(RowBatch):
 
 @dataclass
 class LockSlab:
-    """Lock instants from ``begin`` to ``stop``, with the cells found for them.
+    """Slab of lock instants from ``begin`` to ``stop``, with the cells found for them.
 
     Attributes:
         begin, stop: Instants in one segment.
-        halvings: That made it.
-        ends: Of its cells, in order; of one that is turned less its half width, in units of the file.
-        centers: (n,) of each, in units of the file; 0 of joints that are not free. Of a cell that is turned, or the next
-            one, that of the locked joint is the place on the path, in instants from the last knot.
-        step: Of the next cell.
-        last_form: In the last of its cells, while it waits.
+        halvings: Number of bisections that produced the slab.
+        ends: Ends of its cells in order; minus the half width, in units of the file, for a turned cell.
+        centers: (n,) center of each cell, in units of the file; 0 for joints that are not free. For a turned cell and the next
+            one, the entry of the locked joint is the path position, in instants from the last knot.
+        step: Step of the next cell.
+        last_form: Form of its last cell, while the slab waits.
     """
 
     begin: int
@@ -97,12 +97,12 @@ class LockSlab:
 
     @property
     def restarted_slab(self) -> LockSlab:
-        """The slab without cells, whose first cell is as long as the slab."""
+        """Slab without cells, whose first cell is as long as the slab."""
         return LockSlab(self.begin, self.stop, self.halvings, step=self.stop - self.begin)
 
     @property
     def halves(self) -> list[LockSlab]:
-        """The two halves of the slab."""
+        """Two halves of the slab."""
         middle = (self.begin + self.stop) // 2
         return [
             LockSlab(begin, stop, self.halvings + 1).restarted_slab
@@ -125,5 +125,5 @@ class LockSlab:
         return not self.ends or self.step <= max(1, min(_MIN_CELL_INSTANTS, (self.stop - self.begin) // 4))
 
     def lengthen_step(self) -> None:
-        """Lengthen the next step, at most to twice its length, so that cells are binary fractions of a segment."""
+        """Lengthen the next step, at most to twice its length, such that cells are binary fractions of a segment."""
         self.step = min(2 * self.step, self.at & -self.at, SEGMENT_INSTANTS)

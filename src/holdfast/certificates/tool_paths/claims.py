@@ -19,9 +19,9 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import FailureSpec, require_redundant, single_joints
 
 _MAX_SEGMENTS = 256
-_MAX_TUBE = 0.1  # m and rad, of a tube
-_MAX_JOINT_VALUE = 7.0  # rad and m, as the file counts them
-_INSTANT_STEP = SEGMENT_INSTANTS >> 6  # instants: ends of what is claimed are multiples of it
+_MAX_TUBE = 0.1  # m and rad
+_MAX_JOINT_VALUE = 7.0  # rad and m, a limit of the file format
+_INSTANT_STEP = SEGMENT_INSTANTS >> 6  # ends of a claimed interval are multiples of this number of instants
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,12 +30,13 @@ class PathClaim(Claim):
 
     Attributes:
         arm: The arm.
-        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
-        knots: (K + 1, n) rad and m, of the healthy motion, which is straight between them.
-        locks: Indices of the joints that may lock, one at a time, in order.
+        task: Components of the tool that follow the path: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``.
+        knots: (K + 1, n) configurations of the healthy motion, rad and m, connected by straight lines.
+        locks: Indices of the joints that may lock, one at a time, in ascending order.
         during: First and last instant of a lock, in units of 2^-20 of a segment.
-        tube: (2,) m and rad: within this of the path, any continuous one that begins on it is finished as well.
-        deviation: m, between the tool at configurations that were given and that of the straight segments, at most.
+        tube: (2,) distance, m, and angle, rad. Any continuous path that begins on the path and stays this close is finished,
+            too.
+        deviation: Largest distance, m, between the tool at the given configurations and on the straight segments.
     """
 
     kind: ClassVar[str] = "path"
@@ -64,32 +65,31 @@ def path_claim(
     task: str = "pose",
     segments: int | None = None,
 ) -> PathClaim:
-    """Make the claim that, for any single locked joint and any lock instant, one continuous motion finishes the path of the
-    tool.
+    """Make the claim that a continuous motion finishes the path of the tool after any single lock at any instant.
 
-    The locked joint stays where the healthy motion had it at that instant; the others begin where they are.
+    The locked joint stays at its value in the healthy motion at that instant, and the other joints begin at theirs.
 
     Args:
         arm: The arm.
-        motion: (K + 1, n) rad and m, configurations of the healthy arm one after the other, or what has such a ``q``, as a
-            :class:`holdfast.Trajectory`. Between them joints move along straight lines, and it is the path of the tool on that
-            motion which is finished.
-        failures: Which joints may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
-        during: From when to when a joint may lock, as parts of the motion, all of whose segments count alike; rounded outwards
-            to 1/64 of a segment.
-        tube: m, and rad as well where the task has rotations, or these two: any continuous path of the tool is finished that
-            begins on that of the motion and stays within this of it.
-        task: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``: what of the tool follows the path.
-        segments: Use so many, of equal numbers of steps of the motion as nearly as may be; default: all, at most 256.
+        motion: (K + 1, n) consecutive configurations of the healthy arm, rad and m, or an object with such a ``q``, for
+            example a :class:`holdfast.Trajectory`. The joints move along straight lines between them, and the claim is about
+            the tool path of this motion.
+        failures: Joints that may lock, one at a time: ``"single"``, or a list of joints by name or index from 0.
+        during: First and last instant of a lock as fractions of the motion, in which all segments count equally; rounded
+            outwards to 1/64 of a segment.
+        tube: Distance, m, also used as the angle, rad, for a task with rotations; or both numbers. Any continuous tool path
+            that begins on the path and stays this close is finished, too.
+        task: Components of the tool that follow the path: ``pose``, ``position``, ``pointing``, ``planar`` or ``planar-pose``.
+        segments: Number of segments to use, each with nearly the same number of steps. Default: all, at most 256.
 
     Raises:
-        InputError: A motion, interval or tube that makes no claim, a motion beyond the limits, or an arm that leaves the plane.
-        TaskError: An arm without redundancy, no failures, or failures of several joints at once.
+        InputError: The motion, interval or tube is invalid, the motion exceeds the limits, or the arm leaves the plane.
+        TaskError: The arm has no redundancy, or a failure does not have exactly one joint.
     """
     if task not in TASK_ROWS:
-        raise InputError(f"task is '{task}'; paths are of {', '.join(TASK_ROWS)}")
+        raise InputError(f"task is '{task}'; for a path it must be {', '.join(TASK_ROWS)}")
     if task == "pointing" and np.any(tube):
-        raise InputError("there is no tube around a pointing path; tube must be 0")
+        raise InputError(f"tube is {tube}; it must be 0 for a pointing path")
     if task == "planar-pose":
         require_planar(arm, "a planar pose is")
     locks = tuple(sorted(single_joints(arm, failures)))
@@ -103,8 +103,8 @@ def path_claim(
         )
     if np.abs(configurations).max() >= _MAX_JOINT_VALUE:
         raise InputError(
-            f"a joint of the motion is at {np.abs(configurations).max():.3g} rad or m; for certificates of paths "
-            f"{_MAX_JOINT_VALUE:g} is most"
+            f"a joint of the motion is at {np.abs(configurations).max():.3g} rad or m; for certificates of paths it must be "
+            f"{_MAX_JOINT_VALUE:g} or less"
         )
     outside = np.argwhere((configurations < arm.lower) | (configurations > arm.upper))
     if outside.size:
@@ -113,10 +113,10 @@ def path_claim(
     knots = configurations
     if segments is not None:
         if not 1 <= segments < len(configurations):
-            raise InputError(f"segments is {segments}; of this motion it may be 1 to {len(configurations) - 1}")
+            raise InputError(f"segments is {segments}; for this motion it must be from 1 to {len(configurations) - 1}")
         knots = configurations[np.round(np.linspace(0, len(configurations) - 1, segments + 1)).astype(int)]
     if len(knots) - 1 > _MAX_SEGMENTS:
-        raise InputError(f"{len(knots) - 1} segments are more than {_MAX_SEGMENTS}; give segments=50, say, to use fewer")
+        raise InputError(f"{len(knots) - 1} segments are more than {_MAX_SEGMENTS}; use fewer, for example segments=50")
     return PathClaim(
         arm=arm, task=task, knots=knots, locks=locks, during=_claimed_lock_instants(during, len(knots) - 1),
         tube=_parse_tube(tube), deviation=_measure_deviation(arm, configurations, knots),
@@ -126,7 +126,7 @@ def path_claim(
 def _claimed_lock_instants(during: Sequence[float], count: int) -> tuple[int, int]:
     """Return the first and last lock instant in units of the file."""
     if len(during) != 2 or not 0 <= during[0] < during[1] <= 1:
-        raise InputError("during must be two parts of the motion between 0 and 1, the earlier one first")
+        raise InputError("during must be two fractions of the motion between 0 and 1, the earlier one first")
     step_count = count * SEGMENT_INSTANTS // _INSTANT_STEP
     return int(np.floor(during[0] * step_count)) * _INSTANT_STEP, int(np.ceil(during[1] * step_count)) * _INSTANT_STEP
 

@@ -1,8 +1,8 @@
 """Enclosures of cells of lock instants and path: the cells that one configuration proves, and the continuation of one motion
 from cell to cell.
 
-The error of the locked arm is that of its tool from the tool of the healthy arm, so that both chains are expanded. Everything
-here is doubles and may be wrong: the verifier decides.
+The error of the locked arm is that of its tool relative to the tool of the healthy arm, so both chains are expanded. All
+numbers here are doubles without error bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -28,34 +28,34 @@ from holdfast.certificates.tree import RowBatch
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-_SECTION_ROUNDS = 30  # of the section box, each wider until it does
-_TIGHTENING_ROUNDS = 6  # then narrower
-_VERIFIER_MARGIN = 1.003  # of what the verifier must be able to show
-_MIN_SLACK = 1e-9  # likewise, m and rad
-_MIN_ROTATION_TRACE = 2.91  # of rotations, in the middle
-_MAX_ROTATION_CHANGE_RAD = 1.19  # of rotations, from there
-_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of boxes with one solution, tried one after the other
+_SECTION_ROUNDS = 30  # rounds that widen the section box until it suffices
+_TIGHTENING_ROUNDS = 6  # rounds that narrow it afterwards
+_VERIFIER_MARGIN = 1.003  # factor by which bounds must exceed those of the verifier
+_MIN_SLACK = 1e-9  # m and rad: least distance from the bounds of the verifier
+_MIN_ROTATION_TRACE = 2.91  # least trace of the remaining rotation at the middle
+_MAX_ROTATION_CHANGE_RAD = 1.19  # largest rotation from the middle
+_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # sizes of boxes with one solution, tried in this order
 _ENCLOSURE_NEWTON_STEPS = 6
 _NEWTON_TOLERANCE = 1e-10
-_SECTION_FRACTION = 0.4  # of a box with one solution: the part in which it is found, for the next cell to take it over
-_FIRST_STEP_INSTANTS = SEGMENT_INSTANTS >> 8  # of the look ahead
+_SECTION_FRACTION = 0.4  # fraction of a box with one solution that must contain it, so that the next cell can continue it
+_FIRST_STEP_INSTANTS = SEGMENT_INSTANTS >> 8  # first step of the look-ahead
 _MAX_STEP_INSTANTS = SEGMENT_INSTANTS >> 1
 _MIN_STEP_INSTANTS = SEGMENT_INSTANTS >> 14
 _TRACKING_TOLERANCE = 1e-6  # m and rad
 _MAX_JOINT_JUMP = 0.3  # rad and m
-_MAX_SECTION_SIZE = 10.0  # m and rad: no section box is so wide
+_MAX_SECTION_SIZE = 10.0  # m and rad: no valid section box is wider
 
 
 class LockedTrackingEnclosure:
     """Enclosure of a locked arm that tracks the tool of the healthy arm.
 
     Args:
-        chain: The arm.
-        knots: (K + 1, n) of the healthy motion, rad.
-        task: What of the tool follows.
-        driven: The locked joint, then those that go on with the healthy motion.
-        tube: (m,) half widths, m and rad; or none, (0,).
-        limits: (n, 2) rad and m.
+        chain: Kinematic chain of the arm.
+        knots: (K + 1, n) configurations of the healthy motion, rad.
+        task: Task, with the components of the tool that follow the path.
+        driven: Index of the locked joint, then those of the joints that continue the healthy motion.
+        tube: (m,) half widths of the tube, m and rad, or (0,) without a tube.
+        limits: (n, 2) joint limits, rad and m.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class LockedTrackingEnclosure:
 
     @classmethod
     def from_claim(cls, claim: PathClaim, driven: list[int], tube: FloatArray) -> LockedTrackingEnclosure:
-        """Enclose the arm of a claim on its motion."""
+        """Make the enclosure of the arm of a claim on its motion."""
         chain, limits = CertificateChain.from_arm(claim.arm), np.column_stack([claim.arm.lower, claim.arm.upper])
         return cls(chain, claim.knots, claim.task, driven=driven, tube=tube, limits=limits)
 
@@ -83,9 +83,7 @@ class LockedTrackingEnclosure:
     def healthy_joints_and_rates(
         self, doubled_instants: IndexArray, rate_instants: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return the joints of the healthy motion at half of ``doubled_instants``, and the rates over the segments that contain
-        ``rate_instants``.
-        """
+        """Return healthy joints at half of ``doubled_instants``, and the rates over the segments of ``rate_instants``."""
         segment = (rate_instants - 1) // SEGMENT_INSTANTS
         rates = self.knots[segment + 1] - self.knots[segment]
         return self.knots[segment] + rates * (doubled_instants / (2 * SEGMENT_INSTANTS) - segment)[:, None], rates
@@ -163,8 +161,9 @@ class LockedTrackingEnclosure:
     def _free_motion_response(
         self, gradients: FloatArray, lock_rate: FloatArray, path_rate: FloatArray, is_tangent: BoolArray
     ) -> FloatArray:
-        """Return how the free joints, then the path position, follow the coordinates (N, m + 1, columns), from gradients (N, m,
-        2n).
+        """Return the derivatives (N, m + 1, columns) of the free joints, then the path position, by the coordinates.
+
+        They follow from the gradients (N, m, 2n) of the error.
         """
         m, n, tube = self.m, self.n, len(self.tube)
         jacobian, drift = gradients[:, :, self.free], gradients[:, :, self.driven[0]] * lock_rate[:, self.driven[:1]]
@@ -178,7 +177,7 @@ class LockedTrackingEnclosure:
         if is_tangent.any():
             matrices = np.concatenate([jacobian, path_gradient[:, :, None]], axis=2)[is_tangent]
             tangent, pseudo_inverse = tangents_and_pseudo_inverses(matrices)
-            # On the diagonal motions begin as the healthy arm goes: so much of its rates is along the tangent.
+            # On the diagonal, motions begin with the healthy rates, of which this part is along the tangent.
             lock_speed = (tangent[:, :-1] * lock_rate[is_tangent][:, self.free]).sum(axis=1) + tangent[:, -1]
             drifts = np.einsum("nkm,nm->nk", pseudo_inverse, drift[is_tangent])
             response[is_tangent, :, 0] = tangent * lock_speed[:, None] - drifts
@@ -188,7 +187,7 @@ class LockedTrackingEnclosure:
     def continue_motion(
         self, is_first: BoolArray, previous: PathFormBatch, forms: PathFormBatch, cells: PathCellBatch
     ) -> BoolArray:
-        """Return a mask of valid cells whose solution is that of the previous cell, or of the lock instants for first cells."""
+        """Return a mask of valid cells whose solution continues that of the previous cell, or starts at the lock instants."""
         continues = self.continues_previous_solution(previous, forms)
         return np.asarray(forms.good & np.where(is_first, self.contains_lock_configurations(forms, cells), continues))
 
@@ -218,8 +217,9 @@ class LockedTrackingEnclosure:
     def _is_in_unique_box(
         self, point: FloatArray, offsets: FloatArray, forms: PathFormBatch, was_tangent: BoolArray
     ) -> BoolArray:
-        """Return a mask of cells whose unique box contains points (N, m + 1) with all offsets; ``was_tangent`` marks previous
-        tangent cells.
+        """Return a mask of cells whose unique box contains points (N, m + 1) with all offsets.
+
+        ``was_tangent`` marks cells whose previous cell was a tangent cell.
         """
         matrix = forms.own[:, :, [1, *range(-self.m, 0)]]
         centers = np.column_stack([forms.q[:, self.free], forms.place])
@@ -237,9 +237,7 @@ class LockedTrackingEnclosure:
     def step_along_tangent(
         self, q: FloatArray, path_position: FloatArray, segment_starts: IndexArray, distances: FloatArray
     ) -> tuple[FloatArray, IndexArray]:
-        """Step from configurations (N, n) at path positions by ``distances`` (N,) along the tangents of their motions, and
-        correct back onto the motions.
-        """
+        """Step from configurations (N, n) by ``distances`` (N,) along the tangents, and correct back onto the motions."""
         z, end, locked_values = np.column_stack([q, path_position]), segment_starts + SEGMENT_INSTANTS, q[:, self.driven[0]]
         for iteration in range(_ENCLOSURE_NEWTON_STEPS):
             goal, path_rate = self.healthy_joints_and_rates(np.rint(2 * SEGMENT_INSTANTS * z[:, -1]), end)
@@ -262,8 +260,9 @@ class LockedTrackingEnclosure:
         return z[:, :-1], np.rint(z[:, -1] * SEGMENT_INSTANTS).astype(np.int64)
 
     def can_finish_path(self, locks: IndexArray) -> BoolArray:
-        """Return a mask of lock instants (N,) from which Newton's method follows the path to its end within the limits; a
-        heuristic look-ahead.
+        """Return a mask of lock instants (N,) from which Newton's method follows the path to its end within the limits.
+
+        This is a heuristic look-ahead.
         """
         path_end = (len(self.knots) - 1) * SEGMENT_INSTANTS
         q, (lower, upper) = self.healthy_joints_and_rates(2 * locks, np.maximum(locks, 1))[0], self.limits.T
@@ -288,9 +287,7 @@ class LockedTrackingEnclosure:
     # ---- kinematics --------------------------------------------------------------------------------------------
 
     def tool_pose_and_jacobian(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return position and rotation of the tool, the axes that rotate it (N, n, 3), and the derivatives of its position by
-        the joints (N, n, 3).
-        """
+        """Return position and rotation of the tool, rotation axes (N, n, 3), and derivatives of the position (N, n, 3)."""
         count, sine, cosine = len(q), np.sin(q), np.cos(q)
         position, rotation = np.zeros((count, 3)), np.tile(np.eye(3), (count, 1, 1))
         axes, points = np.empty((2, count, self.n, 3))
@@ -326,7 +323,7 @@ class LockedTrackingEnclosure:
         return error[:, self._rows], jacobian[:, self._rows]
 
     def compute_rotation_trace(self, tool_state: tuple[FloatArray, ...], target: tuple[FloatArray, ...]) -> FloatArray:
-        """Return (N,) 1 + 2 cos of the angle between the tools and their targets."""
+        """Return the traces (N,), 1 + 2 cos(angle), of the rotations between the tools and their targets."""
         rotation, wanted = tool_state[1], np.broadcast_to(target[1], tool_state[1].shape)
         if self._pointing:
             return np.asarray(1 + 2 * np.einsum("ni,ni->n", rotation[:, :, 2], wanted[:, :, 2]))
@@ -348,7 +345,7 @@ class LockedTrackingEnclosure:
     ) -> FloatArray:
         """Return the second derivatives (N, m, c, c) of the error along the columns of ``directions``."""
         n, locked_moves, healthy_moves = self.n, directions[:, : self.n], directions[:, self.n :]
-        # Along a column, what joints before k turn moves the column of joint k; a sum over all pairs, each once.
+        # Joints before k rotate the column of joint k; the sum contains every pair once.
         second = directional_second_derivatives(tool_state[2], tool_state[3], locked_moves)
         second = second - directional_second_derivatives(target[2], target[3], healthy_moves)
         if self._pointing:
@@ -363,7 +360,7 @@ class LockedTrackingEnclosure:
             axes = np.concatenate([tool_state[2], -(rotation_error[:, None] @ target[2][..., None])[..., 0][:, ::-1]], axis=1)
             moves = np.concatenate([locked_moves, healthy_moves[:, ::-1]], axis=1)
             cumulative = np.cumsum(axes[:, :, None] * moves[..., None], axis=1)  # (N, 2n, c, 3)
-            midpoints = cumulative - axes[:, :, None] * moves[..., None] / 2  # a joint with itself counts half
+            midpoints = cumulative - axes[:, :, None] * moves[..., None] / 2  # a joint with itself has half the weight
             rotated = np.cross(axes[:, :, None, :], rotation_error.transpose(0, 2, 1)[:, None])  # rows: z x each column of off
             derivative_maps = axial_vector_jacobian(rotated.transpose(0, 1, 3, 2).reshape(-1, 3, 3)).reshape(
                 len(rotation_error), 2 * n, 3, 3
@@ -375,7 +372,7 @@ class LockedTrackingEnclosure:
     # ---- bounds ------------------------------------------------------------------------------------------------
 
     def _third_order_remainder(self, joint_travel: FloatArray, slide_extent: FloatArray) -> FloatArray:
-        """Return the (N, m) remainder after second order; ``slide_extent`` (N, 2n) is the extent of the slides."""
+        """Return the remainder (N, m) after second order; ``slide_extent`` (N, 2n) is that of the prismatic joints."""
         position_remainder, slide_range = np.zeros(len(joint_travel)), joint_travel * (1 - self._revolute)
         for joints in (slice(0, self.n), slice(self.n, None)):
             c = np.cumsum((joint_travel * self._revolute)[:, joints], axis=1)
@@ -385,14 +382,12 @@ class LockedTrackingEnclosure:
         return np.stack([position_remainder] * self._linear + [rotation_remainder] * (self.m - self._linear), axis=1)
 
     def _find_invariant_section_boxes(self, bounds: _CellBounds, half: FloatArray) -> tuple[BoolArray, FloatArray, FloatArray]:
-        """Find section boxes, stored in place in ``half``, that are mapped into themselves; return a mask, the joint travel,
-        and the rotation of the tool.
-        """
+        """Find section boxes that are mapped into themselves, store them in ``half``, and return mask, travel, and rotation."""
         count, s = len(half), half[:, -self.m :]
         closed, rows = np.zeros(count, dtype=bool), np.arange(count)
         joint_travel, angle = np.full((count, 2 * self.n), _MAX_SECTION_SIZE), np.full(count, _MAX_SECTION_SIZE)
         for iteration in range(_SECTION_ROUNDS + _TIGHTENING_ROUNDS):
-            if not rows.size and iteration < _SECTION_ROUNDS:  # each is closed, or never will be
+            if not rows.size and iteration < _SECTION_ROUNDS:  # every box is decided
                 continue
             rows = np.flatnonzero(closed) if iteration >= _SECTION_ROUNDS else rows
             excess, joint_travel[rows], angle[rows] = self._bound_error_and_motion(bounds.select(rows), half[rows])
@@ -441,8 +436,9 @@ class LockedTrackingEnclosure:
         return np.asarray((_VERIFIER_MARGIN * (gradients @ section_box[:, :, None])[:, :, 0] < 0.998 * section_box).all(axis=1))
 
     def _moves_forward(self, bounds: _CellBounds, half: FloatArray, response: FloatArray, overshoot: FloatArray) -> BoolArray:
-        """Return a mask of tangent cells that only go forward on the path and end within their segment, from ``overshoot`` (N,)
-        of its end.
+        """Return a mask of tangent cells that only move forward on the path and end within their segment.
+
+        ``overshoot`` (N,) is measured from the end of the segment.
         """
         gradients = self._bound_residual_gradients(bounds, half)
         section_rates = solve_regularized(np.eye(self.m) - gradients[:, :, 1:], gradients[:, :, :1])[:, :, 0]
@@ -454,7 +450,7 @@ class LockedTrackingEnclosure:
 
 @dataclass(frozen=True, eq=False)
 class _CellBounds(RowBatch):
-    """Bounds of cells: errors, response, gradient residual and second derivatives (magnitudes), curvature, slide extents."""
+    """Bounds of cells: errors, response, gradient residual, magnitudes of second derivatives, curvature, slide extents."""
 
     error: FloatArray
     reach: FloatArray

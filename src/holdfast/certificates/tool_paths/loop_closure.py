@@ -1,9 +1,10 @@
 """Exclusion of lock instants after which no configuration has the tool at a later path position, by closed loops over boxes of
 joints.
 
-With the tool given, base, joints, tool and base again are a ring. Two points of links are as far from each other by the joints
-between them as by the others, on the way round; points on axes make these distances depend on few joints: of an arm with a
-spherical shoulder and wrist, that of the two on the elbow alone. Everything here may be wrong: the verifier decides.
+With a given tool pose, base, joints and tool form a closed loop. The distance between two points of links through the joints
+between them equals that through the tool and the base. Points on axes make these distances depend on few joints. For an arm
+with a spherical shoulder and wrist, the distance of their centers depends only on the elbow. The numbers here have no error
+bounds; the verifier decides.
 """
 
 from __future__ import annotations
@@ -21,14 +22,14 @@ from holdfast.certificates.tool_paths.claims import PathClaim
 from holdfast.certificates.tool_paths.forms import LockedTrackingEnclosure
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-Point = tuple[int, FloatArray]  # link, and where in its frame, m
+Point = tuple[int, FloatArray]  # link, and position in its frame, m
 
 _MAX_PAIRS = 12  # pairs of points
-_MAX_SIMILAR_PAIRS = 2  # of those whose distances depend on the same joints
+_MAX_SIMILAR_PAIRS = 2  # pairs whose distances depend on the same joints
 _MAX_TREE_NODES = 4000  # boxes of a tree
-_MAX_HALVINGS = 16  # of each joint
-_PATH_SAMPLES = 8  # on the path, where the tool is looked for
-# _RANDOM_STARTS, _NEWTON_STEPS and _TARGET_TOLERANCE: of Newton's method; m and rad
+_MAX_HALVINGS = 16  # bisections of each joint
+_PATH_SAMPLES = 8  # path positions at which configurations are searched
+# Random starts, steps and tolerance (m and rad) of Newton's method.
 _RANDOM_STARTS = 40
 _NEWTON_STEPS = 25
 _TARGET_TOLERANCE = 1e-8
@@ -37,12 +38,12 @@ _RANDOM_SEED = 15
 
 @dataclass(frozen=True, eq=False)
 class RefutedInterval:
-    """A refuted interval of lock instants.
+    """Refuted interval of lock instants.
 
     Attributes:
-        begin, stop: From when to when, in one segment.
-        path_instant: Where on the path, as an instant, no configuration has the tool.
-        tree: Of boxes of the joints, each with the pair of points that excludes it.
+        begin, stop: First and last instant, in one segment.
+        path_instant: Instant of the path at which no configuration has the tool pose.
+        tree: Tree of boxes of the joints, each with the pair of points that excludes it.
     """
 
     begin: int
@@ -53,13 +54,13 @@ class RefutedInterval:
 
 @dataclass(frozen=True, eq=False)
 class _LoopBranch:
-    """A branch of a loop: from one point to another through some joints.
+    """Branch of a loop from one point to another through some joints.
 
     Attributes:
-        segment: The joints, and the point behind them.
-        joints: Which of the arm's.
-        start: (3,) m, the point before them.
-        moves: Which of them move one away from the other.
+        segment: Joints of the branch, and the point behind them.
+        joints: Indices of these joints in the arm.
+        start: (3,) point before them, m.
+        moves: Flags of the joints that change the distance of the points.
     """
 
     segment: ChainSegment
@@ -69,16 +70,14 @@ class _LoopBranch:
 
     @classmethod
     def from_loop(cls, loop: CertificateChain, first: int, last: int, start: FloatArray, end: FloatArray) -> _LoopBranch:
-        """Cut successive joints out of a loop."""
+        """Make a branch of successive joints of a loop."""
         segment, joints = ChainSegment.from_chain(loop, first, last, end), np.arange(first, last) % (len(loop.lengths) // 2)
         return cls(segment, joints, start, np.arange(last - first) >= segment.count_leading_axes_through(start))
 
     def bound_distance(
         self, middle: FloatArray, half: FloatArray, from_above: bool
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Bound the least or greatest distance over boxes of all joints; return the bound, the distance of the middles, and
-        each joint's cost (N, n).
-        """
+        """Return a bound of the least or greatest distance over boxes, the distance of the middles, and joint costs (N, n)."""
         count, joint_costs = len(middle), np.zeros(middle.shape)
         if not len(self.joints):
             distance = np.full(count, np.linalg.norm(self.segment.end - self.start))
@@ -94,12 +93,12 @@ class _LoopBranch:
 
 
 class LoopClosureExclusion:
-    """The search for refuted lock instants of one joint.
+    """Search for refuted lock instants of one joint.
 
     Args:
-        enclosure: The arm with this joint locked, all others free.
-        uses_rotation: Whether the rotation of the tool is given as well.
-        planar: Whether all of it happens in the plane.
+        enclosure: Enclosure of the arm with this joint locked and all others free.
+        uses_rotation: True if the tool pose includes the rotation.
+        planar: True if the arm moves in the plane.
     """
 
     def __init__(self, enclosure: LockedTrackingEnclosure, uses_rotation: bool, planar: bool) -> None:
@@ -139,9 +138,7 @@ class LoopClosureExclusion:
         return points, pairs
 
     def _split_loop(self, path_instant: int, points: list[Point], pair: tuple[int, int]) -> tuple[_LoopBranch, _LoopBranch]:
-        """Return the branch of the joints between two points, and the branch through the tool, which is fixed at a path
-        instant.
-        """
+        """Return the branches between two points, by the joints between them and by the tool, fixed at a path instant."""
         chain, n, ((first, a), (last, b)) = self._chain, self._enclosure.n, (points[index] for index in pair)
         q, _ = self._enclosure.healthy_joints_and_rates(np.array([2 * path_instant]), np.array([path_instant]))
         position, rotation = (values[0] for values in self._enclosure.tool_pose_and_jacobian(q)[:2])
@@ -154,8 +151,9 @@ class LoopClosureExclusion:
         return _LoopBranch.from_loop(loop, first, last, a, b), _LoopBranch.from_loop(loop, last, n + first, b, end)
 
     def refute_lock_interval(self, begin: int, stop: int) -> tuple[RefutedInterval | None, bool, int]:
-        """Try to refute the lock instants of one segment; return the interval or None, whether parts of it may be refuted, and
-        the number of examined boxes.
+        """Try to refute lock instants of one segment.
+
+        Return the interval or None, whether parts of it may be refuted, and the number of examined boxes.
         """
         locks, may_split = np.array([begin, (begin + stop) // 2, stop]), False
         next_knot = -(-stop // SEGMENT_INSTANTS) * SEGMENT_INSTANTS
@@ -174,9 +172,7 @@ class LoopClosureExclusion:
         return None, may_split, 0
 
     def _has_reaching_configuration(self, locks: IndexArray, path_instant: int) -> BoolArray:
-        """Return a mask of locks for which Newton's method finds configurations within the limits with the tool at a path
-        instant.
-        """
+        """Return a mask of locks for which Newton's method finds a configuration with the tool at a path instant."""
         enclosure, (lower, upper), count = self._enclosure, self._limits.T, len(locks)
         lock_q, goal_q = (
             enclosure.healthy_joints_and_rates(2 * instants, np.maximum(instants, 1))[0]
@@ -192,7 +188,7 @@ class LoopClosureExclusion:
             transposed = free_jacobian.transpose(0, 2, 1)
             gram = free_jacobian @ transposed + 1e-9 * np.eye(enclosure.m)
             q[:, enclosure.free] -= np.clip((transposed @ np.linalg.solve(gram, error[:, :, None]))[:, :, 0], -0.4, 0.4)
-        # Nearest to the middles of the limits, of all that are the same.
+        # Of all equivalent configurations, the one nearest to the middles of the limits.
         turns = [joint in enclosure.free for joint in range(enclosure.n)] & ~enclosure.slides
         q -= 2 * np.pi * np.round((q - (lower + upper) / 2) / (2 * np.pi)) * turns
         tool_state = enclosure.tool_pose_and_jacobian(q)
@@ -204,9 +200,7 @@ class LoopClosureExclusion:
         return np.asarray(is_solved.reshape(count, -1).any(axis=1))
 
     def _bisect_joint_ranges(self, begin: int, stop: int, path_instant: int) -> tuple[BoxBisection, bool]:
-        """Bisect the ranges of all joints, the locked one between two instants; return the bisection and whether each box is
-        excluded.
-        """
+        """Bisect the ranges of all joints, of the locked one between two instants; also return whether all are excluded."""
         box = self._limits.copy()
         box[self._joint] = np.sort(
             self._enclosure.healthy_joints_and_rates(np.array([2 * begin, 2 * stop]), np.array([stop]))[0][:, self._joint]
@@ -217,9 +211,7 @@ class LoopClosureExclusion:
 
 
 def make_loop_closure_exclusion(claim: PathClaim, joint: int) -> LoopClosureExclusion | None:
-    """Make the loop closure test for a joint; None for an arm with unlimited slides, or one that leaves the plane
-    of its task.
-    """
+    """Make the loop closure test; None for an arm with unlimited prismatic joints or one that leaves the plane of its task."""
     enclosure = LockedTrackingEnclosure.from_claim(claim, [joint], np.empty(0))
     chain, planar = enclosure.chain, claim.task.startswith("planar")
     in_plane = not chain.slides.any() and (np.abs(chain.rotations[:, 2, 2]) == 1).all()

@@ -1,4 +1,4 @@
-"""March through slabs of lock instants: cells from the lock to the end of the path, in which one motion continues."""
+"""March through slabs of lock instants by cells from the lock to the end of the path, in which one motion continues."""
 
 from __future__ import annotations
 
@@ -15,19 +15,17 @@ from holdfast.certificates.tool_paths.loop_closure import LoopClosureExclusion, 
 from holdfast.certificates.tree import SearchState
 from holdfast.core.typing import IndexArray
 
-TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centres, and what is found in the last cell
+TangentPassage = tuple[list[int], list[IndexArray], PathFormBatch]  # ends, centers, and form of the last cell
 
-MIN_SINGULAR_HALVINGS = 2  # halvings of a slab before its cells are turned
-_MAX_TANGENT_CELLS = 24  # cells in a row
-_CENTER_STEP = 0.8  # the middle of one, in half widths ahead
-_HALF_WIDTHS = 0.5 * 0.5 ** np.arange(16)  # half widths
-_MAX_ACTIVE_SLABS = 64  # slabs that march side by side
+MIN_SINGULAR_HALVINGS = 2  # bisections of a slab before its cells are turned
+_MAX_TANGENT_CELLS = 24  # consecutive turned cells
+_CENTER_STEP = 0.8  # distance to the middle of the next turned cell, in half widths
+_HALF_WIDTHS = 0.5 * 0.5 ** np.arange(16)  # half widths that are tried
+_MAX_ACTIVE_SLABS = 64  # slabs that march in parallel
 
 
 def march_through_singularity(enclosure: LockedTrackingEnclosure, slabs: Sequence[LockSlab]) -> list[TangentPassage | None]:
-    """March slabs through a singularity by tangent cells and one plain cell behind them; None for a slab without such a
-    passage.
-    """
+    """March slabs through a singularity by tangent cells and one plain cell after them; None for a slab without a passage."""
     passages: list[TangentPassage | None] = [None] * len(slabs)
     if not slabs:
         return passages
@@ -77,7 +75,7 @@ def _find_nontangent_cells(
     segment_starts: IndexArray,
     previous: PathFormBatch,
 ) -> list[tuple[PathFormBatch, int, int] | None]:
-    """Return the longest plain cells behind tangent cells, with their starts and ends; None where there is none."""
+    """Return the longest plain cells after tangent cells, with their starts and ends; None if there is none."""
     q, path_position = enclosure.cell_end_configurations(previous)
     response, half = np.abs(previous.own[:, -1]), previous.half
     spread = response[:, 0] * half[:, 0] + (response[:, 2:] * half[:, 2:]).sum(axis=1)
@@ -111,21 +109,21 @@ def _encode_center(enclosure: LockedTrackingEnclosure, q: NDArray[np.float64], i
 
 
 class LockSlabSearch:
-    """The search for one lock.
+    """Search for proofs of the slabs of one lock.
 
     Args:
-        enclosure: The locked arm and the path.
-        slabs: Of lock instants.
-        halvings: Of slabs, at most.
-        max_nodes: Cells that are looked at before no more slabs begin.
-        exclusion: What refutes slabs that lead nowhere; None: nothing does.
-        claimed_instants: Instants of the claim, of which the state tells fractions.
+        enclosure: Enclosure of the locked arm on the path.
+        slabs: Slabs of lock instants.
+        halvings: Largest number of bisections of a slab.
+        max_nodes: Number of examined cells after which no further slab begins.
+        exclusion: Test that refutes slabs without a motion; None for no test.
+        claimed_instants: Number of instants in the claim, to which the fractions of the state refer.
 
     Attributes:
-        proved: Slabs, in no order.
-        refuted: Refuted ones, in no order.
-        nodes: Cells and boxes that were looked at.
-        closed_instants: Instants of slabs that are done with.
+        proved: Proved slabs, not sorted.
+        refuted: Refuted slabs, not sorted.
+        nodes: Number of examined cells and boxes.
+        closed_instants: Number of instants in finished slabs.
     """
 
     def __init__(
@@ -150,7 +148,7 @@ class LockSlabSearch:
         while monotonic() < deadline and not should_stop():
             if self.nodes < self._max_nodes:
                 self._activate_slabs()
-            if self._hopeless:  # it takes little
+            if self._hopeless:  # this takes little time
                 self._refute_or_halve_slab(self._hopeless.pop())
             elif self._active:
                 self._try_next_cells()
@@ -189,7 +187,7 @@ class LockSlabSearch:
             slab.last_form = None
 
     def _try_next_cells(self) -> None:
-        """Try the next cell of each active slab: accept it, halve its length, or give the slab up."""
+        """Try the next cell of each active slab, and accept it, halve its length, or abandon the slab."""
         enclosure, slabs, previous = self.enclosure, self._active, self._previous
         begin, stop, start, end = (np.array([getattr(slab, key) for slab in slabs]) for key in ("begin", "stop", "at", "next"))
         cells = PathCellBatch(begin, stop, start, end, np.zeros(len(slabs), dtype=np.int64))
@@ -228,7 +226,7 @@ class LockSlabSearch:
         self.closed_instants += slab.stop - slab.begin
 
     def _pass_singularities(self, slabs: list[LockSlab]) -> list[LockSlab]:
-        """March slabs through singularities by tangent cells and one plain cell; return the slabs for which that fails."""
+        """March slabs through singularities by tangent cells and one plain cell; return the slabs that fail."""
         enclosure = self.enclosure
         candidates = [] if len(enclosure.tube) else [slab for slab in slabs if slab.halvings >= MIN_SINGULAR_HALVINGS]
         for slab, passage in zip(candidates, march_through_singularity(enclosure, candidates), strict=True):
@@ -248,7 +246,7 @@ class LockSlabSearch:
         return slabs
 
     def _pass_or_split_failed(self) -> None:
-        """March failed slabs on through tangent cells, or split them, if single lock instants can be followed to the end."""
+        """Continue failed slabs by tangent cells, or split them, if single lock instants can be followed to the end."""
         slabs, self._failed = self._failed, []
         locks = np.array([(slab.begin, (slab.begin + slab.stop) // 2, slab.stop) for slab in slabs])
         finishes = np.asarray(self.enclosure.can_finish_path(locks.ravel())).reshape(-1, 3)
@@ -265,7 +263,7 @@ class LockSlabSearch:
                 self._waiting += slab.halves
 
     def _refute_or_halve_slab(self, slab: LockSlab) -> None:
-        """Refute a slab from no examined instant of which a motion was found, or queue its halves."""
+        """Refute a slab without a motion from any examined instant, or queue its halves."""
         interval, may_split, nodes = (
             (None, False, 0) if self._exclusion is None else self._exclusion.refute_lock_interval(slab.begin, slab.stop)
         )

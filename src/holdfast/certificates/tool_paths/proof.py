@@ -1,4 +1,4 @@
-"""Proofs that the path of a tool is finished after a lock."""
+"""Search for proofs that the path of a tool is finished after a lock."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from holdfast.certificates.tree import SearchState
 from holdfast.certificates.verifier_parts import paths
 from holdfast.core.sweeps.memory import Parts
 
-_CELLS_PER_JOB = 1 << 12  # cells that a job looks at
-_MAX_CHILD_JOBS = 8  # jobs that it leaves
+_CELLS_PER_JOB = 1 << 12  # cells that a job examines
+_MAX_CHILD_JOBS = 8  # jobs to which it defers the rest
 Span = tuple[int, int]
 
 
@@ -35,9 +35,9 @@ class ToolPathResult(JobResult):
     """Result of a tool path job.
 
     Attributes:
-        slabs: Intervals of lock instants that are proved, in order, each with its cells.
-        refuted_intervals: Those that are refuted, in order.
-        deferred: Those that are left to other jobs.
+        slabs: Proved intervals of lock instants in order, each with its cells.
+        refuted_intervals: Refuted intervals of lock instants in order.
+        deferred: Intervals of lock instants that are deferred to other jobs.
     """
 
     slabs: tuple[LockSlab, ...] = ()
@@ -45,7 +45,7 @@ class ToolPathResult(JobResult):
     deferred: tuple[LockSlab, ...] = ()
 
     def to_arrays(self) -> Parts:
-        """Return the result as arrays for the search memory; a slab without cells is a deferred one."""
+        """Return the result as arrays for the search memory, in which a slab without cells is deferred."""
         slabs = [
             (slab.begin, slab.stop, slab.halvings, slab.ends, np.array(slab.centers).tolist())
             for slab in (*self.slabs, *self.deferred)
@@ -68,16 +68,16 @@ class ToolPathResult(JobResult):
 
 @dataclass(frozen=True, eq=False)
 class ToolPathJob(SearchJob):
-    """The march through some slabs of one lock, to all instants of which its states refer.
+    """Job that marches through some slabs of one lock; its states refer to all instants of this lock.
 
     Attributes:
         claim: The claim.
-        joint: The one that locks.
-        followers: Joints that go on with the healthy motion.
-        halvings: Of slabs, at most.
-        slabs: Which.
-        max_cells: Cells that it looks at, and each of those that it leaves some to.
-        name: For a memory.
+        joint: Index of the joint that locks.
+        followers: Indices of the joints that continue the healthy motion.
+        halvings: Largest number of bisections of a slab.
+        slabs: Slabs through which this job marches.
+        max_cells: Number of cells that this job and each of its child jobs examine.
+        name: Name in the search memory.
     """
 
     result_type = ToolPathResult
@@ -144,9 +144,9 @@ class LockedPath(ToolPathResult):
     """Result of the search for the lock of one joint.
 
     Attributes:
-        joint: Index of it.
-        followers: Of joints that go on with the healthy motion, as more are left than the task has rows.
-        proved, refuted: Exact fractions of the lock instants.
+        joint: Index of the locked joint.
+        followers: Indices of the joints that continue the healthy motion because the task has fewer rows than free joints.
+        proved, refuted: Exact proved and refuted fractions of the lock instants.
     """
 
     joint: int
@@ -171,19 +171,19 @@ class LockedPath(ToolPathResult):
 
     @property
     def leaves(self) -> int:
-        """Number of cells of proved slabs and of joint boxes that refute others."""
+        """Number of cells of proved slabs and of joint boxes that refute other slabs."""
         joint_boxes = sum(1 + len(interval.tree) for interval in self.refuted_intervals) // 2
         return sum(len(slab.ends) for slab in self.slabs) + joint_boxes
 
 
 @dataclass(frozen=True, kw_only=True)
 class PathProof(CompositeResult):
-    """Result of the search for motions. It is not verified: :func:`check_certificate` does that.
+    """Result of the prover for a path claim, which is not verified until :func:`check_certificate` checks it.
 
     Attributes:
-        claim: What was asked.
-        parts: Of each lock, in the order of the claim.
-        document: The certificate, as its file holds it.
+        claim: Claim that was searched.
+        parts: Results for each lock, in the order of the claim.
+        document: The certificate in the form of its file.
     """
 
     claim: PathClaim
@@ -197,7 +197,7 @@ class PathProof(CompositeResult):
 
     @property
     def refuted(self) -> Fraction:
-        """Exact fraction of the lock instants after which nothing finishes the path, for the lock with the largest one."""
+        """Exact fraction of the lock instants after which no motion finishes the path, for the lock with the largest one."""
         return max(part.refuted for part in self.parts)
 
     @property
@@ -207,19 +207,19 @@ class PathProof(CompositeResult):
 
     @property
     def tolerant(self) -> Fraction:
-        """Exact fraction of the lock instants that is proved for every single lock."""
+        """Exact fraction of the lock instants at which all locks are proved."""
         unproved_spans = [
             gap for part in self.parts for gap in paths.find_uncovered_intervals(part.proved_lock_intervals, self.document)
         ]
         return 1 - paths.measure_coverage(unproved_spans, self.document)
 
     def gaps(self, part: LockedPath) -> list[Span]:
-        """Return the undecided intervals of lock instants."""
+        """Return the undecided intervals of lock instants of ``part``, in units of 2^-20 of a segment."""
         return paths.find_uncovered_intervals(part.proved_lock_intervals + part.refuted_lock_intervals, self.document)
 
 
 def prove_path(claim: PathClaim, halvings: int, budget: SearchBudget) -> PathProof:
-    """Prove as much of a claim as possible."""
+    """Prove as much of a path claim as possible."""
     jobs = [ToolPathJob.for_lock(claim, joint, _choose_followers(claim, joint), halvings) for joint in claim.locks]
 
     def measure(intervals: Sequence[LockSlab | RefutedInterval]) -> Fraction:
@@ -250,7 +250,7 @@ def _build_document(claim: PathClaim, parts: Sequence[LockedPath]) -> documents.
         cells = documents.compress_bytes(np.array(numbers, "<i8").tobytes())
         locks.append(lock | {"cells": cells, "centres": documents.compress_bytes(centers.tobytes())})
     points, pairs = list[Any](), list[Any]()
-    if refuted_joints := [part.joint for part in parts if part.refuted_intervals]:  # the points of all locks are the same
+    if refuted_joints := [part.joint for part in parts if part.refuted_intervals]:  # all locks use the same points
         exclusion = make_loop_closure_exclusion(claim, refuted_joints[0])
         assert exclusion is not None
         points = [{"link": link, "place": documents.encode_floats(position)} for link, position in exclusion.points]
@@ -262,15 +262,13 @@ def _build_document(claim: PathClaim, parts: Sequence[LockedPath]) -> documents.
 
 
 def _choose_followers(claim: PathClaim, joint: int) -> tuple[int, ...]:
-    """Choose the joints that continue the healthy motion after a lock, so that the other joints stay farthest from singular on
-    it.
-    """
+    """Choose the joints that continue the healthy motion, so that the other joints stay farthest from singularities on it."""
     task_rows = TASK_ROWS[claim.task]
     others = [other for other in range(claim.arm.n) if other != joint]
     if len(others) == len(task_rows):
         return ()
     jacobians = claim.arm.jacobian(claim.knots)
-    if claim.task == "pointing":  # turns about the tool's own axes
+    if claim.task == "pointing":  # rotations about the tool's axes
         rotations = claim.arm.forward_kinematics(claim.knots)[:, :3, :3]
         jacobians = np.concatenate([jacobians[:, :3], rotations.transpose(0, 2, 1) @ jacobians[:, 3:]], axis=1)
     jacobians = jacobians[:, task_rows]

@@ -8,16 +8,14 @@ from holdfast.core.typing import FloatArray
 
 
 def tangents_and_pseudo_inverses(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return unit vectors (N, m + 1) in the null space of matrices (N, m, m + 1), with positive last number, and
-    pseudo-inverses.
-    """
+    """Return unit null vectors (N, m + 1), with positive last entry, and pseudo-inverses of matrices (N, m, m + 1)."""
     u, sizes, v = np.linalg.svd(matrices)
     tangent, pseudo_inverse = v[:, -1], v[:, :-1].transpose(0, 2, 1) / np.maximum(sizes, 1e-14)[:, None] @ u.transpose(0, 2, 1)
     return np.asarray(tangent * np.where(tangent[:, -1:] < 0, -1.0, 1.0)), np.asarray(pseudo_inverse)
 
 
 def directional_second_derivatives(axes: FloatArray, columns: FloatArray, moves: FloatArray) -> FloatArray:
-    """Return the (N, 3, c, c) second derivatives of a position along the columns of moves (N, n, c)."""
+    """Return the second derivatives (N, 3, c, c) of a position along the columns of moves (N, n, c)."""
     steps = axes[:, :, None] * moves[..., None]
     midpoints = np.cumsum(steps, axis=1) - steps / 2
     half_terms = np.cross(midpoints[:, :, :, None], (columns[:, :, None] * moves[..., None])[:, :, None]).sum(axis=1)
@@ -25,17 +23,17 @@ def directional_second_derivatives(axes: FloatArray, columns: FloatArray, moves:
 
 
 def transverse_axes(target: tuple[FloatArray, ...]) -> FloatArray:
-    """Return (N, 2, 3) unit vectors perpendicular to the target axis."""
+    """Return unit vectors (N, 2, 3) perpendicular to the target axis."""
     return np.asarray(target[1][:, :, :2].transpose(0, 2, 1))
 
 
 def axis_jacobian(tool_state: tuple[FloatArray, ...]) -> FloatArray:
-    """Return the (N, 3, n) Jacobian of the tool's axis by the joints."""
+    """Return the Jacobian (N, 3, n) of the tool's axis by the joints."""
     return np.asarray(np.cross(tool_state[2], tool_state[1][:, None, :, 2]).transpose(0, 2, 1))
 
 
 def axial_vector(rotation: FloatArray) -> FloatArray:
-    """Return the (N, 3) axial vectors of rotations."""
+    """Return the axial vectors (N, 3) of rotations."""
     doubled = np.stack(
         [rotation[:, 2, 1] - rotation[:, 1, 2], rotation[:, 0, 2] - rotation[:, 2, 0], rotation[:, 1, 0] - rotation[:, 0, 1]],
         axis=1,
@@ -44,7 +42,7 @@ def axial_vector(rotation: FloatArray) -> FloatArray:
 
 
 def axial_vector_jacobian(rotation: FloatArray) -> FloatArray:
-    """Return the (N, 3, 3) maps from a to the axial vector of [a] R."""
+    """Return the maps (N, 3, 3) from a to the axial vector of [a] R."""
     return np.asarray((np.trace(rotation, axis1=1, axis2=2)[:, None, None] * np.eye(3) - rotation) / 2)
 
 

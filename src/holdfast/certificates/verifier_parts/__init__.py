@@ -1,3 +1,3 @@
-"""Parts of the verifier; they need the standard library, NumPy and python-flint only, and run without holdfast next to
+"""Parts of the verifier, which need only the standard library, NumPy and python-flint, and run without holdfast next to
 ``verifier.py``.
 """

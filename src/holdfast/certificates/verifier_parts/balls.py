@@ -1,4 +1,4 @@
-"""Arrays of balls: true numbers enclosed by doubles with error radii."""
+"""Arrays of balls, which enclose true numbers by doubles with error radii."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 
 try:
     import flint as flint
-except ImportError:  # told when a file is to be checked: the sentence of a claim needs no balls
+except ImportError:  # reported when a file is checked; the sentence of a claim needs no balls
     flint = None
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# ROUND_UP and MIN_ROUNDING: a sum of hundreds of products of non-negative doubles, times UP plus LEAST, is rounded up
+# A sum of hundreds of products of non-negative doubles, times ROUND_UP plus MIN_ROUNDING, is an upper bound.
 ROUND_UP = 1 + 1e-12
 MIN_ROUNDING = 1e-300
 
 
 class BallArray:
-    """An array of true numbers, each within ``radius`` of ``center``."""
+    """Array of true numbers, each within ``radius`` of ``center``."""
 
     def __init__(self, center: Any, radius: Any = 0.0) -> None:
         self.center: Array = np.asarray(center, dtype=np.float64)
@@ -70,7 +70,7 @@ def as_balls(x: BallArray | Array) -> BallArray:
 
 
 def einsum(subscripts: str, a: BallArray | Array, b: BallArray | Array) -> BallArray:
-    """Multiply arrays as ``einsum`` does, with sums of at most 64 terms, so that the error is below 65 roundings."""
+    """Multiply arrays like ``numpy.einsum``, with sums of at most 64 terms, so that the error is below 65 roundings."""
     a, b = as_balls(a), as_balls(b)
     radius = np.einsum(subscripts, abs(a.center), b.radius * ROUND_UP + 2.0**-46 * abs(b.center))
     if a.radius.any():
@@ -79,7 +79,7 @@ def einsum(subscripts: str, a: BallArray | Array, b: BallArray | Array) -> BallA
 
 
 def cross_matrix(a: BallArray) -> BallArray:
-    """Return the matrices (..., 3, 3) that take b to a x b."""
+    """Return the matrices (..., 3, 3) that map b to a x b."""
     arrays = [np.zeros((*a.center.shape, 3)) for _ in range(2)]
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3

@@ -1,11 +1,11 @@
 """Verification of the leaves of upper and lower bounds of relative manipulability.
 
 With the moments a_l of any wrench about the axes, relative manipulability after a lock of joint k is at most
-sqrt(A / (A + a_k^2)), A the sum of the other a_l^2. In each leaf of a ceiling a wrench that is affine in the joints shows this
-of some k. As its axes are seen from a link in the middle of the arm, first and last joint count nothing.
+sqrt(A / (A + a_k^2)), where A is the sum of the other a_l^2. In each leaf of a ceiling, a wrench that is affine in the joints
+proves this for some k. The axes are expressed in the frame of a middle link, so the first and the last joint do not matter.
 
-A floor has a motion x of the joints in each leaf, x = nu + N (q - q_c) + P s, and for some s the tool is still (Brouwer again):
-after a lock of joint k at least |x_k| / |x| is left.
+In each leaf of a floor there is a joint motion x = nu + N (q - q_c) + P s that keeps the tool still for some s (by Brouwer's
+theorem). Relative manipulability after a lock of joint k is then at least |x_k| / |x|.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, format_inte
 from .taylor import DerivativeEnclosure
 from .tree import MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
 
-SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of a screw that count
-FIRST_LOCK_TOKEN = 128  # in a ceiling: what a lock of the first joint costs enough; 2 is undecided
+SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of a screw in the task
+FIRST_LOCK_TOKEN = 128  # token in a ceiling of a leaf that a lock of the first joint proves; 2 is undecided
 
 
 class ScrewEnclosure:
-    """Enclosure of the axes and their moments about a point on the middle axis, in boxes of joints, in the frame of the middle
-    link.
+    """Enclosure of the axes, and of their moments about a point on the middle axis, in the frame of the middle link.
 
-    Joints are ordered from there to the tool, then to the base. The derivative of screw l by joint j is the bracket of screws j
-    and l if j is nearer, and so on with joints nearer still; before the middle with the other sign.
+    Joints are ordered from the middle to the tool, then from the middle to the base. The derivative of screw l by a joint j
+    that is nearer to the middle is the bracket of screws j and l, and so on for further derivatives. Before the middle the sign
+    is opposite.
     """
 
     def __init__(self, arm: BallChain, joints: list[Array]) -> None:
@@ -54,10 +54,10 @@ class ScrewEnclosure:
         self.half = np.stack([joints[joint][:, 2] for joint in self.order], 1)
         self.side = np.array([1.0] * (n - middle) + [-1.0] * middle)
         self.same_side = 1.0 * (self.side[:, None] == self.side)
-        self.moves = np.tril(self.same_side, -1)  # axis l by joint j
+        self.moves = np.tril(self.same_side, -1)  # derivative of axis l by joint j
         z, axis_points, previous = kinematics.axes[:, self.order], list[BallArray](), kinematics.tip
         links = np.zeros(self.half.shape)
-        for index, joint in enumerate(self.order):  # any point of an axis will do: one that is near the one before
+        for index, joint in enumerate(self.order):  # any point of an axis is valid; a point near the previous one is chosen
             previous, points = axis_points[0] if index == n - middle else previous, kinematics.points[:, joint]
             axis_offset = np.nan_to_num(((previous.center - points.center) * z.center[:, index]).sum(axis=1))
             axis_points.append(points + einsum("n,na->na", axis_offset, z[:, index]))
@@ -67,9 +67,9 @@ class ScrewEnclosure:
         spin, shift, zeros = cross_matrix(z), cross_matrix(moments), BallArray(np.zeros((*z.center.shape, 3)))
         self.screws = concatenate(2, z, moments)
         self.operators = concatenate(2, concatenate(3, spin, zeros), concatenate(3, shift, spin))
-        # (N, j, l, 6), of which the second derivative by i and j is the bracket with i.
+        # (N, j, l, 6); the second derivative by i and j is the bracket with screw i.
         self.brackets = einsum("njab,nlb->njla", self.operators, self.screws).multiply_signs(self.moves.T[:, :, None])
-        # A link of the path to an axis goes with the joints between the middle and it.
+        # A link on the path to an axis moves with the joints between the middle and the link.
         c = self.half @ self.moves.T
         first_sum, second_sum, third_sum = ((links * c**power) @ (self.moves + np.eye(n)).T for power in (1, 2, 3))
         distances = bound_length(offsets.magnitude, 2) + first_sum
@@ -77,7 +77,7 @@ class ScrewEnclosure:
             (c**2, second_sum + 2 * first_sum * c + distances * c**2),
             (c**3 / 3, (third_sum + 3 * second_sum * c + 3 * first_sum * c**2 + distances * c**3) / 3),
         ]
-        # Above what is left behind first order, and behind second; (N, n, 6).
+        # Upper bounds (N, n, 6) of the terms after first order and after second order.
         self.second_remainder, self.third_remainder = (
             np.stack([axis_part] * 3 + [moment_part] * 3, 2) / 2 * ROUND_UP + MIN_ROUNDING
             for axis_part, moment_part in remainders
@@ -95,9 +95,7 @@ class CeilingVerifier(LeafVerifier):
         self.locks = document["locks"]
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """Return the number of leaves, the undecided cells, and an iterator of the leaves, each with a joint, or 0 for a lower
-        bound.
-        """
+        """Return the number of leaves, the undecided cells, and an iterator of leaves with their joint (0 for a floor)."""
         tree, n = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), self.arm.n
         valid_tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
         is_valid = set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)}
@@ -142,8 +140,9 @@ class CeilingVerifier(LeafVerifier):
         return np.asarray((upper < lower) & (own_moment > 1e-100))
 
     def choose_wrench(self, screws: ScrewEnclosure, lock_position: int) -> tuple[Array, Array]:
-        """Choose a wrench y (N, 6) and its derivatives by the joints (N, 6, n) such that the other moments hardly change; any
-        choice is valid.
+        """Choose a wrench y (N, 6) and its derivatives (N, 6, n) by the joints, so that the other moments hardly change.
+
+        Any choice is valid.
         """
         own_screw, other_screws = screws.screws.center[:, lock_position], np.delete(screws.screws.center, lock_position, axis=1)
         moving_half = (screws.half * screws.moves.any(axis=0)).max(axis=1)
@@ -196,9 +195,7 @@ class FloorVerifier(CeilingVerifier):
         return np.asarray(np.all(masks, axis=0))
 
     def verify_null_motion(self, screws: ScrewEnclosure, nu: Array, inverse: Array, positions: list[int]) -> Flags:
-        """Return a mask of leaves all over which some nu + N (q - q_c) + P s keeps the tool still and has large enough
-        components.
-        """
+        """Return a mask of leaves in which nu + N (q - q_c) + P s keeps the tool still for some s, with large components."""
         nu, half, rows = np.nan_to_num(nu / bound_length(nu)[:, None]), screws.half, self.screw_rows
         moves, screw = screws.brackets.multiply_signs(screws.side[:, None, None])[..., rows], screws.screws[..., rows]
         motion_brackets = einsum("njlb,nl->njb", screws.brackets, nu)
@@ -228,7 +225,7 @@ class FloorVerifier(CeilingVerifier):
         s = residual
         for _ in range(12):
             s = 1.02 * (residual + np.einsum("nbc,nc->nb", contraction, s)) + 1e-15
-        # s -> s - J x sends its box into itself; and as miss s < s, J P has an inverse everywhere: nothing is singular.
+        # s -> s - J x maps its box into itself. As contraction s < s, J P is invertible everywhere, so nothing is singular.
         is_closed = ((residual + np.einsum("nbc,nc->nb", contraction, s)) * ROUND_UP < s).all(axis=1) & (s < 1e3).all(axis=1)
         shift = np.einsum("nlb,nb->nl", abs(inverse), s) * ROUND_UP
         norm_bound = (nu**2).sum(axis=1) + 2 * (einsum("nl,nlj->nj", nu, response).magnitude * half).sum(axis=1)
@@ -241,7 +238,7 @@ class FloorVerifier(CeilingVerifier):
 def bound_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a ceiling or floor has in addition to the common ones."""
     require_revolute(document)
-    require(document["task"] in SCREW_ROWS, f"ceilings and floors are of {' and '.join(SCREW_ROWS)}")
+    require(document["task"] in SCREW_ROWS, f"a ceiling or floor needs the task {' or '.join(SCREW_ROWS)}")
     form = {"joint_box": [[NUMBER_PATTERN, 2], n], "threshold": NUMBER_PATTERN, "found": [NUMBER_PATTERN, n]}
     return form | {"locks": [range(n), ...], "tree": TEXT_PATTERN}
 

@@ -1,7 +1,7 @@
-"""Kinematic chains of an arm and of its target, as enclosures of tool positions for many configurations, and boxes of these.
+"""Kinematic chains of an arm and of its target, with enclosures of tool positions for configurations and for boxes of them.
 
-Three slides and three turns take a tool to any pose. So a target is where the tool of such a chain is, and an arm reaches all
-targets of a box if its tool can be where the other is, wherever the joints of that are.
+Three prismatic and three revolute joints move a tool to any pose. A target is therefore the tool pose of such a chain, and an
+arm reaches all targets of a box if its tool can follow the tool of this chain for all values of the chain's joints in the box.
 """
 
 from __future__ import annotations
@@ -18,26 +18,27 @@ from .balls import ROUND_UP, Array, BallArray, cross_matrix, einsum, flint, roun
 from .forms import parse_hex, require
 from .tree import Cell
 
-Leaf = tuple[Cell, Any]  # and what shows it
+Leaf = tuple[Cell, Any]  # a cell, and the data of its proof
 IDENTITY_HEX = [float(k % 4 == 0).hex() for k in range(9)]
 
 
 def enclose_rotation(numbers: list[str]) -> BallArray:
-    """Return nine numbers as balls that contain the nearest rotation, whose distance is below that of R'R from the identity
-    (Frobenius).
+    """Return nine numbers R as balls that contain the nearest rotation.
+
+    Its distance from R is less than that of R'R from the identity, in the Frobenius norm.
     """
     matrix = flint.arb_mat(3, 3, [parse_hex(number) for number in numbers])
     gram = (matrix.transpose() * matrix - flint.arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])).entries()
     radius = math.hypot(*(round_up(abs(number)) for number in gram)) * ROUND_UP
     is_rotation = radius < 1e-12 and matrix.det() > 0
-    require(is_rotation, "a rotation of the file is none: its columns must be orthonormal to 1e-12 and right-handed")
+    require(is_rotation, "a rotation of the file is invalid; its columns must be orthonormal to 1e-12 and right-handed")
     return BallArray(np.reshape([parse_hex(number) for number in numbers], (3, 3)), radius)
 
 
 def enclose_sine_and_cosine(exact: Fraction) -> list[float]:
     """Return a number as a double, its error radius, 0 (for a half width), and its sine and cosine."""
     sine, cosine = flint.arb(flint.fmpq(exact.numerator, exact.denominator)).sin_cos()
-    require(max(round_up(sine.rad()), round_up(cosine.rad())) < 2.0**-55, "an angle is too large to be computed with")
+    require(max(round_up(sine.rad()), round_up(cosine.rad())) < 2.0**-55, "an angle is too large to compute its sine")
     return [float(exact), 2.0**-52 * abs(float(exact)), 0.0, float(sine), float(cosine)]
 
 
@@ -52,7 +53,7 @@ def build_target_chain(target: dict[str, Any]) -> dict[str, Any]:
     """Build the chain of a target: slides along z, y and x, or y and x, then rotations by yaw, pitch and roll, or yaw."""
     axes, first, orientation = target["axes"], [IDENTITY_HEX] * ("z" in target["axes"]), target["orientation"] or IDENTITY_HEX
     kinds = ["prismatic"] * sum(axis in "xyz" for axis in axes) + ["revolute"] * sum(axis not in "xyz" for axis in axes)
-    # The cycle of rows of ONE takes z to y, the next y to x, and so on; three are none.
+    # The first cyclic permutation of the rows maps z to y, the next y to x, and so on; three of them are the identity.
     rotations = (first + [IDENTITY_HEX[3:] + IDENTITY_HEX[:3]] * 6)[: len(kinds)]
     frames = [{"rotation": rows, "origin": ["0x0p+0"] * 3} for rows in rotations]
     tool = {"rotation": orientation if axes == "xya" else orientation[3:] + orientation[:3], "origin": ["0x0p+0"] * 3}
@@ -61,10 +62,10 @@ def build_target_chain(target: dict[str, Any]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class PointKinematics:
-    """A point of a link in the frame of another link, for N configurations and k joints between them.
+    """Point of a link in the frame of another link, for N configurations and k joints between the links.
 
-    ``tip`` (N, 3) is the point, ``rotation`` (N, 3, 3) the rotation of its link, ``axes`` (N, k, 3) those of the joints, 0
-    in ``spin_axes`` of a slide, ``points`` (N, k, 3) points on them, ``columns`` (N, k, 3) the derivatives of the point.
+    ``tip`` (N, 3) is the point, ``rotation`` (N, 3, 3) the rotation of its link, ``axes`` (N, k, 3) the axes of the joints, in
+    ``spin_axes`` 0 for a prismatic joint, ``points`` (N, k, 3) points on the axes, ``columns`` (N, k, 3) the derivatives.
     """
 
     tip: BallArray
@@ -76,24 +77,24 @@ class PointKinematics:
 
 
 class BallChain:
-    """Joints about or along the z axes of their frames, and the tool behind them."""
+    """Chain of joints about or along the z axes of their frames, and the tool behind them."""
 
     def __init__(self, arm: dict[str, Any], planar: bool = False) -> None:
         frames, self.n = [*arm["joints"], arm["tool"]], len(arm["joints"])
         self.slides = np.array([joint["type"] == "prismatic" for joint in arm["joints"]])
         self.origins = [np.array([parse_hex(value) for value in frame["origin"]]) for frame in frames]
         self.turns = [enclose_rotation(frame["rotation"]) for frame in frames]
-        if planar:  # all that moves, moves in the plane: heights count nothing
+        if planar:  # all motions lie in the plane, so heights do not matter
             matrices = [rotation.center for rotation in self.turns]
             is_planar = all(abs(x[2, 2]) == 1 and not x[2, :2].any() and not x[:2, 2].any() for x in matrices)
-            require(is_planar and not self.slides.any(), "a planar task is one of arms that stay in the plane")
+            require(is_planar and not self.slides.any(), "a planar task needs an arm that stays in the plane")
             self.origins = [value * [1, 1, 0] for value in self.origins]
         self.link_lengths = self.bound_link_lengths(0, self.n)
 
     def enclose_point(self, joints: list[Array], first: int = 0, end: Array | None = None, count: int = 1) -> PointKinematics:
         """Enclose a point in the frame of the joint behind some joints that begin with ``first``; default: the tool point.
 
-        Joints are each as :func:`enclose_sine_and_cosine` gives them, (N, 5); ``count`` is N where there are none.
+        Each joint is an array (N, 5) of :func:`enclose_sine_and_cosine`; ``count`` is N if there are no joints.
         """
         count, end = len(joints[0]) if joints else count, self.origins[-1] if end is None else end
         tip, orientation = BallArray(np.zeros((count, 3))), BallArray(np.broadcast_to(np.eye(3), (count, 3, 3)))
@@ -119,9 +120,10 @@ class BallChain:
         return PointKinematics(tip, orientation, z, spin_axes, axis_points, columns)
 
     def bound_link_lengths(self, first: int, last: int, end: Array | None = None) -> Array:
-        """Bound the lengths, m, that each of some joints and those before it rotate, and the next joint does not.
+        """Bound the lengths, m, that each of some joints and the joints before it rotate, but the next joint does not.
 
-        That is the part of its link across its axis (all of it where it slides), and that of the next link along the next axis.
+        A length is the part of the link across the joint's axis (the whole link for a prismatic joint), plus the part of the
+        next link along the next axis.
         """
         links, lengths = [*self.origins[first + 1 : last], self.origins[-1] if end is None else end], np.zeros(last - first)
         for index, link in enumerate(links[: last - first]):
@@ -132,9 +134,9 @@ class BallChain:
         return lengths
 
     def bound_derivative(self, order: int, joint_travel: Array, lengths: Array, slide_extent: Array, first: int = 0) -> Array:
-        """Bound the length of a derivative of a point along joint motions of at most ``joint_travel`` (N, k), (N,).
+        """Bound the norm (N,) of a derivative of a point along joint motions of at most ``joint_travel`` (N, k).
 
-        ``slide_extent`` (N, k): how far slides are out in the middle.
+        ``slide_extent`` (N, k) is the extent of the prismatic joints at the center.
         """
         slides = self.slides[first : first + joint_travel.shape[1]]
         c, slide_range = np.cumsum(joint_travel * ~slides, axis=1) * ROUND_UP, joint_travel * slides
@@ -145,7 +147,7 @@ class BallChain:
 class LeafVerifier:
     """Verifier of the leaves of a tree over a root box."""
 
-    targets: slice | None = None  # those of its axes that are of targets
+    targets: slice | None = None  # the axes of the box that belong to targets
 
     def __init__(self, document: dict[str, Any], intervals: Iterable[Iterable[Any]]) -> None:
         self._document = {key: value for key, value in document.items() if key not in ("tree", "centres")}
@@ -153,12 +155,13 @@ class LeafVerifier:
         self.low, self.width = [low for low, _ in exact_intervals], [high - low for low, high in exact_intervals]
         self._cache: dict[tuple[int, int, int], list[float]] = {}
 
-    def __reduce__(self) -> tuple[Any, ...]:  # to another process, whose balls are its own
+    def __reduce__(self) -> tuple[Any, ...]:  # another process makes its own balls
         return type(self), (self._document,)
 
     def enclose_centers(self, cells: Iterable[Cell], first: int = 0) -> list[Array]:
-        """Return the rows of :func:`enclose_sine_and_cosine` for the centers of each axis from ``first`` on, with half widths
-        rounded up, (N, 5).
+        """Return the rows (N, 5) of :func:`enclose_sine_and_cosine` for the centers of each axis from ``first`` on.
+
+        Their half widths are rounded up.
         """
         columns = enumerate(zip(*cells, strict=True), first)
         return [np.array([self._enclose_interval_center(axis, part) for part in parts]) for axis, parts in columns]
@@ -168,7 +171,7 @@ class LeafVerifier:
         return [cell for cell, _ in rejected]
 
     def check_leaves(self, chunk: list[Leaf]) -> tuple[int, list[Leaf]]:
-        """Check leaves and return their number and those that prove nothing."""
+        """Check leaves, and return their number and the leaves that prove nothing."""
         rejected = list[Leaf]()
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for kind in sorted({self.leaf_kind(leaf) for leaf in chunk}):
@@ -181,7 +184,7 @@ class LeafVerifier:
         return leaf[1]
 
     def verify_leaves(self, kind: Any, leaves: list[Leaf]) -> Iterable[Any]:
-        """Return for leaves of one kind whether each is proved."""
+        """Return flags of the leaves of one kind that are proved."""
         raise NotImplementedError
 
     def _enclose_interval_center(self, axis: int, index_and_depth: tuple[int, int]) -> list[float]:
@@ -193,7 +196,7 @@ class LeafVerifier:
 
 
 def enclose_configuration(q: list[str]) -> list[Array]:
-    """Return joint values, one row for each joint, as :meth:`BallChain.enclose_point` takes them."""
+    """Return joint values, one row for each joint, in the form for :meth:`BallChain.enclose_point`."""
     values = [parse_hex(number) for number in q]
-    require(max(map(abs, values)) < 100, "a configuration turns by more than 100 rad")
+    require(max(map(abs, values)) < 100, "a joint of a configuration is beyond 100 rad or m")
     return [enclose_sines_and_cosines(np.array([number])) for number in values]

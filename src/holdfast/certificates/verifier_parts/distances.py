@@ -1,10 +1,11 @@
 """Verification of the leaves of a refutation: no configuration of the arm has the tool at a target.
 
-In each leaf some combination of the task's rows is not 0; or a point of some link is farther from the target than the tool can
-be from this point, or nearer. How far that is, is a lemma, with a tree of its own over the joints behind the link.
+In each leaf some combination of the task's rows is not 0, or the distance of a point of some link from the target lies outside
+the range of distances between the tool and this point. A lemma bounds this range, with its own tree over the joints behind the
+link.
 
-Where the tool is given, base, joints, tool and base again are a ring. Two points of links are as far from each other by the
-joints between them as by the others, on the way round by the tool and the base; a leaf excludes where that cannot be.
+If the tool pose is given, base, joints and tool form a closed loop. The distance between two points of links through the joints
+between them equals their distance through the tool and the base. A leaf excludes the configurations for which it cannot.
 """
 
 from __future__ import annotations
@@ -25,14 +26,14 @@ from .targets import CENTER_UNIT, ReachVerifier, TargetLeafVerifier, locked_targ
 from .taylor import DerivativeEnclosure, enclose_difference, vector_derivatives
 from .tree import MAX_LEAVES, PROVED_TOKEN, SPLIT_TOKEN, Cell, iterate_cells
 
-FIRST_LEMMA_TOKEN = 3  # what the first lemma excludes; 0: where the tool itself is elsewhere
-WITNESS_LEAF = (-2, 0)  # which leaf: a configuration that shows the opposite; (-1, k): of the main tree, (k, k): of a lemma's
+FIRST_LEMMA_TOKEN = 3  # token of a leaf that the first lemma excludes; 0 if the task rows exclude it
+WITNESS_LEAF = (-2, 0)  # kind of a leaf that is a witness; (-1, k) for leaves of the main tree, (k, k) for those of a lemma
 
 
 def bound_norm_below(form: DerivativeEnclosure, linear: int, remainders: tuple[Any, Any], half: Array) -> Array:
     """Bound the norm of the numbers from below along unit directions e; every direction is valid, and some are tried.
 
-    Of the first ``linear``, as a vector, and of the others ``remainders`` (N,) is what is left behind second order.
+    ``remainders`` (N,) bound the terms after second order of the first ``linear`` numbers, as a vector, and of the others.
     """
     value, spans, identity = form.value.center, form.slopes.center * half[:, None], np.eye(form.value.center.shape[1])
     spread = spans @ spans.transpose(0, 2, 1) + (1e-6 * (value**2).sum(axis=1) + 1e-30)[:, None, None] * identity
@@ -49,10 +50,10 @@ def bound_norm_below(form: DerivativeEnclosure, linear: int, remainders: tuple[A
 
 
 def bound_norm_range(form: DerivativeEnclosure, derivatives: list[Array], half: Array) -> tuple[Array, Array]:
-    """Bound the length of a vector v from below and above, the latter from half its square.
+    """Bound the norm of a vector v from below, and from above through half its square.
 
-    ``derivatives``: above the lengths of its derivatives along half widths. Of half its square the third is at most three times
-    the product of the first and the second, and the length times the third.
+    ``derivatives`` are upper bounds of the norms of its derivatives along half widths. The third derivative of half its square
+    is at most three times the product of the first and second, plus the norm times the third.
     """
     (first_derivative, second_derivative, third_derivative), norm = derivatives, bound_length(form.value.magnitude)
     second = einsum("naj,nak->njk", form.slopes, form.slopes) + einsum("na,najk->njk", form.value, form.second)
@@ -66,11 +67,11 @@ def bound_norm_range(form: DerivativeEnclosure, derivatives: list[Array], half: 
 def bound_distance_range(
     chain: BallChain, joints: list[Array], first: int, start: Array, end: Array, count: int
 ) -> tuple[Array, Array]:
-    """Bound the distance of a point of link ``first`` from a point behind some joints from below and above, (N,)."""
+    """Bound the distance (N,) of a point of link ``first`` from a point behind some joints, from below and above."""
     kinematics, half, slide_extent = chain.enclose_point(joints, first, end, count), *np.zeros((2, count, len(joints)))
     for index, joint in enumerate(joints):
         half[:, index], slide_extent[:, index] = joint[:, 2], joint[:, 0]
-    # Where the first axes pass by the point at a distance, turning about these changes the other's by so much at most.
+    # First axes that pass close to the point are ignored; rotations about them change the distance by at most ``displacement``.
     displacement, is_ignored = np.zeros(count), np.ones(count, dtype=bool)
     levers = einsum("nkij,nkj->nki", cross_matrix(kinematics.axes), -kinematics.points + start).magnitude
     for index, is_prismatic in enumerate(chain.slides[first : first + len(joints)]):
@@ -87,7 +88,7 @@ def bound_distance_range(
 
 
 class RefutationVerifier(TargetLeafVerifier):
-    """Verifier of a refutation: the tool misses every target."""
+    """Verifier of a refutation, in which the tool misses every target."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         limits, lemmas, planar = list(document["limits"]), document["lemmas"], document["task"].startswith("planar")
@@ -108,7 +109,7 @@ class RefutationVerifier(TargetLeafVerifier):
         require(not any(tree.count(token) for tree in trees for token in (1, 2)), "a lemma is not proved everywhere")
         undecided = [cell for token, cell in iterate_cells(main_tree, axis_count, last_token) if token in (1, 2)]
         if document["witness"]:
-            require(main_tree == b"\2" and not trees, "beside a witness nothing is proved")
+            require(main_tree == b"\2" and not trees, "a file with a witness must not prove anything else")
             return 1, undecided, lambda: iter([(undecided[0], WITNESS_LEAF)])
         count = sum(tree.count(0) for tree in trees)
         count += sum(main_tree.count(token) for token in (PROVED_TOKEN, *range(FIRST_LEMMA_TOKEN, last_token + 1)))
@@ -149,9 +150,7 @@ class RefutationVerifier(TargetLeafVerifier):
         return (lower > self.most[lemma]) | (upper < self.least[lemma])
 
     def bound_target_distance(self, lemma: int, joints: list[Array], target: list[Array], half: Array) -> tuple[Array, Array]:
-        """Bound the distance of a lemma's point from the target from below and above; half widths (N, V) are those
-        of an error.
-        """
+        """Bound the distance of a lemma's point from the target from below and above, for half widths (N, V) of an error."""
         joint_count, point, joint_half = len(joints), self.points[lemma], half[:, : len(joints)]
         arm_point = self.arm.enclose_point(joints, 0, point, len(half))
         target_point = self.goal.enclose_point([target[axis] for axis in self.chain_axes])
@@ -174,8 +173,9 @@ class RefutationVerifier(TargetLeafVerifier):
         return in_limits and (in_box or self._reaches_nearby(q, tip.center[0], sides))
 
     def _reaches_nearby(self, q: list[float], tip: Array, sides: list[list[float]]) -> bool:
-        """Return True if a configuration near a given one, with the same locked value, reaches a target of the box, as a reach
-        leaf proves.
+        """Return True if a configuration near q, with the same locked value, provably reaches a target of the box.
+
+        The proof is that of a leaf of a reach.
         """
         linear = self.target_size - self.turning
         position = [min(max(x, lower), upper) for x, (lower, upper) in zip(tip.tolist()[:linear], sides, strict=False)]
@@ -189,9 +189,9 @@ class RefutationVerifier(TargetLeafVerifier):
 
 
 class LoopClosureVerifier(LeafVerifier):
-    """Verifier that, with joints in given ranges, no configuration has the tool where it is for other values of all joints.
+    """Verifier that no configuration with joints in given ranges has the tool pose of ``tool_q``.
 
-    ``uses_rotation``: whether its rotation is given as well; else the later one of two points must be the tool point.
+    ``uses_rotation`` is True if the pose includes the rotation; otherwise the later one of two points must be the tool point.
     """
 
     def __init__(
@@ -204,7 +204,7 @@ class LoopClosureVerifier(LeafVerifier):
         self._plane_mask = np.array([1, 1, not planar])
         chain, self.tip = self.chain, self.chain.origins[-1]
         kinematics = chain.enclose_point([np.array([enclose_sine_and_cosine(x)]) for x in tool_q])
-        # From the tool back to the base: where that is seen from the last link, and how turned.
+        # Position and rotation of the base in the frame of the last link.
         base_rotation = einsum("ij,jk->ik", chain.turns[-1], kinematics.rotation[0].transpose(1, 0))
         self._base_frame = -einsum("ij,j->i", base_rotation, kinematics.tip[0]) + self.tip, base_rotation
         base_point = self._to_last_link_frame(chain.origins[0])
@@ -217,8 +217,9 @@ class LoopClosureVerifier(LeafVerifier):
         return self._base_frame[0] + einsum("ij,j->i", self._base_frame[1], point)
 
     def find_excluded_cells(self, pair: list[tuple[int, Array]], leaf_cells: list[Cell]) -> Flags:
-        """Return a mask of cells in which two points, each (link, (3,) m in its frame), cannot have equal distances along both
-        branches.
+        """Return a mask of cells in which two points cannot have equal distances along both branches of the loop.
+
+        A point is its link and its position (3,) in the frame of the link, m.
         """
         (first, a), (last, b) = ((link, point * self._plane_mask) for link, point in pair)
         is_known = self.uses_rotation or (last == self.n and (b == self.tip).all())
@@ -241,9 +242,7 @@ class PathRefutationVerifier(HealthyMotion):
         self._points = [(point["link"], np.array([parse_hex(x) for x in point["place"]])) for point in document["points"]]
 
     def check_leaves(self, chunk: list[StoredRefutation]) -> tuple[int, list[tuple[StoredRefutation, int]]]:
-        """Check refutations; return the number of leaves, and the refutations that fail, each with its number of rejected
-        leaves.
-        """
+        """Check refutations, and return the number of leaves, and failed refutations with their number of rejected leaves."""
         rejected, document = list[tuple[StoredRefutation, int]](), self._document
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for refutation in chunk:
@@ -269,7 +268,7 @@ def limit_to_revolution(ranges: list[Any], joints: list[dict[str, Any]]) -> list
     for pair, joint in zip(ranges, joints, strict=True):
         lower, upper = (parse_hex(number) if isinstance(number, str) else number for number in pair)
         is_revolute = joint["type"] == "revolute"
-        require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} slides without an end")
+        require(is_revolute or math.isfinite(upper - lower), f"{joint['name']} is prismatic and has no limits")
         limited.append([-half_turn, half_turn] if is_revolute and not upper - lower < 2 * math.pi else [lower, upper])
     return limited
 

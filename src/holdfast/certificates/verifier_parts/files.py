@@ -1,4 +1,4 @@
-"""Certificate files: checks of their form, their digests and their claim."""
+"""Certificate files, with checks of their form, their digests and their claim."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ MAX_JOINTS = 64
 
 
 def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
-    """Load a certificate of the right form, with matching digests and claim; raises :class:`CertificateRejected` for any other
-    file.
+    """Load a certificate, and check its form, its digests and its claim.
 
-    Of an archive (``.zip``), in which the parts of a bundle lie beside it, that is its first file.
+    In an archive (``.zip``), which also contains the parts of a bundle, the certificate is the first file. Raises
+    :class:`CertificateRejected` for any other file.
     """
 
     def reject_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def load_certificate(path: Path | zipfile.Path) -> dict[str, Any]:
         raise
     except OSError as error:
         raise CertificateRejected(f"cannot read {path.name}: {error.strerror or error}") from None
-    except Exception as error:  # of JSON, of numbers, and of the decompressors of an archive, each of which has its own
+    except Exception as error:  # JSON, numbers, and the decompressors of an archive raise different errors
         raise CertificateRejected(f"{path.name} cannot be read as JSON and its numbers: {str(error)[:80]}") from None
     return dict(document)
 
@@ -74,8 +74,10 @@ def find_first_file(path: Path | zipfile.Path) -> Path | zipfile.Path:
 
 
 def require_form(value: Any, form: Any, label: str) -> None:
-    """Require a form: an object of these keys, a list [form, length], text of a pattern, a range of integers, or null; ...
-    accepts anything.
+    """Require a form of a value.
+
+    A form is an object with these keys, a list [form, length], a pattern of a text, a range of integers, or null; ... accepts
+    any value.
     """
     if isinstance(form, dict):
         unexpected = sorted(form.keys() ^ value.keys() if isinstance(value, dict) else form)[:1]
@@ -100,11 +102,11 @@ def require_nested_intervals(pairs: list[Any], outer: list[Any], label: str) -> 
         [map(parse_hex, pair) for pair in both] for both in zip(pairs, outer, strict=True)
     ):
         is_inside = lower_limit <= lower <= upper <= upper_limit and lower < math.inf and upper > -math.inf
-        require(is_inside, f"{label}: {lower!r} to {upper!r} is upside down or goes beyond {lower_limit!r} to {upper_limit!r}")
+        require(is_inside, f"{label}: {lower!r} to {upper!r} is upside down or exceeds {lower_limit!r} to {upper_limit!r}")
 
 
 def _check_document(document: dict[str, Any]) -> None:
-    for key in ("format", "version", "kind", "arm", "task"):  # what the form of the rest depends on
+    for key in ("format", "version", "kind", "arm", "task"):  # the form of the other keys depends on these
         require_form(document.get(key), COMMON_FORM[key], key)
     names = [joint["name"] for joint in document["arm"]["joints"]]
     is_valid = 0 < len(names) <= MAX_JOINTS and len(set(names)) == len(names)
@@ -119,7 +121,7 @@ def _check_document(document: dict[str, Any]) -> None:
         ("claim", claim_sentence(document)),
         ("digest", compute_digest(document)),
     ):
-        require(document[key] == value, f"{key} is not what the rest of the file gives: the file was changed or damaged")
+        require(document[key] == value, f"{key} does not match the rest of the file, which was changed or damaged")
 
 
 def _check_values(document: dict[str, Any]) -> None:
@@ -143,9 +145,9 @@ def _check_values(document: dict[str, Any]) -> None:
             require_nested_intervals([[number, number] for number in knot], limits, "a knot")
             require(all(abs(parse_hex(number)) < 7 for number in knot), "a joint of a knot is beyond 7 rad or m")
         require(all(0 <= number <= 0.1 for number in tube), "a tube is from 0 to 0.1 m and rad")
-        require(document["task"] != "pointing" or not any(tube), "there is no tube around a pointing path")
+        require(document["task"] != "pointing" or not any(tube), "a pointing path must not have a tube")
         require(len(document["pairs"]) <= SPLIT_TOKEN, f"there are more than {SPLIT_TOKEN} pairs of points")
         require(first < last, "during must not be empty")
         fixed_joints = [{lock["joint"], *lock["followers"]} for lock in locks]
         is_valid = all(len(number) == 1 + len(lock["followers"]) for number, lock in zip(fixed_joints, locks, strict=True))
-        require(is_valid, "a joint that is locked, or follows already, does not follow")
+        require(is_valid, "a joint that follows is locked, or listed twice")

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 FOR_PEOPLE: dict[str, Any] = dict.fromkeys(("made_by", "made_at", "seconds", "nodes"), ...)
-TASK_FORMS = {  # how many rows of the place, how many of the rotation, and axes of targets
+TASK_FORMS = {  # number of position rows and of rotation rows, and axes of targets
     "planar": (2, 0, "xy"),
     "planar-pose": (2, 1, "xya"),
     "position": (3, 0, "xyz"),
@@ -42,9 +42,7 @@ def require(condition: object, message: str) -> None:
 
 
 def compute_digest(document: dict[str, Any]) -> str:
-    """Compute the SHA-256 of the canonical JSON of a certificate, without its digest and the fields about its making, or of an
-    arm.
-    """
+    """Compute the SHA-256 of the canonical JSON of an arm or a certificate, without its digest and the fields on its origin."""
     signed = {key: value for key, value in document.items() if key != "digest" and key not in FOR_PEOPLE}
     return hashlib.sha256(json.dumps(signed, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
@@ -62,7 +60,7 @@ def decompress_payload(text: str, max_bytes: int, label: str) -> bytes:
     except (ValueError, zlib.error) as error:
         raise CertificateRejected(f"{label} cannot be unpacked: {error}") from None
     require(
-        decompressor.eof and len(data) <= max_bytes and not decompressor.unused_data, f"{label} is cut off or holds too much"
+        decompressor.eof and len(data) <= max_bytes and not decompressor.unused_data, f"{label} is truncated or holds too much"
     )
     return data
 
@@ -76,11 +74,11 @@ def require_task(document: dict[str, Any]) -> str:
 def require_revolute(document: dict[str, Any]) -> None:
     """Require all joints of the arm of a certificate to be revolute."""
     all_revolute = all(joint["type"] == "revolute" for joint in document["arm"]["joints"])
-    require(all_revolute, f"a {document['kind']} is of joints that turn")
+    require(all_revolute, f"a {document['kind']} needs revolute joints only")
 
 
 def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sampled: bool = False) -> str:
-    """Return a claim as it may be printed: with the proved fraction in front, unless every cell of all of it is verified."""
+    """Return a claim with the proved fraction in front, unless every cell of the whole claim is verified."""
     if refuted or sampled:
         return f"{'False' if refuted else 'Sampled, not verified'}: {claim}"
     only = f"Proved for only {format_percent(proved)} of this claim: " if proved else "Not proved: "
@@ -88,8 +86,9 @@ def qualify_claim(claim: str, proved: Fraction, *, refuted: bool = False, sample
 
 
 def format_percent(part: Fraction, up: bool = False) -> str:
-    """Format a fraction in per cent, rounded down or up, so that proved fractions are never overstated and undecided ones never
-    understated.
+    """Format a fraction in per cent, rounded down or up.
+
+    Rounding never overstates proved fractions, and never understates undecided fractions.
     """
     if part in (0, 1):
         return f"{100 * int(part)} %"
@@ -102,5 +101,5 @@ def format_percent(part: Fraction, up: bool = False) -> str:
 
 
 def round_to_two_digits(x: Fraction, up: bool) -> Decimal:
-    """Return the decimal of two digits below or above a fraction."""
+    """Return the two-digit decimal below or above a fraction."""
     return Context(prec=2, rounding=ROUND_CEILING if up else ROUND_FLOOR).divide(Decimal(x.numerator), Decimal(x.denominator))

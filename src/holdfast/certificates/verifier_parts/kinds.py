@@ -1,4 +1,4 @@
-"""Kinds of certificates: the form of the file, the sentence of the claim, and the verifier of the leaves for each of them."""
+"""Kinds of certificates, with the form of the file, the sentence of the claim, and the verifier of the leaves for each kind."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from .zeros import StructuralZeroVerifier, describe_structural_zero, structural_
 
 @dataclass(frozen=True)
 class CertificateKind:
-    """Form of the keys that a kind adds to the common ones, sentence of its claim, and verifier of the leaves of its tree.
+    """Kind of certificate.
 
-    ``form`` takes a document whose common keys are checked and its number of joints; ``sentence`` takes a document and the
-    names of its joints; ``verifier`` is a class of :class:`LeafVerifier`, or None for a path and a bundle.
+    ``form`` returns the form of the additional keys for a document, whose common keys are checked, and its number of joints.
+    ``sentence`` returns the claim of a document with given joint names. ``verifier`` is the :class:`LeafVerifier` for the
+    leaves of the tree, or None for a path and a bundle.
     """
 
     form: Callable[[dict[str, Any], int], dict[str, Any]]
@@ -38,8 +39,9 @@ CERTIFICATE_KINDS = {
 
 
 def claim_sentence(document: dict[str, Any]) -> str:
-    """Return the claim of a certificate as a sentence, made from its other keys; decimals are the shortest that represent the
-    same doubles.
+    """Return the claim of a certificate as a sentence that is made from its other keys.
+
+    Decimals are the shortest that represent the same doubles.
     """
     names = [joint["name"] for joint in document["arm"]["joints"]]
     return f"{CERTIFICATE_KINDS[document['kind']].sentence(document, names)} arm {document['arm_digest'][:12]}."

@@ -1,21 +1,21 @@
 """Verification of path claims: after a lock at any instant, one continuous motion finishes the path of the tool.
 
-The healthy motion goes along straight segments from knot to knot. Whole numbers count its instants, 2^20 to a segment. A slab
-is an interval of lock instants; cells are intervals of the path, from the slab to the end. In a cell the error g is that of
-the locked arm from the tool of the healthy one, which is a chain as well: its rotations enter E = R(q) R(qh)' backwards. As of
-other claims, e(S) <= S says that for every lock instant of the slab and every point of the cell some s has g = 0. That alone
-is no motion: what exists here may have nothing to do with what exists a little later. So three things more are shown.
+The healthy motion follows straight segments from knot to knot. Whole numbers count its instants, 2^20 to a segment. A slab is
+an interval of lock instants, and cells are intervals of the path, from the slab to the end. In a cell, g is the error of the
+locked arm relative to the tool of the healthy arm, whose chain enters E = R(q) R(qh)' in reverse order. As for other claims,
+e(S) <= S proves that for every lock instant of the slab and every point of the cell, g = 0 for some s. This alone does not
+prove a motion, because solutions at successive points may be unrelated. Three further properties are therefore proved.
 
-Unique: where the slopes of g - s contract a box of half widths T, there is one such s in it, and it is a continuous function.
-Glue: on the face between two cells, what the first one found lies in the box T of the second, so both have found the same.
+Unique: if the slopes of g - s contract a box of half widths T, it contains one such s, which is a continuous function.
+Glue: on the face between two cells, the solution of the first lies in the box T of the second, so both solutions are the same.
 Start: the configuration at the lock lies in the box T of the first cell, for every lock instant of the slab.
 
-Where the locked arm is singular its motion is fast, as a square root is. So cells may be turned: their path is along the
-tangent of the motion, and the place on the path of the tool is one more of what the section moves. Of such a cell is shown,
-besides, that the place only goes forward in it, so that the motion is one of the tool along its path.
+Near a singularity of the locked arm its motion is fast, like a square root. A cell can therefore be turned: it follows the
+tangent of the motion, and the position on the tool path becomes a further variable of the section. For such a cell it is also
+proved that this position only moves forward, so that the motion takes the tool along its path.
 
-Joints that are left over follow: they go on with the healthy motion. A tube is met by six numbers more that the target is off
-by: its place, and the axial part of its rotation, which below half a turn says all of it.
+Redundant joints follow the healthy motion. For a tube, the offset of the target adds six numbers: its position, and the axial
+part of its rotation, which determines a rotation by less than half a turn.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from .paths import PATH_CENTER_UNIT, SEGMENT_INSTANTS, Ints, StoredSlab
 from .taylor import InvariantSectionBoxes, TaskErrorEnclosure
 
 BATCH_CELLS = 256  # cells
-_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # of section boxes, tried one after the other
+_UNIQUE_BOX_SIZES = 0.25 * 0.5 ** np.arange(27)  # sizes of section boxes, tried in this order
 
 
 class HealthyMotion:
-    """The exact healthy motion of a path: straight segments from knot to knot."""
+    """Exact healthy motion of a path along straight segments from knot to knot."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         payloads = {"cells": "", "centres": "", "refutations": []}
@@ -69,10 +69,9 @@ class PathVerifier(HealthyMotion):
         self.driven = [[lock["joint"], *lock["followers"]] for lock in document["locks"]]
 
     def enclose_healthy_motion(self, doubled_instants: Ints, rate_instants: Ints) -> tuple[list[Array], BallArray]:
-        """Return the joints of the healthy motion at middles (twice the instants), as :func:`enclose_angle` gives them, and
-        their rates.
+        """Return the joints of the healthy motion at middles, given as twice the instants, and their rates.
 
-        Rates are those over the segments of ends.
+        The joints are rows of :func:`enclose_sine_and_cosine`, the rates those over the segments of ``rate_instants``.
         """
         segment, rows = (rate_instants - 1) // SEGMENT_INSTANTS, []
         for key in zip(segment.tolist(), doubled_instants.tolist(), strict=True):
@@ -86,11 +85,10 @@ class PathVerifier(HealthyMotion):
     def choose_motion_response(
         self, gradients: Array, rates: tuple[BallArray, BallArray], driven: list[int], is_tangent: Flags
     ) -> tuple[BallArray, BallArray]:
-        """Choose D (N, 2n, 2 + tube + m), and the response of the free joints and the path position to its columns (N, f + 1,
-        ...).
+        """Choose D (N, 2n, 2 + tube + m), and the response (N, f + 1, ...) of the free joints and the path position.
 
-        Any numbers will do. Of a turned cell the path is followed along the tangent of the locked arm's motion, and the place
-        on it is one more of what the section moves.
+        Any numbers are valid. A turned cell follows the tangent of the locked arm's motion, and the path position is a further
+        variable of the section.
         """
         tube, free, (locked, path) = len(self.tube), [joint for joint in range(self.n) if joint not in driven], rates
         gradients = np.nan_to_num(gradients)
@@ -118,7 +116,7 @@ class PathVerifier(HealthyMotion):
         return einsum("nk,nc->nkc", driven_rates, response[:, -1]) + lock_motion + free_motion, BallArray(response)
 
     def bound_residual_gradients(self, cells: InvariantSectionBoxes, half: Array) -> Array:
-        """Bound the gradients (N, m, 1 + m) of g - s by the path and by s."""
+        """Bound the gradients (N, m, 1 + m) of g - s with respect to the path and to s."""
         columns, error = [1, *range(half.shape[1] - self.m, half.shape[1])], cells.error
         joint_travel = np.einsum("nkc,nc->nk", cells.response, half) * ROUND_UP
         gradients = cells.form.gradient_magnitude[:, :, columns] + np.einsum(
@@ -131,7 +129,7 @@ class PathVerifier(HealthyMotion):
             c = np.cumsum(travel * ~chain.slides, axis=1) * ROUND_UP
             cumulative = np.cumsum(response * ~chain.slides[:, None], axis=1) * ROUND_UP
             slide_range = travel * chain.slides
-            # What a slide goes out by, d, counts first order already: its slope by a turn changes by d c, whatever c is.
+            # The extent d of a prismatic joint enters at first order, as its slope by a rotation changes by d c for any c.
             weights = (chain.link_lengths + abs(slide_extent) * chain.slides) * c**2 + 2 * c * slide_range
             third = np.einsum("nk,nkb->nb", weights, cumulative) + np.einsum(
                 "nk,nkb->nb", c**2, response * chain.slides[:, None]
@@ -153,11 +151,10 @@ class PathVerifier(HealthyMotion):
         )
 
     def moves_forward(self, cells: InvariantSectionBoxes, response: BallArray, overshoot: Array) -> Flags:
-        """Return a mask of tangent cells that only go forward on the path and end within their segment; ``overshoot`` (N,) is
-        measured from its end.
+        """Return a mask of tangent cells that only move forward on the path and end within their segment.
 
-        As motions begin in it, they stay there. Where slopes by s are at most M, and by the path at most b, the solution moves
-        by at most u if b + M u <= u.
+        ``overshoot`` (N,) is measured from the end of the segment. Motions begin in the segment, so they stay in it. If slopes
+        by s are at most M, and by the path at most b, the solution moves by at most u if b + M u <= u.
         """
         gradients = self.bound_residual_gradients(cells, cells.half_widths)
         b, inner = gradients[:, :, 0], gradients[:, :, 1:]
@@ -220,7 +217,7 @@ class PathVerifier(HealthyMotion):
     ) -> Flags:
         """Return a mask of cells whose unique box contains the solution of the previous cell, or the configuration at the lock.
 
-        What is entered is a place of the free joints and on the path, as coordinates of the path and of the section.
+        The entry is a point of the free joints and of the path, in coordinates of the path and of the section.
         """
         m, columns = self.m, [0, *range(2, half.shape[1] - self.m)]
         previous_centers = _previous_rows(centers)
@@ -239,7 +236,7 @@ class PathVerifier(HealthyMotion):
         matrix = response[:, :, [1, *range(-m, 0)]]
         inverse = BallArray(solve_or_nan(matrix.center, np.eye(m + 1)[None]))
         inverse_error = (einsum("nab,nbc->nac", inverse, matrix) + -np.eye(m + 1)).magnitude
-        # Between cells that are not turned this is on a face, exactly, and the diagonal where motions begin is in the cell.
+        # Between cells that are not turned the entry lies exactly on a face, and the diagonal where motions begin in the cell.
         on_face = ~is_tangent & (is_first | ~np.roll(is_tangent, 1))
         target_box = np.concatenate(
             [np.where(on_face, half[:, 1] * (1 + 1e-6) + 1e-12, half[:, 1])[:, None], unique_box], axis=1
@@ -250,7 +247,7 @@ class PathVerifier(HealthyMotion):
         return np.asarray(((bounds * ROUND_UP + MIN_ROUNDING) < target_box).all(axis=1))
 
     def check_leaves(self, chunk: list[StoredSlab]) -> tuple[int, list[tuple[StoredSlab, int]]]:
-        """Check slabs; return the number of cells, and the slabs that prove nothing, each with its number of rejected cells."""
+        """Check slabs, and return the number of cells, and the slabs that prove nothing with their number of rejected cells."""
         rejected, totals = list[tuple[StoredSlab, int]](), accumulate(len(slab[3]) for slab in chunk)
         with flint.ctx.workprec(64), np.errstate(all="ignore"):
             for _, group in groupby(zip(chunk, totals, strict=True), lambda entry: (entry[0][0], entry[1] // BATCH_CELLS)):
@@ -266,6 +263,6 @@ def _previous_rows(x: BallArray) -> BallArray:
 
 
 def _joint_values(joints: list[Array]) -> BallArray:
-    """Return the joints (N, n) of the rows of :func:`enclose_angle`."""
+    """Return the joint values (N, n) of rows of :func:`enclose_sine_and_cosine`."""
     values = np.stack([joint[:, :2] for joint in joints], 2)
     return BallArray(values[:, 0], values[:, 1])

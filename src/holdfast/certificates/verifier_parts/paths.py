@@ -32,8 +32,8 @@ from .tree import MAX_LEAVES, Cell, iterate_cells
 Ints = NDArray[np.int64]
 StoredSlab = tuple[
     int, tuple[int, int], Ints, Ints
-]  # the lock; its ends; of its cells start, end and half width; their centres
-StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # the lock; its ends; the place; leaves of the tree
+]  # the lock; the ends of the slab; start, end and half width of its cells; their centres
+StoredRefutation = tuple[int, tuple[int, int], int, list[tuple[int, Cell]]]  # lock; interval; path instant; leaves of the tree
 
 SEGMENT_INSTANTS = 1 << 20  # instants
 PATH_CENTER_UNIT = 2.0**-28  # rad
@@ -65,9 +65,7 @@ def format_fraction(fraction: Fraction) -> str:
 
 
 def format_worst_fractions(parts: list[tuple[Fraction, Fraction]]) -> dict[str, str]:
-    """Return the smallest proved and the largest refuted and undecided fractions over the locks of all joints, given (proved,
-    refuted).
-    """
+    """Return the smallest proved, and the largest refuted and undecided fractions of locks with (proved, refuted) fractions."""
     min_proved, max_refuted = min(proved for proved, _ in parts), max(refuted for _, refuted in parts)
     max_undecided = max(1 - proved - refuted for proved, refuted in parts)
     volumes = {"proved": min_proved, "refuted": max_refuted, "undecided": max_undecided}
@@ -75,17 +73,18 @@ def format_worst_fractions(parts: list[tuple[Fraction, Fraction]]) -> dict[str, 
 
 
 def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
-    """Yield the slabs of all locks in order; raise an error unless each is complete, within the claim and behind the previous
-    one.
+    """Yield the slabs of all locks in order.
+
+    Raise an error unless each slab is complete, within the claim and behind the previous slab.
     """
     first, last = document["during"]
     path_end, n = (len(document["knots"]) - 1) * SEGMENT_INSTANTS, len(document["arm"]["joints"])
     for lock_index, lock in enumerate(document["locks"]):
         packed = decompress_payload(lock["cells"], 8 * 4 * MAX_CELLS, "cells")
-        require(len(packed) % 8 == 0, "cells are cut off")
+        require(len(packed) % 8 == 0, "cells are truncated")
         numbers = np.frombuffer(packed, "<i8").astype(np.int64)
         payload = decompress_payload(lock["centres"], 4 * n * MAX_CELLS, "centres")
-        require(len(payload) % (4 * n) == 0, "centres are cut off")
+        require(len(payload) % (4 * n) == 0, "centres are truncated")
         rows, cursor, used, earliest = np.frombuffer(payload, "<i4").reshape(-1, n).astype(np.int64), 0, 0, first
         require(not rows[:, lock["followers"]].any(), "centres of joints that follow must be 0")
         while cursor < len(numbers):
@@ -98,7 +97,7 @@ def read_slabs(document: dict[str, Any]) -> Iterator[StoredSlab]:
             slab_cells = _decode_cells(begin, encoded_ends, slab_centers[:, lock["joint"]])
             slab_centers[:, lock["joint"]] = 0
             is_valid = (slab_cells[:, 2] == 0).all() or not any(map(parse_hex, document["tube"]))
-            require(is_valid, "in a tube there are no turned cells")
+            require(is_valid, "a tube must not have turned cells")
             require(slab_cells[-1, 1] == path_end and not slab_cells[-1, 2], "cells of a slab end before the path")
             require(slab_cells[0, 2] or slab_cells[0, 1] >= stop, "the first cell of a slab does not hold it")
             yield lock_index, (begin, stop), slab_cells, slab_centers
@@ -123,8 +122,9 @@ def read_refutations(document: dict[str, Any]) -> Iterator[StoredRefutation]:
 
 
 def _decode_cells(begin: int, encoded_ends: Ints, encoded_starts: Ints) -> Ints:
-    """Return starts, ends and half widths (0 unless tangent) of cells, from their ends or negative half widths, and the
-    positions of some.
+    """Return starts, ends and half widths (0 unless tangent) of cells.
+
+    Encoded ends are instants, or negative half widths of tangent cells. Encoded starts are the path positions of some cells.
     """
     is_tangent = encoded_ends < 0
     faces = np.append(begin, np.maximum.accumulate(np.where(is_tangent, begin, encoded_ends)))
@@ -147,7 +147,7 @@ def path_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     task = require_task(document)
     count, points = (len(x) if isinstance(x, list) else 0 for x in (document.get("knots"), document.get("points")))
     is_valid = n <= MAX_PATH_JOINTS and 2 <= count <= MAX_SEGMENTS + 1
-    require(is_valid, f"a path has from 1 to {MAX_SEGMENTS} segments, and {MAX_PATH_JOINTS} joints at most")
+    require(is_valid, f"a path must have 1 to {MAX_SEGMENTS} segments, and at most {MAX_PATH_JOINTS} joints")
     instant = range((count - 1) * SEGMENT_INSTANTS + 1)
     follower = [range(n), n - 1 - TASK_FORMS[task][0] - TASK_FORMS[task][1]]
     refuted = [dict.fromkeys(("begin", "stop", "at"), instant) | {"tree": TEXT_PATTERN}, ...]

@@ -1,6 +1,6 @@
-"""Verification of the leaves of a reach: some configuration near each center reaches every target at every locked value.
+"""Verification of the leaves of a reach: near each center, some configuration reaches every target at every locked value.
 
-Joints follow the place in a leaf along any matrix, here the one by which the tool follows the target to first order.
+In a leaf, joints follow the target and the locked value along any matrix, here one that is correct to first order.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from .forms import (
 from .taylor import InvariantSectionBoxes, TaskErrorEnclosure
 from .tree import MAX_LEAVES, PROVED_TOKEN, Cell, iterate_cells
 
-CENTER_UNIT = 2.0**-24  # rad or m, of centres
+CENTER_UNIT = 2.0**-24  # rad or m: unit of stored centres
 
 
 class TargetLeafVerifier(LeafVerifier):
-    """Verifier of boxes whose last axes are those of a target that the arm must reach."""
+    """Verifier of boxes whose last axes belong to a target that the arm must reach."""
 
     def __init__(self, document: dict[str, Any], leading_axes: list[Any], trailing_axes: list[Any], planar: bool) -> None:
         super().__init__(document, [*leading_axes, *document["target"]["box"], *trailing_axes])
@@ -44,12 +44,12 @@ class TargetLeafVerifier(LeafVerifier):
         self.limits = np.array([[parse_hex(number) for number in pair] for pair in document["limits"]])
         linear = TASK_FORMS[self.task][0]
         self.targets, self.turning = slice(len(leading_axes), len(leading_axes) + self.target_size), self.target_size - linear
-        # The axes of a target in the order of its chain, and in that of an error, in which they follow the arm's joints.
+        # The axes of a target in the order of its chain, and in the order of an error, in which they follow the arm's joints.
         self.chain_axes = [*range(linear)][::-1] + [*range(linear, self.target_size)][::-1]
         self.error_axes = [*range(linear, self.target_size), *range(linear)]
 
     def enclose_error(self, joints: list[Array], target: list[Array]) -> TaskErrorEnclosure:
-        """Return the task rows of the error."""
+        """Return the enclosure of the task rows of the error."""
         return TaskErrorEnclosure(self.task, self.arm, joints, self.goal, [target[axis] for axis in self.chain_axes])
 
 
@@ -79,7 +79,7 @@ class ReachVerifier(TargetLeafVerifier):
         return count, undecided, iterate_leaves
 
     def enclose_leaf_centers(self, leaves: list[Leaf]) -> tuple[list[Array], list[Array]]:
-        """Return the joints at the centers, and the axes of the cells, as :func:`enclose_angle` gives them."""
+        """Return the joints at the centers, and the axes of the cells, as rows of :func:`enclose_sine_and_cosine`."""
         axes = self.enclose_centers(cell for cell, _ in leaves)
         joints = [enclose_sines_and_cosines(values) for values in (np.array([counts for _, counts in leaves]) * CENTER_UNIT).T]
         for joint in self.fixed:
@@ -89,7 +89,7 @@ class ReachVerifier(TargetLeafVerifier):
         return joints, axes
 
     def choose_joint_response(self, error: TaskErrorEnclosure) -> Array:
-        """Choose matrices D (N, V, axes of the cell and of the section) that follow the solution; any choice is valid."""
+        """Choose matrices D (N, V, axes of cell and section) by which joints follow the solution; any choice is valid."""
         gradients, axis_count = error.slopes.center[:, : error.m], len(self.width)
         inverse = np.linalg.pinv(np.nan_to_num(gradients[:, :, self.free]))
         directions = np.zeros((len(gradients), gradients.shape[2], axis_count + error.m))
@@ -115,7 +115,7 @@ class ReachVerifier(TargetLeafVerifier):
         return 0
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
-        """Return a mask of the leaves in which every target and locked value has a configuration."""
+        """Return a mask of the leaves in which a configuration exists for every target and locked value."""
         inclusion, q = self.enclose_leaves(leaves)
         return inclusion.is_proved & inclusion.is_within_limits(q, self.limits, self.free)
 

@@ -1,16 +1,16 @@
 """Enclosures of numbers over boxes, from exact first and second derivatives at the center, for all claims except structural
 zeros.
 
-The numbers of most claims are the error of a tool from where another chain has its tool: rows of the place, then of the
-rotation. Rows of a rotation are <W, E>, the sum of products of entries, with E the rotation from the other tool to the first
-and W fixed matrices: with a pose the axial part (E - E')/2, in the plane the third row of it; where only the tool's axis
-counts, how far that of the one goes less that of the other along two fixed vectors across. With a before b in the chain, E
-changes by [a]E, and twice by [a][b]E; the other chain's joints enter backwards.
-A last row is cos(angle) - 1 of what is left: the others are 0 for half a turn as well, and this one tells it from none.
+For most claims the numbers are the error between the tool and the tool of another chain: position rows, then rotation rows. The
+rows of a rotation are <W, E>, the sum of products of entries, where E is the rotation from the other tool to the first and W
+are fixed matrices. For a pose the rows are the axial part (E - E')/2, in the plane its third row. If only the tool's axis
+matters, they are the differences of both axes along two fixed transverse vectors. With axis a before b in the chain, the first
+derivatives of E are [a]E, and the second ones [a][b]E; the joints of the other chain enter in reverse order.
+A last row is cos(angle) - 1 of the remaining rotation. The other rows are 0 for half a turn as well, and this row excludes it.
 
-Let some columns D say how joints follow the place in a box and a section variable s. This bounds |g - s| by e(S) over the
-box and a box of half widths S, with g the rows. Where e(S) <= S, the map s -> s - g sends that box into itself, so by Brouwer's
-theorem some s has g = 0. Any D will do; it decides whether e(S) <= S.
+Let the columns of D describe how joints follow the position in a box and a section variable s. This bounds |g - s|, with the
+rows g, by e(S) over the box and a section box of half widths S. If e(S) <= S, the map s -> s - g maps the section box into
+itself, so by Brouwer's theorem g = 0 for some s. Any D is valid, but D decides whether e(S) <= S.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from .balls import MIN_ROUNDING, ROUND_UP, Array, BallArray, Flags, concatenate,
 from .chain import BallChain, PointKinematics
 from .forms import TASK_FORMS
 
-MIN_COSINE_ROW = -0.05  # of the last row: what is left to turn is then at most 0.32 rad
-MAX_ROTATION_CHANGE_RAD = 1.5  # rad by which it may change: both together are less than half a turn
+MIN_COSINE_ROW = -0.05  # least value of the last row, for which the remaining angle is at most 0.32 rad
+MAX_ROTATION_CHANGE_RAD = 1.5  # rad: largest change of this angle; their sum is less than half a turn
 CROSS_MATRICES = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1)  # [e_l], (3, 3, 3)
 
 
 class DerivativeEnclosure:
-    """Numbers (N, a), their gradients (N, a, V) and second derivatives (N, a, V, V), which are symmetric."""
+    """Enclosure of numbers (N, a), their gradients (N, a, V) and their symmetric second derivatives (N, a, V, V)."""
 
     def __init__(self, value: BallArray, slopes: BallArray, second: BallArray) -> None:
         self.value, self.slopes, self.second = value, slopes, second
@@ -40,7 +40,7 @@ class DerivativeEnclosure:
         return DerivativeEnclosure(self.value[:, key], self.slopes[:, key], self.second[:, key])
 
     def substitute_columns(self, columns: BallArray, offsets: Array) -> DerivativeEnclosure:
-        """Substitute columns D (N, V, C) for the variables, less ``offsets`` (a, C) of each column."""
+        """Substitute columns D (N, V, C) for the variables, and subtract ``offsets`` (a, C) from the gradients."""
         second = einsum("nki,nakj->naij", columns, einsum("nakl,nlj->nakj", self.second, columns))
         return DerivativeEnclosure(self.value, einsum("nak,nkc->nac", self.slopes, columns) + -offsets, second)
 
@@ -66,7 +66,7 @@ class DerivativeEnclosure:
 
     @cached_property
     def own_curvature(self) -> tuple[Array, Array]:
-        """Lower bounds of the second derivatives by one variable, and of their negatives."""
+        """Lower bounds of the second derivatives by a single variable, and of their negatives."""
         lower, upper = (np.diagonal(balls.lower, axis1=2, axis2=3) for balls in (self.second, -self.second))
         return lower, upper
 
@@ -92,8 +92,9 @@ class DerivativeEnclosure:
 
 
 class TaskErrorEnclosure(DerivativeEnclosure):
-    """Task rows of the tool of one chain relative to the tool of another, by the joints of the first, then those of the second
-    backwards.
+    """Task rows of the tool of one chain relative to the tool of another.
+
+    The variables are the joints of the first chain, then those of the second in reverse order.
     """
 
     def __init__(self, task: str, arm: BallChain, joints: list[Array], goal: BallChain, places: list[Array]) -> None:
@@ -118,7 +119,7 @@ class TaskErrorEnclosure(DerivativeEnclosure):
             rotation = einsum("nij,nkj->nik", arm_point.rotation, goal_point.rotation)
             spin_axes = concatenate(1, arm_point.spin_axes, -einsum("nij,nkj->nki", rotation, goal_point.spin_axes)[:, ::-1])
             weights = np.concatenate([CROSS_MATRICES[3 - turning :] / 2, [np.eye(3) / 2]])
-            moves = np.einsum("lik,rij->rlkj", CROSS_MATRICES, weights)  # <W, [e_l]E> is this with E
+            moves = np.einsum("lik,rij->rlkj", CROSS_MATRICES, weights)  # the product of this with E is <W, [e_l]E>
             value = einsum("rij,nij->nr", weights, rotation) + -np.append(np.zeros(turning), 1.5)
             second_map = einsum("rlkj,nbkj->nrbl", moves, einsum("nbik,nkj->nbij", cross_matrix(spin_axes), rotation))
             gradients = einsum("nrl,nal->nra", einsum("rlkj,nkj->nrl", moves, rotation), spin_axes)
@@ -134,9 +135,7 @@ class TaskErrorEnclosure(DerivativeEnclosure):
         return [(chain, slide_extent, part) for (chain, slide_extent), part in zip(self.chains, travels, strict=True)]
 
     def bound_remainder_and_angle(self, joint_travel: Array) -> tuple[Array, Array]:
-        """Bound the remainder of each row after second order where joints travel ``joint_travel`` (N, V), and the angle of
-        their rotation.
-        """
+        """Bound the remainder of each row after second order, and the rotation angle, for a joint travel (N, V)."""
         parts = self.split_by_chain(joint_travel)
         third = (
             sum(chain.bound_derivative(3, travel, chain.link_lengths, slide_extent) for chain, slide_extent, travel in parts)
@@ -149,7 +148,7 @@ class TaskErrorEnclosure(DerivativeEnclosure):
 
 
 class InvariantSectionBoxes:
-    """Boxes of positions and sections, of half widths (N, C), the last m of the section, which s -> s - g maps into itself."""
+    """Boxes of positions and sections with half widths (N, C), whose last m, the section, s -> s - g maps into itself."""
 
     def __init__(self, error: TaskErrorEnclosure, d: BallArray, column_offsets: Array, half_widths: Array) -> None:
         self.error, self.half_widths, self.response, self.m = error, half_widths, d.magnitude, error.m
@@ -161,7 +160,7 @@ class InvariantSectionBoxes:
             if closed.all():
                 break
             s[:] = np.where(closed[:, None], s, 1.05 * self.excess + 1e-9)
-        for _ in range(8):  # as e grows with S, a little more than e(S) is such a box again
+        for _ in range(8):  # e grows with S, so slightly more than e(S) is tried as the next box
             self.update_bounds()
             if (self.excess[closed] > 0.999999 * s[closed]).all():
                 break
@@ -170,7 +169,7 @@ class InvariantSectionBoxes:
         self.is_proved = closed & self.update_bounds() & (is_regular | (not error.uses_rotation))
 
     def update_bounds(self) -> Flags:
-        """Update e(S), the joint travel and the rotation of the tool, rounded up; return a mask where e(S) <= S."""
+        """Update e(S), the joint travel and the rotation of the tool, rounded up, and return the mask of e(S) <= S."""
         self.joint_travel = np.einsum("nkc,nc->nk", self.response, self.half_widths) * ROUND_UP
         remainder, self.angle = self.error.bound_remainder_and_angle(self.joint_travel)
         self.excess, s = self.form.bound_magnitude(self.half_widths, remainder[:, : self.m]), self.half_widths[:, -self.m :]
@@ -191,9 +190,7 @@ def enclose_difference(
     other_columns: BallArray,
     other_vector: BallArray,
 ) -> DerivativeEnclosure:
-    """Enclose the difference (N, 3) of a vector of one chain and one of another, by the joints of both, the other's
-    backwards.
-    """
+    """Enclose the difference (N, 3) of vectors of two chains, by the joints of the first, then the second in reverse order."""
     (gradients, second), (other_gradients, other_second) = (
         vector_derivatives(*vectors) for vectors in ((point.spin_axes, columns), (other_point.spin_axes, other_columns))
     )
@@ -210,5 +207,5 @@ def enclose_difference(
 
 
 def vector_derivatives(spin_axes: BallArray, columns: BallArray) -> tuple[BallArray, BallArray]:
-    """Return the gradients (N, 3, V) of a vector and its second derivatives (N, 3, V, V), z_a x J_b by a and a later b."""
+    """Return the gradients (N, 3, V) of a vector and its second derivatives (N, 3, V, V), z_a x J_b for a and a later b."""
     return columns.transpose(0, 2, 1), einsum("nari,nbi->nrab", cross_matrix(spin_axes), columns).mirror_upper_triangle()

@@ -7,22 +7,23 @@ from fractions import Fraction
 
 from .forms import require
 
-Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): the part from k to k + 1 of 2^d equal ones
+Cell = tuple[tuple[int, int], ...]  # for each axis (k, d): part k, from 0, of 2^d equal parts
 
 MAX_LEAVES = 1 << 24
 MAX_DEPTH = 200
-MAX_COVER_STEPS = 1_000_000  # to find what overlapping cells cover
-PROVED_TOKEN = 0  # token 2 is undecided
-SPLIT_TOKEN = 16  # so is 1, refuted, as a reach of version 1 holds no refutations
+MAX_COVER_STEPS = 1_000_000  # steps to compute the volume that overlapping cells cover
+PROVED_TOKEN = 0  # token 2 marks undecided cells
+SPLIT_TOKEN = 16  # token 1, refuted, counts as undecided, too, because a reach of version 1 contains no refutations
 
 
 def iterate_cells(tree: bytes, axes: int, last_leaf_token: int = 2, first_lock_token: int = 256) -> Iterator[tuple[int, Cell]]:
-    """Yield token and cell of each leaf, in tree order; leaf tokens are those up to ``last_leaf_token`` and from
-    ``first_lock_token``.
+    """Yield token and cell of each leaf in tree order.
+
+    Leaf tokens are those up to ``last_leaf_token`` and from ``first_lock_token`` on.
     """
     waiting: list[Cell] = [((0, 0),) * axes]
     for token in tree:
-        require(waiting, "the tree goes on behind its end")
+        require(waiting, "the tree continues after its end")
         cell, axis = waiting.pop(), token - SPLIT_TOKEN
         if token <= last_leaf_token or token >= first_lock_token:
             yield token, cell
@@ -40,8 +41,9 @@ def compute_disjoint_volume(parts: Iterable[Cell]) -> Fraction:
 
 
 def compute_covered_volume(parts: Collection[Cell], remaining_steps: list[int]) -> Fraction:
-    """Return the fraction of the root box that overlapping cells cover, or an upper bound once ``remaining_steps`` (one number)
-    are spent.
+    """Return the fraction of the root box that overlapping cells cover, or an upper bound.
+
+    The result is an upper bound if the number in ``remaining_steps`` does not suffice.
     """
     remaining_steps[0] -= len(parts)
     if len(parts) < 2 or remaining_steps[0] < 0 or any(not any(d for _, d in cell) for cell in parts):

@@ -1,8 +1,8 @@
 """Verification of structural zeros in rational arithmetic: the axes before a joint meet in one point, those behind it in
 another.
 
-A force along the line through both points has no moment about any other axis, so a lock of the joint costs everything, or the
-arm is singular.
+A force along the line through both points has no moment about any of these axes. A lock of the joint therefore removes all
+relative manipulability, or the arm is singular.
 """
 
 from __future__ import annotations
@@ -19,15 +19,13 @@ from .tree import Cell
 
 
 class StructuralZeroVerifier(LeafVerifier):
-    """Verifier of pairs of neighbouring axes, before the joint and behind it, that must share the point that both name."""
+    """Verifier of pairs of neighbouring axes, before the joint and behind it, that must share the given point."""
 
     def __init__(self, document: dict[str, Any]) -> None:
         super().__init__(document, [])
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """Return the number of leaves, an empty list of undecided cells, and an iterator of the leaves, each with the later
-        axis.
-        """
+        """Return the number of leaves, an empty list of undecided cells, and an iterator of leaves with their later axis."""
         later_axes = [
             axis for axis in range(1, len(document["snapped"])) if axis not in (document["locked"], document["locked"] + 1)
         ]
@@ -38,7 +36,7 @@ class StructuralZeroVerifier(LeafVerifier):
         return [cell for cell, _ in rejected[:1]]
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> list[bool]:
-        """Return whether the pair of axes shares its point."""
+        """Return flags of the leaves whose pair of axes shares its point."""
         frame, points = self._document["snapped"][kind], [Fraction(number) for number in self._document["points"]]
         rotation = rotation_from_quaternion(map(int, frame["rotation"]))
         meeting_point = [Fraction(x) + row[2] * points[kind] for x, row in zip(frame["origin"], rotation, strict=True)]
@@ -60,7 +58,7 @@ def bound_frame_errors(document: dict[str, Any]) -> tuple[float, float]:
     for frame, joint in zip(document["snapped"], document["arm"]["joints"], strict=True):
         exact = [number for row in rotation_from_quaternion(map(int, frame["rotation"])) for number in row]
         squared_error = sum((x - Fraction(parse_hex(y))) ** 2 for x, y in zip(exact, joint["rotation"], strict=True))
-        require(squared_error < Fraction(1, 10_000), "a frame is turned by more than some hundredths of a radian")
+        require(squared_error < Fraction(1, 10_000), "a frame is rotated by more than a few hundredths of a radian")
         # |R - R'| (Frobenius) is 2 sqrt 2 sin(angle / 2); the sine of a small x is above x (1 - x^2 / 6).
         rotation_error = max(rotation_error, math.sqrt(squared_error) / math.sqrt(2) * 1.0001)
         origins = zip(frame["origin"], joint["origin"], strict=True)
@@ -72,7 +70,7 @@ def bound_frame_errors(document: dict[str, Any]) -> tuple[float, float]:
 def structural_zero_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a structural zero has in addition to the common ones."""
     require_revolute(document)
-    require(document["task"] == "pose" and n > 2, "structural zeros are of the pose, and of 3 joints or more")
+    require(document["task"] == "pose" and n > 2, "a structural zero needs the task pose, and 3 joints or more")
     frame = {"rotation": [INTEGER_PATTERN, 4], "origin": [RATIONAL_PATTERN, 3]}
     return {"locked": range(1, n - 1), "snapped": [frame, n], "points": [RATIONAL_PATTERN, n]}
 

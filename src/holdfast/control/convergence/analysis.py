@@ -1,4 +1,4 @@
-"""The analysis of a workspace for one target: the motions from every start."""
+"""Analysis of a workspace for one target, with the motions from every start."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ RelativeTo = Literal["inside", "whole"]
 
 TIME_CONSTANTS = 2000.0  # 1/Ke
 RUN_TOLERANCE = 1e-8
-PATH_CELLS = 100  # of a way
+PATH_CELLS = 100  # cells of a path
 HOPF_MARGIN_RAD = 0.02  # rad on either side of a Hopf point, where limit cycles were seen within 0.005
-SINK_MARGIN_RAD = 1e-3  # rad: locked angles this near to a sink or a degenerate angle are simulated too
+SINK_MARGIN_RAD = 1e-3  # rad: locked angles this close to a sink or a degenerate angle are simulated too
 FAILURE_ENDS = ("converged", "stuck", "moving", "undecided", "arriving", "no_sink")  # the first four as Outcome has them
 FAILURE_END_TEXTS = (*FAILURE_ENDS[:4], "undecided next to the target", "not simulated (no sink)")
 END_ARRIVING = 4
@@ -45,7 +45,7 @@ _REACH_VALUES = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
 
 
 class StartConfigurations:
-    """Configurations at the starts, computed on request and cached, so that one set serves many targets."""
+    """Cache of configurations at the starts, computed on request, so that one set serves many targets."""
 
     def __init__(self, law: Law, places: Places, configurations: int, method: Method, seed: int) -> None:
         self._law = law
@@ -56,7 +56,7 @@ class StartConfigurations:
         self._cached_blocks: dict[tuple[int, int], tuple[IndexArray, FloatArray]] = {}
 
     def find_configurations(self, first: int, stop: int) -> tuple[IndexArray, FloatArray]:
-        """Return the owners (R,), from 0, and the configurations (R, n) of the places from ``first`` up to ``stop``."""
+        """Return the index from 0 of the place (R,), and configurations (R, n), for places from ``first`` up to ``stop``."""
         if (first, stop) not in self._cached_blocks:
             arm, task, poses = self._law.arm, self._law.task, self.places.poses[first:stop]
             if self._is_sampled:
@@ -69,13 +69,13 @@ class StartConfigurations:
 
 
 def choose_method(law: Law) -> Method:
-    """Return ``brute`` for a task in a plane, where starts are a lattice, else ``sampled``."""
+    """Return ``brute`` for a task in a plane, whose starts form a lattice, else ``sampled``."""
     return "brute" if is_planar_position(law.task) else "sampled"
 
 
 @dataclass(frozen=True, eq=False)
 class TargetAnalysis:
-    """One target, and the options with which the motions to it are analysed, those of :func:`holdfast.workspace`."""
+    """Analysis of the motions to one target with the options of :func:`holdfast.workspace`."""
 
     law: Law
     pose: FloatArray
@@ -129,9 +129,7 @@ class TargetAnalysis:
         ]
 
     def analyse(self, start_index: IndexArray, q0: FloatArray, count: int) -> Rows:
-        """Analyse ``count`` starts, from configurations q0 (R, n) of the starts ``start_index`` (R,), and return
-        all results.
-        """
+        """Analyse ``count`` starts from configurations q0 (R, n) of the starts ``start_index`` (R,), and return all results."""
         arm = self.law.arm
         paths = compiled_healthy_paths(self.law)
         target = np.broadcast_to(self.pose, (len(q0), 4, 4))
@@ -158,8 +156,9 @@ class TargetAnalysis:
     def _compute_converging_fractions(
         self, q: FloatArray, inside: BoolArray, owner: IndexArray, starts: int
     ) -> tuple[FloatArray, IndexArray]:
-        """Return the fraction (R, n + 1) of the part inside from which the failed arm converges, and failure ends
-        (starts, 6).
+        """Return the fraction (R, n + 1) of the part inside from which the failed arm converges, and counts of failure ends.
+
+        The counts have the shape (starts, 6).
         """
         n, row_count = self.law.arm.n, q.shape[1]
         fractions, ends = np.full((row_count, n + 1), np.nan), np.zeros((starts, len(FAILURE_ENDS)), dtype=np.int64)
@@ -179,7 +178,7 @@ class TargetAnalysis:
         np.add.at(ends, (owner[rows_of_cells], failure_ends), 1)
         reach_values = _REACH_VALUES[failure_ends]
         parts = np.split(reach_values, np.cumsum([len(group[0]) for group in groups])[:-1])
-        # (n, R) how much of the part of a joint is inside for all.
+        # (n, R) fraction of the part inside for a joint that is inside for all joints.
         shared_fraction = inside_counts[n] / np.maximum(inside_counts[:n], 1)
         for joint_index in range(n):
             shared_mean = mean_by_row(parts[joint_index], shared_cells[0], row_count)
@@ -197,7 +196,7 @@ class TargetAnalysis:
         return fractions, ends
 
     def _classify_failure_ends(self, q: FloatArray, joint: IndexArray) -> IndexArray:
-        """Return (N,) the ends of failures of joints (N,) at configurations (N, n), as indices of ``FAILURE_ENDS``."""
+        """Return the ends (N,) of failures of joints (N,) at configurations (N, n), as indices of ``FAILURE_ENDS``."""
         failure_ends = np.full(len(q), END_NO_SINK)
         needs_run = np.ones(len(q), dtype=bool)
         if self.sinks is not None:
@@ -233,11 +232,11 @@ def prepare_analysis(
     sinks: Mapping[int, Arcs] | None = None,
     seed: int = 0,
 ) -> TargetAnalysis:
-    """Prepare the analysis of a target; it has no bounds where the target is not reached.
+    """Prepare the analysis of a target; it has no bounds if the target is not reached.
 
     Raises:
         InputError: Wrong shapes or options, or a procedure for a target with surfaces of stationary points.
-        TaskError: An arm without redundancy for the task.
+        TaskError: The arm has no redundancy for the task.
     """
     arm, task = law.arm, law.task
     if arm.n <= task.m:
@@ -257,7 +256,7 @@ def prepare_analysis(
     run_limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
     targets = read_places(arm, task, target, np.random.default_rng(seed))
     if len(targets) != 1:
-        raise InputError(f"there are {len(targets)} targets; a workspace is that of one; say over='targets' for more")
+        raise InputError(f"there are {len(targets)} targets; give one, or over='targets' for several")
     target_pose = targets.poses[0]
     bounds = tuple(tuple(arcs) for arcs in joint_bounds(arm.without_idle_limits, target_pose, task, seed=seed))
     arcs = None
@@ -269,7 +268,7 @@ def prepare_analysis(
 
 
 def _find_sinks(law: Law, pose: FloatArray) -> dict[int, Arcs]:
-    """Return for each joint the locked values with a sink, and those near which motions may cycle or converge slowly."""
+    """Return the locked values of each joint with a sink, and those near which motions may cycle or converge slowly."""
     sink_arcs: dict[int, Arcs] = {}
     for joint in range(law.arm.n):
         curves = stationary_points(law, pose, {joint: None})

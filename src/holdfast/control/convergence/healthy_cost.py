@@ -19,9 +19,9 @@ from holdfast.kinematics.solvers.inverse_kinematics import task_error_and_jacobi
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.poses import check_poses
 
-ARRIVAL_TOLERANCE = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
+ARRIVAL_TOLERANCE = 1e-3  # rad, and fraction of the arm's own length: with a smaller error the target counts as reached
 HORIZON_TIME_CONSTANTS = 40.0  # 1/Ke
-MOTION_SAMPLES = 64  # samples of a motion, closer to each other at its start
+MOTION_SAMPLES = 64  # samples of a motion, denser at its start
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +29,11 @@ class HealthyCost:
     """Costs of N motions of the healthy arm under one law.
 
     Attributes:
-        deviation: (N,) largest distance of the tool point from the straight line between start and target, m; of the
+        deviation: (N,) largest distance of the tool point from the straight line between start and target, m, in the
             directions that the task prescribes.
-        angle: (N,) largest angle between the task's velocity and the one commanded while the error is above 1e-3
-            (rad, and of the arm's own length, its links end to end rounded to a power of two), rad.
-        time: (N,) until the error is below that, s; in cycles, until the run ended. NaN: never.
+        angle: (N,) largest angle between the commanded velocity and the task's velocity, rad, while the error is above 1e-3
+            (rad, and fraction of the arm's own length, which is that of its links end to end, rounded to a power of two).
+        time: (N,) time until the error is below 1e-3, s; in cycles, time until the run ended. NaN: never.
     """
 
     deviation: FloatArray
@@ -42,9 +42,9 @@ class HealthyCost:
 
 
 def measure_healthy_cost(law: Law, q0: FloatArray, target: FloatArray, cycles: bool, radius: float) -> HealthyCost:
-    """Simulate N motions, (N, n) to (N, 4, 4), of the healthy arm, sample by sample, and measure their cost.
+    """Simulate N motions of the healthy arm from q0 (N, n) to target (N, 4, 4), sample by sample, and measure their cost.
 
-    What is between two samples is not seen: 64 samples over 40/Ke, the first 0.01/Ke and the last 1.3/Ke apart.
+    The 64 samples cover 40/Ke, the first 0.01/Ke and the last 1.3/Ke apart. The motion between two samples is not evaluated.
     """
     fractions = np.linspace(0, 1, MOTION_SAMPLES + 1) ** 2
     sample_times = np.unique(np.ceil(CYCLE_LIMIT / 4 * fractions)) if cycles else HORIZON_TIME_CONSTANTS / law.gain * fractions
@@ -54,10 +54,10 @@ def measure_healthy_cost(law: Law, q0: FloatArray, target: FloatArray, cycles: b
         if active.size:
             runs = simulate(law, q[active], target[active], cycles=cycles, time_limit=float(duration), radius=radius)
             q, current_times = q.copy(), current_times.copy()
-            # A run that has ended in a singularity stays there: NaN would spoil what came before.
+            # A run that has ended in a singularity stays there, because NaN would invalidate the samples before it.
             q[active] = np.where(np.isfinite(runs.q_final), runs.q_final, q[active])
             current_times[active] += np.nan_to_num(runs.time)
-            # So does one whose steps shrink to nothing: each of the pieces would take all the steps that there are.
+            # So does a run whose steps shrink to zero, because every further sample would use up the limit of steps.
             active = active[~np.isin(runs.reason, (Reason.STEPS, Reason.HALF_TURN))]
         configurations.append(q)
         times.append(current_times)
@@ -72,7 +72,7 @@ def measure_healthy_cost(law: Law, q0: FloatArray, target: FloatArray, cycles: b
 
 
 class _ErrorEvaluator:
-    """Errors of configurations at targets, and the angles between prescribed and commanded velocities."""
+    """Evaluator of errors at targets, and of angles between prescribed and commanded velocities."""
 
     def __init__(self, law: Law) -> None:
         self._law = law
@@ -103,9 +103,7 @@ class _ErrorEvaluator:
 
 
 def _line_deviation(offsets: FloatArray) -> FloatArray:
-    """Return (N,) the largest distance from the segment between the first point and the target, from remaining offsets (K, N,
-    3).
-    """
+    """Return the largest distance (N,) from the line between first point and target, for remaining offsets (K, N, 3)."""
     first_offset = offsets[0]
     squared_length = np.maximum((first_offset**2).sum(axis=1), 1e-30)
     fraction = np.clip((offsets * first_offset).sum(axis=2) / squared_length, 0.0, 1.0)
@@ -113,9 +111,9 @@ def _line_deviation(offsets: FloatArray) -> FloatArray:
 
 
 def _arrival_times(errors: FloatArray, time: FloatArray, tolerance: float) -> FloatArray:
-    """Return (N,) the times at which errors (K, N) fall below ``tolerance`` for good, exponential between samples."""
+    """Return the times (N,) after which errors (K, N) stay below ``tolerance``, interpolated exponentially."""
     inside = errors <= tolerance
-    # First sample that stays inside.
+    # First sample from which all samples are inside.
     first_inside = np.where(inside.all(axis=0), 0, len(errors) - np.argmax(~inside[::-1], axis=0))
     arrivals = np.full(errors.shape[1], np.nan)
     for motion in np.flatnonzero(first_inside < len(errors)):

@@ -1,8 +1,8 @@
-"""The motion of the healthy arm towards a target before a joint locks, for many starts in parallel.
+"""Motion of the healthy arm towards a target before a joint locks, for many starts in parallel.
 
-``q' = G(q) e(q)`` in the time of the law; here it is followed over the fraction s of the way, ``1 - s = exp(-Ke t)``:
-``dq/ds = G(q) e(q) / (1 - s)``. Under an exact inverse the end effector is then at the share s of the straight line to the
-target.
+In the time of the law, ``q' = G(q) e(q)``. Here the motion is integrated over the fraction s of the path with
+``1 - s = exp(-Ke t)``, which gives ``dq/ds = G(q) e(q) / (1 - s)``. With an exact inverse, the end effector is at the fraction
+s of the straight line to the target.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (5), (6).
 """
@@ -22,11 +22,11 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 
 STEP_TOLERANCE = 1e-7  # rad (and m): error of a step
-_MAX_HALVINGS = 12  # times at most: a start that needs more has met a singular configuration
+_MAX_HALVINGS = 12  # a start that needs more halvings of a step has met a singular configuration
 
 
 class HealthyPaths:
-    """The compiled step of one law: Dormand-Prince 5(4), with the estimate of its error."""
+    """Compiled Dormand-Prince 5(4) step of the healthy motion under one law, with its error estimate."""
 
     def __init__(self, law: Law) -> None:
         from scipy.integrate import RK45  # only its coefficients
@@ -50,10 +50,10 @@ class HealthyPaths:
         )
 
     def iterate_cell_midpoints(self, q0: FloatArray, poses: FloatArray, count: int) -> Iterator[FloatArray]:
-        """Yield configurations (R, n) at the middle of each of ``count`` equal parts of the path from q0 (R, n) to poses (R, 4,
-        4).
+        """Yield configurations (R, n) at the middle of each of ``count`` equal parts of the path.
 
-        A row is NaN once the motion meets a singular configuration of the law.
+        The paths lead from q0 (R, n) to poses (R, 4, 4). A row is NaN once its motion has met a singular configuration of the
+        law.
         """
         q, fraction = q0, 0.0
         position, rotation = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
@@ -93,5 +93,5 @@ class HealthyPaths:
 
 @lru_cache(maxsize=16)
 def compiled_healthy_paths(law: Law) -> HealthyPaths:
-    """Return the compiled step of a law, made once."""
+    """Return the compiled step of a law, which is cached."""
     return HealthyPaths(law)

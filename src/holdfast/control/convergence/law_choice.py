@@ -21,40 +21,40 @@ from holdfast.core.typing import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class LawChoice(Result):
-    """Laws on the same failures: the same starts, targets and locked joints.
+    """Outcomes of several control laws for the same starts, targets and locked joints.
 
     Attributes:
-        names: Of the laws.
-        maps: What happened, a :class:`holdfast.ConvergenceMap` each.
+        names: Names of the laws.
+        maps: Convergence map of each law.
     """
 
     names: tuple[str, ...]
     maps: tuple[ConvergenceMap, ...]
 
     def map_of(self, name: str) -> ConvergenceMap:
-        """Return the convergence map of one law.
+        """Return the convergence map of the law ``name``.
 
         Raises:
-            InputError: No such law.
+            InputError: There is no law of this name.
         """
         if name not in self.names:
-            raise InputError(f"there is no law '{name}'; there are {', '.join(self.names)}")
+            raise InputError(f"law '{name}' is not known; use {', '.join(self.names)}")
         return self.maps[self.names.index(name)]
 
     def share(
         self, name: str, joint: str | int | None = None, confidence: float = 0.95, *, outcome: str = "converged"
     ) -> Interval:
-        """Return the fraction of the failures after which the arm converges under a law, for one joint or for all joints alike.
+        """Return the fraction of the failures after which the arm converges under a law, for one joint or for all joints.
 
         Args:
-            name: Of the law.
-            joint: By name or index from 0; None: all alike.
-            confidence: Of the interval.
-            outcome: Another one of :meth:`holdfast.ConvergenceMap.has_outcome`; in a cell ``touched``: something is touched on
-                the way.
+            name: Name of the law.
+            joint: Name, or index from 0, of the locked joint. None: all joints with equal weights.
+            confidence: Confidence level of the interval.
+            outcome: Outcome of :meth:`holdfast.ConvergenceMap.has_outcome` to count; in a cell also ``touched``, for a contact
+                on the way.
 
         Raises:
-            InputError: No such law, joint or outcome.
+            InputError: The law, joint or outcome is not known.
         """
         check_confidence(confidence)
         law_map = self.map_of(name)
@@ -62,13 +62,19 @@ class LawChoice(Result):
         return average_fraction(self._fractions_by_place(name, joint, outcome), motion_count, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
-        """Return how much more often one law converges than another, on the same failures.
+        """Return the difference between the fractions of failures after which two laws converge, with its interval.
 
-        The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
-        (:meth:`holdfast.core.probability.Difference.of_fractions`).
+        The interval uses the differences by place, because places are independent and the motions of one place are not. It
+        always covers (:meth:`holdfast.core.probability.Difference.of_fractions`).
+
+        Args:
+            name: Name of the law.
+            other: Name of the law whose fraction is subtracted.
+            joint: Name, or index from 0, of the locked joint. None: all joints with equal weights.
+            confidence: Confidence level of the interval.
 
         Raises:
-            InputError: No such law or joint, or no place with a motion.
+            InputError: A law or joint is not known, or no place has a motion.
         """
         check_confidence(confidence)
         differences = self._fractions_by_place(name, joint) - self._fractions_by_place(other, joint)
@@ -84,7 +90,7 @@ class LawChoice(Result):
 
     @property
     def best(self) -> str:
-        """The first of the ranking; :meth:`difference` returns its certainty."""
+        """Name of the first law in the ranking; :meth:`difference` quantifies how certain this choice is."""
         return self.ranking[0]
 
     def _fractions_by_place(self, name: str, joint: str | int | None, outcome: str = "converged") -> FloatArray:
@@ -101,7 +107,7 @@ def rank_laws(
     progress: Progress | None,
     **options: Any,
 ) -> LawChoice:
-    """Return the laws, by name, on the same failures; see :func:`holdfast.compare_laws`."""
+    """Return the outcomes of laws, given by name, for the same failures; see :func:`holdfast.compare_laws`."""
     if len(laws) < 2:
         raise InputError(f"there is {len(laws)} law; give two or more different ones to find the best")
     maps = []

@@ -34,26 +34,26 @@ QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
-    """The N motions of one law with one joint locked, or with none.
+    """Runs of N motions under one law with one joint locked, or without a failure.
 
     Attributes:
         law: Name of the law.
-        failure: ``healthy``, or the name of the joint.
-        code: (N,) :class:`holdfast.control.simulation.RunOutcome`.
-        reason: (N,) :class:`holdfast.control.simulation.Reason`.
-        reachable: (N,) True where the target can still be reached with the joint locked, as far as was found
-            and joint limits left aside.
-        error: (N,) norm of the task's error at the end, m and rad, as the law's own command has it.
+        failure: ``healthy``, or the name of the locked joint.
+        code: (N,) :class:`holdfast.control.simulation.RunOutcome` of each run.
+        reason: (N,) :class:`holdfast.control.simulation.Reason` of each run.
+        reachable: (N,) True if a configuration was found that reaches the target with the joint locked, without regard to joint
+            limits.
+        error: (N,) norm of the task's error at the end, m and rad, as in the command of the law.
         position_error: (N,) distance of the tool point from the target at the end in the directions of the task, m.
         angle_error: (N,) angle of the end effector from the target at the end in the directions of the task, rad.
-        excess: (N,) that minus the least error that the failed arm could have, as far as was found.
-        closest: (N,) least error on the way.
-        path_length: (N,) m, of the tool point.
-        path_ratio: (N,) that by the straight way from start to target in the directions that the task prescribes.
-        excursion: (N,) sum over the joints of the range that each went through, rad (and m).
-        past_limits: (N,) True where a joint left its limits, which the motion does not heed.
-        time: (N,) s, or cycles, when the run ended.
-        contacts: (N,) what each run touches first, None for nothing; None if nobody looked.
+        excess: (N,) ``error`` minus the least error that was found for the failed arm.
+        closest: (N,) least error during the run, m and rad.
+        path_length: (N,) length of the path of the tool point, m.
+        path_ratio: (N,) path length divided by the straight distance from start to target in the directions of the task.
+        excursion: (N,) sum over the joints of the range that each passed through, rad (and m).
+        past_limits: (N,) True if a joint left its limits, which the motion does not enforce.
+        time: (N,) simulated time at the end of the run, s or cycles.
+        contacts: (N,) first contact of each run, None without contact; None if contacts were not checked.
     """
 
     law: str
@@ -79,21 +79,21 @@ class Case:
         return np.array([contact is not None for contact in self.contacts or ()] or np.zeros(len(self.code)), dtype=bool)
 
     def has_outcome(self, outcome: str) -> BoolArray:
-        """Return (N,) True for the runs that are ``converged``, ``stuck``, ``moving``, or ``undecided``.
+        """Return a mask (N,) of the runs with the ``outcome`` ``converged``, ``stuck``, ``moving``, or ``undecided``.
 
         Raises:
-            InputError: No such outcome.
+            InputError: The outcome is not known.
         """
         if outcome.upper() not in RunOutcome.__members__:
             raise InputError(f"outcome '{outcome}' is not known; use converged, stuck, moving or undecided")
         return np.asarray(self.code == RunOutcome[outcome.upper()])
 
     def share(self, outcome: str = "converged", among_reachable: bool = False) -> Interval | None:
-        """Return the fraction of the runs that ended so, with its exact 95 % interval; None of no runs.
+        """Return the fraction of the runs with an outcome, with its exact 95 % interval; None if there are no runs.
 
         Args:
             outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
-            among_reachable: Of the runs whose target is still within reach only.
+            among_reachable: True to count only the runs whose target is still within reach.
         """
         is_hit = self.has_outcome(outcome)
         if among_reachable:
@@ -103,17 +103,17 @@ class Case:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LawComparison(Result):
-    """Laws on the same N motions; see :func:`compare_laws`.
+    """Comparison of several control laws on the same N motions, healthy and with F - 1 locked joints; see :func:`compare_laws`.
 
     Attributes:
-        laws: The laws, of which the first is the one that the others are compared with.
-        names: Of the laws.
-        failures: ``healthy`` and the names of the joints that were locked, each alone.
-        runs: Of each law, (F N) runs: all motions healthy, then all with the first joint locked, and so on.
-        least_error: (F, N) least error that was found for the failed arm, the same for all laws.
-        way: (N,) straight way from start to target in the directions that the task prescribes, m.
-        healthy: Of each law, what it costs the arm before a failure.
-        about: What the motions are, a phrase for people.
+        laws: The control laws. The others are compared with the first law.
+        names: Names of the laws.
+        failures: ``healthy``, and the names of the joints that were locked, each alone.
+        runs: (F N) runs of each law: all motions without failure, then all with the first joint locked, and so on.
+        least_error: (F, N) least error that was found for the failed arm, m and rad; it is the same for all laws.
+        way: (N,) straight distance from start to target in the directions of the task, m.
+        healthy: Cost of each law for the healthy arm.
+        about: Phrase that describes the motions.
     """
 
     laws: tuple[Law, ...]
@@ -135,7 +135,7 @@ class LawComparison(Result):
 
     @property
     def clearance(self) -> Clearance | None:
-        """Collision model with which the runs were checked for contacts, or None if they were not. It changes no run."""
+        """Collision model with which the runs were checked for contacts; None if they were not. The check changes no run."""
         return self.runs[0].clearance
 
     @property
@@ -151,24 +151,24 @@ class LawComparison(Result):
 
     def _law_index(self, name: str) -> int:
         if name not in self.names:
-            raise InputError(f"there is no law '{name}' here; there are {', '.join(self.names)}")
+            raise InputError(f"law '{name}' is not in this comparison; use {', '.join(self.names)}")
         return self.names.index(name)
 
     def _failure_index(self, failure: str | int) -> int:
         joint_name = self.arm.joint_names[self.arm.joint_index(failure)] if isinstance(failure, int) else failure
         if joint_name not in self.failures:
-            raise InputError(f"'{joint_name}' was not locked here; there are {', '.join(self.failures)}")
+            raise InputError(f"failure '{joint_name}' is not in this comparison; use {', '.join(self.failures)}")
         return self.failures.index(joint_name)
 
     def case(self, law: str, failure: str | int = HEALTHY_CASE) -> Case:
         """Return the runs of one law with one joint locked.
 
         Args:
-            law: Its name.
-            failure: ``healthy``, or a joint by name or index from 0.
+            law: Name of the law.
+            failure: ``healthy``, or the name or index from 0 of the locked joint.
 
         Raises:
-            InputError: It was not part of the comparison.
+            InputError: The law or the failure is not in the comparison.
         """
         law_runs, failure_number = self.runs[self._law_index(law)], self._failure_index(failure)
         rows = slice(failure_number * len(self), (failure_number + 1) * len(self))
@@ -195,27 +195,36 @@ class LawComparison(Result):
         )
 
     def pool_values(self, law: str, of: str) -> NDArray[Any]:
-        """Return (K, N) the values of an attribute of :class:`holdfast.control.convergence.Case` for K locked joints.
+        """Return the values (K, N) of an attribute for K locked joints.
+
+        Args:
+            law: Name of the law.
+            of: Name of an attribute (N,) of :class:`holdfast.control.convergence.Case`.
 
         Raises:
-            InputError: No such law, or no joint was locked.
+            InputError: The law is not in the comparison, or no joint was locked.
         """
         if not self.joints:
             raise InputError("no joint was locked here; give failures='single' or a list of joints")
         return np.array([getattr(self.case(law, joint), of) for joint in self.joints])
 
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
-        """Return the fraction of an outcome where each joint is equally likely to lock, with its 95 % interval.
+        """Return the fraction of an outcome if each joint is equally likely to lock, with its 95 % interval.
 
-        The runs of one motion with different joints locked are not independent samples: the unit is the motion, and the
-        interval that of a mean of fractions, which always covers (:meth:`holdfast.core.probability.Interval.of_fractions`).
+        The runs of one motion with different joints locked are not independent samples. The sampling unit is therefore the
+        motion, and the interval is that of a mean of fractions, which always covers
+        (:meth:`holdfast.core.probability.Interval.of_fractions`).
+
+        Args:
+            law: Name of the law.
+            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
         """
         return Interval.of_fractions((self.pool_values(law, "code") == RunOutcome[outcome.upper()]).mean(axis=0))
 
     def touched_any(self, law: str) -> Interval:
-        """Return the fraction of the runs with a contact where each joint is equally likely to lock; as :meth:`share_any`.
+        """Return the fraction of runs with a contact under ``law``, with the weights and the interval of :meth:`share_any`.
 
-        Distances are lower bounds, so it is at most so many.
+        Distances are lower bounds, so the fraction is an upper bound.
         """
         return Interval.of_fractions(self.pool_values(law, "touched").mean(axis=0))
 
@@ -228,24 +237,22 @@ class LawComparison(Result):
         among_reachable: bool = False,
         undecided: Literal["lost", "for", "against"] = "lost",
     ) -> Difference:
-        """Return how many more of the same motions converge under a law than under another, as a fraction with its 95 %
-        interval.
+        """Return the difference between the fractions of motions that converge under two laws, with its 95 % interval.
 
-        Paired: for one joint by the method of Newcombe with exact limits
-        (:meth:`holdfast.core.probability.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
-        mean over the joints of each motion, because the runs of a motion go together, with the interval of fractions, which
-        always covers.
+        The difference is paired. For one joint, its interval is Newcombe's with exact limits
+        (:meth:`holdfast.core.probability.Difference.of_pairs` documents its coverage). For ``any joint`` it is that of the
+        means over the joints of each motion, because the runs of a motion are correlated; this interval always covers.
 
         Args:
-            law: Its name.
-            failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
-            than: The other law; the first if not given.
-            among_reachable: Of the motions whose target is still within reach only; not for ``any joint``.
-            undecided: What undecided runs with a target within reach count as, for they may yet converge: ``lost`` under either
-                law, as if they all converged under this law (``for``), or as if they all did under the other (``against``).
+            law: Name of the law.
+            failure: ``healthy``, ``any joint``, or the name or index from 0 of the locked joint.
+            than: Name of the law whose fraction is subtracted. Default: the first law.
+            among_reachable: True to count only motions whose target is still within reach; not for ``any joint``.
+            undecided: Assumption on undecided runs with a target within reach, which may still converge: they converge under
+                neither law (``lost``), all under this law (``for``), or all under the other law (``against``).
 
         Raises:
-            InputError: A law or a joint that was not part of the comparison, or no motion to compare.
+            InputError: A law or joint is not in the comparison, or there is no motion to compare.
         """
         other = self.names[0] if than is None else than
         counts_undecided = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
@@ -269,18 +276,19 @@ class LawComparison(Result):
     def change(self, law: str, of: ErrorOf, failure: str | int = ANY_JOINT, *, than: str | None = None) -> Difference:
         """Return the mean change of an error at the end of the same motions between two laws, with its 95 % interval.
 
-        Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
-        moving count as they were when time was up. Errors have no bound, so the interval is Student's t, which may cover too
-        little for few motions of which a few differ much (:meth:`holdfast.core.probability.Difference.of_means`).
+        The change is paired: it uses the difference of each motion, or, for ``any joint``, its mean over the joints. Runs that
+        still move count with their error at the time limit. Errors have no upper bound, so the interval is Student's t, which
+        may cover too little if there are few motions and a few differ strongly
+        (:meth:`holdfast.core.probability.Difference.of_means`).
 
         Args:
-            law: Its name.
-            of: Which error of :class:`holdfast.control.convergence.Case`, m or rad.
-            failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
-            than: The other law; the first if not given.
+            law: Name of the law.
+            of: Name of an error of :class:`holdfast.control.convergence.Case`, m or rad.
+            failure: ``healthy``, ``any joint``, or the name or index from 0 of the locked joint.
+            than: Name of the law whose error is subtracted. Default: the first law.
 
         Raises:
-            InputError: A law or a joint that was not part of the comparison, or fewer than two motions.
+            InputError: A law or joint is not in the comparison, or there are fewer than two motions.
         """
         law_names = (self.names[0] if than is None else than, law)
         if failure == ANY_JOINT:
@@ -295,12 +303,12 @@ class LawComparison(Result):
     def cost(
         self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = QUANTILE_LEVELS
     ) -> FloatArray:
-        """Return (L,) quantiles of the cost of a law for the healthy arm, over the motions that converge under every law.
+        """Return the quantiles (L,) of the cost of a law for the healthy arm, over the motions that converge under every law.
 
         Args:
-            law: Its name.
-            of: An attribute of :class:`holdfast.control.convergence.HealthyCost`.
-            levels: 0 to 1.
+            law: Name of the law.
+            of: Name of an attribute of :class:`holdfast.control.convergence.HealthyCost`, in m, rad, or s.
+            levels: (L,) levels of the quantiles, from 0 to 1.
         """
         values = getattr(self.healthy[self._law_index(law)], of)[self.comparable]
         values = values[np.isfinite(values)]
@@ -313,17 +321,17 @@ class LawComparison(Result):
 
     @cached_property
     def table(self) -> list[dict[str, Any]]:
-        """One dictionary for each law and failure, for people, files and tables; shares are of all motions.
+        """Table of the results with one dictionary for each law and failure; fractions refer to all motions.
 
-        ``law, failure, motions, converged`` and its 95 % interval ``converged_low, converged_high``; the same of ``stuck``,
-        ``moving`` and ``undecided``; ``reachable`` (share of targets still within reach) and ``converged_reachable`` among
-        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``position_error_m_*`` and
-        ``angle_error_rad_*`` (quantiles at the end, as far as the task prescribes them), ``position_error_m_astray`` and
-        ``angle_error_rad_astray`` (medians of the runs that did not converge), ``path_ratio`` and ``excursion`` (medians), and
-        ``past_limits`` (share of runs with a joint beyond a limit). Of a task in one unit also ``excess_*`` (quantiles of the
-        end error above the least) and ``closest`` (median of the least error on the way), m or rad. Where somebody looked,
-        also ``touched`` (share of runs that touch something, with its interval) and ``converged_clear`` (converged, and
-        touched nothing on the way).
+        The keys are ``law, failure, motions``; ``converged`` and its 95 % interval ``converged_low, converged_high``, and the
+        same for ``stuck``, ``moving`` and ``undecided``; ``reachable`` (fraction of targets still within reach) and
+        ``converged_reachable`` among them; ``converged_within_limits`` (converged, and no joint passed a limit);
+        ``position_error_m_*`` and ``angle_error_rad_*`` (quantiles at the end, if the task prescribes them),
+        ``position_error_m_astray`` and ``angle_error_rad_astray`` (medians of the runs that did not converge), ``path_ratio``
+        and ``excursion`` (medians), and ``past_limits`` (fraction of runs with a joint beyond a limit). For a task in one unit
+        there are also ``excess_*`` (quantiles of the final error above the least) and ``closest`` (median of the least error
+        during the run), m or rad. If contacts were checked, there are also ``touched`` (fraction of runs with a contact, with
+        its interval) and ``converged_clear`` (converged without a contact).
         """
         return [self._table_row(self.case(name, failure)) for name in self.names for failure in self.failures]
 
@@ -354,7 +362,7 @@ class LawComparison(Result):
         return row
 
     def reasons(self, law: str) -> dict[str, int]:
-        """Return the number of undecided runs of a law, healthy and failed, for each reason."""
+        """Return the number of undecided runs of ``law``, healthy and failed, for each reason."""
         reason = self.runs[self._law_index(law)].reason
         return {cause.name.lower(): int((reason == cause).sum()) for cause in UNDECIDED_REASONS if (reason == cause).any()}
 
@@ -365,7 +373,7 @@ def target_error_threshold(law: Law) -> float:
 
 
 def _has_converged(case: Case, counts_undecided: bool) -> BoolArray:
-    """Return (N,) True for the runs that converged, and if generous also for those that may still converge."""
+    """Return a mask (N,) of runs that converged and, if ``counts_undecided``, of undecided runs that may converge."""
     return case.has_outcome("converged") | (counts_undecided & case.has_outcome("undecided") & case.reachable)
 
 

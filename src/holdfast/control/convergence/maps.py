@@ -1,4 +1,4 @@
-"""Maps of the outcomes of failed arms, by sampling, for any arm and task, over the positions of starts or of targets."""
+"""Sampled maps of the outcomes of failed arms over the positions of starts or of targets, for any arm and task."""
 
 from __future__ import annotations
 
@@ -32,33 +32,33 @@ Progress = Callable[[int, int], None]
 
 TIME_CONSTANTS = 500.0  # 1/Ke
 RUN_TOLERANCE = 1e-8
-NO_CONFIGURATION = 255  # no configuration was found there
-REACH_RESTARTS = 20  # starts that look for the target with the joint locked
+NO_CONFIGURATION = 255  # code of a motion for which no configuration was found
+REACH_RESTARTS = 20  # random starts of the search for the target with the joint locked
 REACH_TOLERANCE = 1e-4  # m and rad
-_SLICE_RUNS = 1 << 16  # runs side by side; no result depends on it
+_SLICE_RUNS = 1 << 16  # runs that are simulated together; no result depends on it
 _BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
 _OUTCOME_BY_NAME = {o.name.lower(): o for o in RunOutcome}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceMap(Result):
-    """Outcomes of P x C motions with each joint locked from the start, and with none locked in the last column.
+    """Outcomes of C motions at each of P places with each joint locked from the start, and without failure (last column).
 
     Attributes:
-        law: The law of the controller.
-        places: The P places of the map, a :class:`holdfast.control.convergence.Places`.
-        over: Whether these are the ``starts`` or the ``targets`` of the motions.
-        q0: (P, C, n) configurations at the start, rad and m; NaN where none was found.
-        target: (P, C, 4, 4) tool poses.
-        code: (P, C, n + 1) :class:`holdfast.control.simulation.RunOutcome`, 255 where there was no configuration.
-        reason: (P, C, n + 1) :class:`holdfast.control.simulation.Reason`: why a run is undecided.
-        in_reach: (P, C, n + 1) True where the end effector reached the target, or could within the limits with the joint locked
-            as it does: a configuration was found.
-        limits_passed: (P, C, n + 1) True where a joint left its limits on the way; the motion does not heed them.
-        seed: Of places, configurations and targets.
-        clearance: What the runs were looked at for touching, or None: nobody looked. It changes no run.
-        touched: (P, C, n + 1) True where the arm touches something on the way, at most: distances are bounds; None if nobody
-            looked.
+        law: The control law.
+        places: The P places of the map.
+        over: ``starts`` or ``targets``, depending on which end of the motions lies at the places.
+        q0: (P, C, n) configurations at the start, rad and m; NaN if none was found.
+        target: (P, C, 4, 4) tool poses of the targets.
+        code: (P, C, n + 1) :class:`holdfast.control.simulation.RunOutcome`, or 255 if there was no configuration.
+        reason: (P, C, n + 1) :class:`holdfast.control.simulation.Reason` of undecided runs.
+        in_reach: (P, C, n + 1) True if the end effector reached the target, or if a configuration at the target was found
+            within the limits with the joint at its locked value.
+        limits_passed: (P, C, n + 1) True if a joint left its limits during the motion, which does not enforce them.
+        seed: Seed of places, configurations and targets.
+        clearance: Collision model with which the runs were checked for contacts; None if they were not. It changes no run.
+        touched: (P, C, n + 1) True if the arm has a contact during the motion; an upper bound, because distances are lower
+            bounds. None if contacts were not checked.
     """
 
     law: Law
@@ -76,28 +76,28 @@ class ConvergenceMap(Result):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Locked joints by name, and ``none``."""
+        """Names of the locked joint in each column, with ``none`` for the last."""
         return (*self.law.arm.joint_names, "none")
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Words that :meth:`has_outcome` accepts: ``converged`` and so on."""
+        """Outcomes that :meth:`has_outcome` accepts, for example ``converged``."""
         return (*_OUTCOME_BY_NAME, "in_reach", "trapped", *(() if self.touched is None else ("touched",)))
 
     @property
     def has_configuration(self) -> BoolArray:
-        """(P, C) array that is True where there was a configuration to start from."""
+        """(P, C) array that is True for motions with a configuration to start from."""
         return np.asarray(self.code[..., 0] != NO_CONFIGURATION)
 
     def has_outcome(self, outcome: str) -> BoolArray:
-        """Return (P, C, n + 1) True where a run ended so.
+        """Return a mask (P, C, n + 1) of the runs with an outcome.
 
         Args:
-            outcome: ``converged``, ``stuck``, ``moving`` or ``count_undecided``; ``in_reach``: it converged, or could have;
-                ``trapped``: it did not converge although the target was in reach; or, where somebody looked, ``touched``.
+            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``, if the run converged or could have;
+                ``trapped``, if it did not converge although the target was in reach; or, if contacts were checked, ``touched``.
 
         Raises:
-            InputError: Another word.
+            InputError: The outcome is not known.
         """
         if outcome == "touched" and self.touched is not None:
             return self.touched
@@ -110,7 +110,7 @@ class ConvergenceMap(Result):
         return np.asarray(self.code == _OUTCOME_BY_NAME[outcome])
 
     def values(self, outcome: str = "converged") -> FloatArray:
-        """Return (P, n + 1) the fraction of the motions of each place that ended so; NaN where there are none."""
+        """Return the fraction (P, n + 1) of the motions of each place with an ``outcome`` of :meth:`has_outcome`, or NaN."""
         motion_counts = self.has_configuration.sum(axis=1)
         with np.errstate(invalid="ignore"):
             return np.asarray(
@@ -118,12 +118,16 @@ class ConvergenceMap(Result):
             )
 
     def shares(self, outcome: str = "converged", confidence: float = 0.95) -> dict[str, Interval]:
-        """Return the fraction of the places' motions that ended so, for each locked joint by name and for ``none``.
+        """Return the fraction of motions with an outcome, for each locked joint by name and for ``none``, with its interval.
 
-        Every place counts alike. The motions of one place resemble each other, so the unit is the place: with one motion each
-        the interval is that of a share (:meth:`holdfast.core.probability.Interval.from_counts`), with several that of a mean of
-        fractions (:meth:`holdfast.core.probability.Interval.of_fractions`). Both always cover, for places that are a random
-        sample.
+        Every place has the same weight. The motions of one place are correlated, so the sampling unit is the place. With one
+        motion for each place the interval is that of a fraction (:meth:`holdfast.core.probability.Interval.from_counts`), with
+        several that of a mean of fractions (:meth:`holdfast.core.probability.Interval.of_fractions`). Both always cover if the
+        places are a random sample.
+
+        Args:
+            outcome: Outcome of :meth:`has_outcome`.
+            confidence: Confidence level of the intervals.
         """
         check_confidence(confidence)
         values, motions_per_place = self.values(outcome), int(self.has_configuration.sum(axis=1).max(initial=0))
@@ -145,15 +149,14 @@ class ConvergenceMap(Result):
 
 
 def average_fraction(values: FloatArray, motions_per_place: int, confidence: float) -> Interval:
-    """Return the mean of the fractions (P,) of independent places, NaN excluded, with its interval; of one or several motions
-    each.
+    """Return the mean, with its interval, of the fractions (P,) of independent places with one or several motions each.
 
     Raises:
-        InputError: No place has a share.
+        InputError: All fractions are NaN.
     """
     values = values[~np.isnan(values)]
     if not values.size:
-        raise InputError("no configuration was found at any place, so there are no shares; choose places within reach")
+        raise InputError("no configuration was found at any place, so there are no fractions; choose places within reach")
     if motions_per_place == 1:
         return Interval.from_counts(int(values.sum()), values.size, confidence)
     return Interval.of_fractions(values, confidence)
@@ -178,40 +181,40 @@ def convergence_map(
 ) -> ConvergenceMap:
     """Map the outcomes of motions with each joint locked from the start, of which the controller has no information.
 
-    Over ``starts``: from every place the arm starts in ``configurations`` configurations (with one degree of redundancy
-    picked at random from points equally far apart on its self-motion, else random ones), towards the target, or one of the
-    targets at random. Over ``targets``: towards every place it starts from ``configurations`` configurations picked at
-    random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each
-    joint locked, and with none.
+    Over ``starts``, the arm starts at every place in ``configurations`` configurations and moves towards the target, or towards
+    a random one of the targets. With one degree of redundancy the configurations are sampled from equally spaced points on the
+    self-motion; otherwise they are random. Over ``targets``, the arm moves towards every place from ``configurations``
+    configurations sampled from those of the starts or from ``q0`` (all of them if there are fewer). Each motion is simulated
+    with each joint locked, and without failure.
 
     Args:
-        law: The control law; of any arm, task and redundancy.
-        targets: Where the end effector should go: one position (m,) or pose (4, 4), several, a number of random ones (the end
-            effector's places at random configurations within the limits), or ``"grid:52"``, see :func:`holdfast.workspace`.
-        starts: Where the end effector is when the joint locks, in the same forms.
-        configurations: Motions for each place.
-        over: Which of the two is the map.
-        q0: (n,) or (Q, n) configurations to start from, in place of ``starts``; only over targets.
-        time_limit: s; 500/Ke if not given.
-        tolerance: Of the simulation's steps, rad.
-        seed: Of everything random.
-        progress: Called with (runs done, runs in all).
-        clearance: As for :func:`holdfast.control.simulation.simulate`, and so ``cell``: every run is looked at, one after the
-            other, for what it touches; that changes none, and takes longer than the runs themselves.
+        law: The control law, for any arm, task and redundancy.
+        targets: Targets of the end effector: one or several positions (m,), m, or poses (4, 4); a number of random ones (tool
+            poses at random configurations within the limits); or ``"grid:52"``, see :func:`holdfast.workspace`.
+        starts: Places of the end effector when the joint locks, in the same forms.
+        configurations: Number of motions for each place.
+        over: ``starts`` or ``targets``, the places of the map.
+        q0: (n,) or (Q, n) configurations to start from, rad and m, in place of ``starts``; only over targets.
+        time_limit: Time limit of each run, s. Default: 500/Ke.
+        tolerance: Local error of a step of the simulation, rad (and m).
+        seed: Seed of all random choices.
+        progress: Function that is called with (runs done, runs in all).
+        clearance: Collision model of the arm, used with a cell, which it may contain. None: the default model. Every run is
+            then checked for contacts, which changes no run and takes longer than the runs themselves.
         cell: Objects around the arm, or their file.
 
     Raises:
         InputError: Wrong shapes or options.
-        TaskError: A lattice for a task that has none.
+        TaskError: A lattice was requested for a task that has none.
 
-    Source: the question is that of Goel, Maciejewski, Balakrishnan 2005; maps by sampling are ours.
+    Source: The question is that of Goel, Maciejewski, Balakrishnan 2005; sampled maps are ours.
     """
     if over not in ("starts", "targets"):
         raise InputError(f"over '{over}' is not known; use starts or targets")
     if configurations < 1:
         raise InputError(f"configurations is {configurations}; it must be 1 or more")
     if q0 is not None and over == "starts":
-        raise InputError("q0 are fixed starts, so the map is one over='targets'; or leave out q0")
+        raise InputError(f"q0 is given with over='{over}'; give over='targets' with fixed starts q0, or leave out q0")
     arm, task = law.arm, law.task
     checked_clearance = chosen_clearance(arm, clearance or False, cell, looks=False)
     target_generator, start_generator, choice_generator = (
@@ -232,7 +235,7 @@ def convergence_map(
             start_pool = as_configurations(arm, q0)[0]
         if not len(start_pool) or not np.isfinite(start_pool).all():
             raise InputError("there is no configuration to start from; choose starts within reach, or finite q0")
-        # Few are all used, and none twice.
+        # If there are fewer than requested, each is used once.
         motion_count = min(configurations, len(start_pool))
         chosen_rows = np.argsort(choice_generator.random((len(places), len(start_pool))), axis=1)[:, :motion_count]
         q = start_pool[chosen_rows]
@@ -257,7 +260,7 @@ def convergence_map(
 
 
 def _pick_configurations(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> FloatArray:
-    """Return (P, count, n) configurations of places, NaN where there are none."""
+    """Return configurations (P, count, n) of places, filled up with NaN."""
     q = np.full((len(places), count, law.arm.n), np.nan)
     owner, rank, configurations = pick_configurations(law.arm, law.task, places.poses, count, seed, generator)
     q[owner, rank] = configurations
@@ -274,9 +277,7 @@ def _simulate_motions(
     progress: Progress | None,
     clearance: Clearance | None,
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], BoolArray, BoolArray, BoolArray]:
-    """Return codes, reasons, and whether the target was in reach, limits were passed, and contacts occurred, (P, C, n + 1)
-    each.
-    """
+    """Return codes, reasons, and flags for targets in reach, passed limits, and contacts, (P, C, n + 1) each."""
     n = law.arm.n
     run_limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
     is_known = np.isfinite(q).all(axis=-1)
@@ -311,7 +312,7 @@ def _simulate_motions(
 def _is_in_reach(
     law: Law, code: NDArray[np.uint8], q: FloatArray, pose: FloatArray, locked: IndexArray, seed: int
 ) -> BoolArray:
-    """Return (N,) True where the target was reached, or a configuration on it is found with the joint locked."""
+    """Return a mask (N,) of runs that reached the target, or for which a configuration at the target is found."""
     is_found = np.asarray(code == RunOutcome.CONVERGED)
     engine = solver(law.arm.without_idle_limits, law.task)
     open_rows = np.flatnonzero(~is_found)

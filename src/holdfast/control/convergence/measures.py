@@ -12,7 +12,7 @@ import numpy as np
 
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-ARC_TOLERANCE_RAD = 1e-9  # rad: this far outside an arc still counts as inside
+ARC_TOLERANCE_RAD = 1e-9  # rad: a value this far outside an arc still counts as inside
 Arcs = Sequence[tuple[float, float]]
 
 REACH_NAMES = ("R100", "Ravg", "Rsens")
@@ -22,12 +22,12 @@ MEASURE_NAMES = (*REACH_NAMES, *FINISH_NAMES)
 
 @dataclass(frozen=True, eq=False)
 class Measures:
-    """Measures of a fraction of each motion, over the configurations of a start, in percent.
+    """Statistics of a fraction of each motion over the configurations of P starts, percent.
 
     Attributes:
-        full: (P, ...) share of the configurations of which the whole motion counts: R100, F100.
-        average: (P, ...) Ravg, Favg.
-        spread: (P, ...) greatest minus least: Rsens, Fsens.
+        full: (P, ...) percentage of the configurations whose fraction is 1: R100, F100.
+        average: (P, ...) mean fraction over the configurations: Ravg, Favg.
+        spread: (P, ...) largest minus smallest fraction: Rsens, Fsens.
     """
 
     full: FloatArray
@@ -36,12 +36,15 @@ class Measures:
 
     @property
     def parts(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Full, average and spread: in the order of the names ``REACH_NAMES`` and ``FINISH_NAMES``."""
+        """Full, average and spread, in the order of ``REACH_NAMES`` and ``FINISH_NAMES``."""
         return self.full, self.average, self.spread
 
     @classmethod
     def from_fractions(cls, shares: FloatArray, owner: IndexArray, starts: int) -> Measures:
-        """Compute the measures from fractions (R, k) of the motions of starts ``owner`` (R,); NaN fractions are left out."""
+        """Compute the measures for ``starts`` starts.
+
+        ``shares`` (R, k) are fractions of motions between 0 and 1, NaN excluded, and ``owner`` (R,) the start of each motion.
+        """
         full, average, spread = (np.full((starts, shares.shape[1]), np.nan) for _ in range(3))
         for column_index, column in enumerate(shares.T):
             is_known = ~np.isnan(column)
@@ -59,7 +62,7 @@ class Measures:
 
 
 def is_in_arcs(values: FloatArray, arcs: Arcs, is_revolute: bool) -> BoolArray:
-    """Return True where values lie in one of the arcs (lower, upper); modulo 2 pi for a revolute joint."""
+    """Return True for values that lie in one of the arcs (lower, upper), modulo 2 pi for a revolute joint."""
     inside = np.zeros(values.shape, dtype=bool)
     for lower, upper in arcs:
         if is_revolute and upper - lower >= 2 * np.pi - ARC_TOLERANCE_RAD:
@@ -72,7 +75,7 @@ def is_in_arcs(values: FloatArray, arcs: Arcs, is_revolute: bool) -> BoolArray:
 
 
 def select_spaced(flags: BoolArray, count: IndexArray) -> tuple[IndexArray, IndexArray]:
-    """Select ``count`` (R,) equally spaced cells of those flagged in each row (K, R): rows and cells, each pair once."""
+    """Return rows and cells of ``count`` (R,) equally spaced cells among those flagged in each row (K, R), without repeats."""
     passed = np.cumsum(flags, axis=0)
     total = passed[-1]
     max_count = int(count.max(initial=0))
@@ -88,7 +91,7 @@ def select_spaced(flags: BoolArray, count: IndexArray) -> tuple[IndexArray, Inde
 
 
 def mean_by_row(values: FloatArray, row: IndexArray, rows: int) -> FloatArray:
-    """Return (R,) the mean of the values of each row that are not NaN; NaN where there is none."""
+    """Return the mean (R,) of the values of each row that are not NaN; NaN if a row has none."""
     is_known = ~np.isnan(values)
     count = np.bincount(row[is_known], minlength=rows)
     with np.errstate(invalid="ignore"):

@@ -1,4 +1,4 @@
-"""Tool positions from which, or to which, an arm moves: lattices, lists, and random ones; and configurations there."""
+"""Places (tool poses) at which motions start or end, as lattices, lists, or random samples, and configurations at them."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ if TYPE_CHECKING:
 
 
 LATTICE_POINTS = 52  # points along an edge: 2032 inside the circle
-# _CURVE_SPACING_RAD and _SEED_STARTS: of traced self-motions, rad, and starts of inverse kinematics for each place
+# Spacing of traced self-motions, rad, and number of starts of inverse kinematics for each place.
 _CURVE_SPACING_RAD = 0.1
 _SEED_STARTS = 48
-_TRIES_PER_CONFIGURATION = 8  # random starts of inverse kinematics for each configuration that is wanted
+_TRIES_PER_CONFIGURATION = 8  # random starts of inverse kinematics for each requested configuration
 
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Poses of the tool from which, or to which, an arm moves.
+    """Set of P tool poses at which motions start or end.
 
     Attributes:
-        poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
-        cells: (P, 2) column and row of each place in a lattice, from 0; None if they are not a lattice.
-        axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None likewise.
+        poses: (P, 4, 4) tool poses in the world, m; only the rows of the task count.
+        cells: (P, 2) column and row of each place in a lattice, from 0; None if the places are not a lattice.
+        axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None without a lattice.
     """
 
     poses: FloatArray
@@ -57,8 +57,11 @@ class Places:
         return self.poses[:, :3, 3]
 
     def dataset(self, values: Mapping[str, Any], **names: Sequence[str]) -> xr.Dataset:
-        """Return values over the dimension ``place``, with the tool points as coordinates x, y, and z, m, and names
-        of others.
+        """Return values over the dimension ``place``, with the tool points as coordinates x, y, and z, m.
+
+        Args:
+            values: Variables of the data set, as pairs of dimensions and values, by name.
+            names: Labels along further dimensions, by the name of the dimension.
 
         Raises:
             HoldfastError: xarray is not installed (extra ``xarray``).
@@ -70,18 +73,18 @@ class Places:
 
 
 def is_planar_position(task: Task) -> bool:
-    """Return True if the task is the position in a plane, for which places may be a lattice."""
+    """Return True if the task is the position in a plane, for which places can form a lattice."""
     return task.m == 2 and not task.angular and task.frame == "base"
 
 
 def make_lattice(arm: Arm, task: Task, count: int = LATTICE_POINTS) -> Places:
-    """Return a square lattice over the disc that a planar arm could reach without limits, ``count`` points along its edge.
+    """Make a square lattice over the disc that a planar arm could reach without limits, with ``count`` points along an edge.
 
-    With 52 points along the edge of the square about the circle there are exactly 2032 inside it, as in the paper.
+    With 52 points along the edge of the square around the disc, exactly 2032 lie inside the disc, as in the paper.
 
     Raises:
         TaskError: The task is not the position in a plane.
-        InputError: Fewer than 2 points.
+        InputError: There are fewer than 2 points.
     """
     if not is_planar_position(task):
         raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
@@ -111,8 +114,8 @@ def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, gen
     """Read places in any accepted form: ``"grid:52"``, a number of random ones, (P, m) positions, or (P, 4, 4) poses.
 
     Raises:
-        InputError: None of these.
-        TaskError: A lattice for a task that has none.
+        InputError: The places have none of these forms.
+        TaskError: A lattice was requested for a task that has none.
     """
     if isinstance(given, Places):
         return given
@@ -147,21 +150,24 @@ def _make_poses(points: FloatArray) -> FloatArray:
     return poses
 
 
-# ---- configurations there ----------------------------------------------------------------------------------------
+# ---- configurations at places ------------------------------------------------------------------------------------
 
 
 def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, seed: int) -> tuple[IndexArray, FloatArray]:
-    """Return configurations of places (P, 4, 4): the place of each (R,), and the configurations (R, n), in order of places.
+    """Find configurations at places.
 
-    With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
-    joint space; else up to ``count`` random ones of each place. Places out of reach have none.
+    With one degree of redundancy the configurations are equally spaced in joint space along every curve of the self-motion
+    that was found. Otherwise they are random. A place out of reach has none.
 
     Args:
-        arm: The arm; limits of joints that may make a whole turn do not count.
-        task: What of a place matters.
-        places: (P, 4, 4) poses of the end effector in the base frame.
-        count: Configurations of a curve, or at most of a place.
-        seed: Of the random starts.
+        arm: The arm; limits of joints that can make a full turn do not count.
+        task: Rows of the pose that the configurations must reach.
+        places: (P, 4, 4) poses of the end effector in the base frame, m.
+        count: Number of configurations on each curve, or largest number of random configurations at each place.
+        seed: Seed of the random starts.
+
+    Returns:
+        (R,) index from 0 of the place of each configuration, in ascending order, and (R, n) configurations, rad and m.
 
     Source: Goel et al. 2005, section on the analysis of a workspace.
     """
@@ -197,7 +203,7 @@ def configurations_at(arm: Arm, task: Task, places: FloatArray, *, count: int, s
 
 
 def sample_self_motions(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[IndexArray, FloatArray]:
-    """Return points at the middle of ``count`` equal parts of each curve: the motion of each (R,), and the points (R, n)."""
+    """Return the points (R, n) at the middle of ``count`` equal parts of each curve, after the index (R,) of their motion."""
     owner = [number for number, motion in enumerate(motions) for _ in motion.components]
     points = [_space_evenly(arm, component, count) for motion in motions for component in motion.components]
     return np.repeat(np.array(owner, dtype=np.intp), count), np.concatenate([np.empty((0, arm.n)), *points])
@@ -215,13 +221,13 @@ def _space_evenly(arm: Arm, curve: Component, count: int) -> FloatArray:
 def pick_configurations(
     arm: Arm, task: Task, places: FloatArray, count: int, seed: int, generator: np.random.Generator
 ) -> tuple[IndexArray, IndexArray, FloatArray]:
-    """Pick at random at most ``count`` configurations of each of the places (P, 4, 4) from :func:`configurations_at`.
+    """Sample at most ``count`` configurations at each of the places (P, 4, 4) from those of :func:`configurations_at`.
 
     Returns:
-        Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
+        (R,) index of the place in ascending order, (R,) number of the configuration at it, and (R, n) configurations.
     """
     owner, configurations = configurations_at(arm, task, places, count=count, seed=seed)
-    # Of several curves some points of each: a random choice of all.
+    # The random choice among all points takes some of each curve.
     order = np.lexsort([generator.random(len(owner)), owner])
     owner, configurations = owner[order], configurations[order]
     rank = np.arange(len(owner)) - np.searchsorted(owner, owner)

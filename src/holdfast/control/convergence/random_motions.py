@@ -16,22 +16,22 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
 from holdfast.model.failure_modes import FailureSpec, single_joints
 
-_BLOCK_MOTIONS = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
+_BLOCK_MOTIONS = 256  # motions sampled at a time; the first motions of a seed do not depend on the requested number
 _MAX_BLOCKS = 400  # blocks without enough motions before giving up
-REACH_TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that say whether a target is still reached
+REACH_TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that decide whether a target is still reached
 
 
 @dataclass(frozen=True, eq=False)
 class PointToPoint:
-    """N motions of one arm from a configuration to a pose of the tool.
+    """Set of N motions of one arm, each from a configuration to a tool pose.
 
     Attributes:
         arm: The arm.
         q0: (N, n) configurations at the start, within the limits, rad and m.
-        target: (N, 4, 4) tool poses in the world, each that of ``q_target``.
-        q_target: (N, n) a configuration at the target, within the limits, rad and m.
-        drawn: How many motions were drawn to find these.
-        constraints: What was asked of them, a phrase for people.
+        target: (N, 4, 4) tool poses of the targets in the world, m, at ``q_target``.
+        q_target: (N, n) configurations at the targets, within the limits, rad and m.
+        drawn: Number of motions that were sampled to find these.
+        constraints: Phrase that describes the constraints on the motions.
     """
 
     arm: Arm
@@ -47,13 +47,13 @@ class PointToPoint:
 
     @property
     def distance(self) -> FloatArray:
-        """(N,) distances from the tool at the start to the tool at the target, m."""
+        """(N,) distances between the tool positions at the start and at the target, m."""
         start_points = self.arm.forward_kinematics(self.q0)[:, :3, 3]
         return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start_points, axis=1))
 
     def describe(self) -> str:
-        """One phrase for people."""
-        return f"{len(self)} motions of {self.arm.title}, {self.constraints}; {self.drawn} were drawn"
+        """Return a phrase with the number of motions, the arm, and the constraints."""
+        return f"{len(self)} motions of {self.arm.title}, {self.constraints}; {self.drawn} were sampled"
 
 
 @check_arguments
@@ -67,24 +67,24 @@ def point_to_point(
     task: str | Task | Sequence[str] = "pose",
     restarts: int = 30,
 ) -> PointToPoint:
-    """Sample random motions: start and target are uniform configurations within the limits, the target as the tool's pose.
+    """Sample random motions from a uniform configuration within the limits to the tool pose of another one.
 
-    Where a joint has no limits it is drawn from one turn, or 1 m to either side.
+    A joint without limits is sampled from one turn, or from 1 m to either side.
 
     Args:
         arm: The arm.
-        count: How many motions.
-        seed: The same seed gives the same motions, and more of them begin with the same ones.
-        distance: Least and greatest distance of the tool from start to target, m; any if not given.
-        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0: only motions whose target can be
-            reached, within the limits, also with any one of them locked where it starts. Decided by inverse kinematics as
-            :func:`holdfast.solve_ik` does, so a target that is hard to reach may be taken for one that is not.
-        task: Rows of the target that must be reached then; nothing else depends on it.
-        restarts: Random starts of that inverse kinematics.
+        count: Number of motions.
+        seed: Seed of the motions. With one seed, a larger number of motions begins with the motions of a smaller number.
+        distance: Least and greatest distance between the tool positions at start and target, m. Default: any distance.
+        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0. The result then contains only
+            motions whose target is within reach, within the limits, also with any one of these joints locked at its start.
+            The inverse kinematics of :func:`holdfast.solve_ik` decides this, so a target that is hard to reach may be rejected.
+        task: Rows of the target that must be within reach after a failure; nothing else depends on the task.
+        restarts: Number of random starts of this inverse kinematics.
 
     Raises:
-        InputError: Options out of range; or so few motions meet the wishes that the search was given up.
-        TaskError: A task that the arm does not have, or failures that are not of one joint each.
+        InputError: Options are out of range, or too few motions satisfy the constraints.
+        TaskError: The arm does not have the task, or a failure does not have exactly one joint.
     """
     if count < 1:
         raise InputError(f"count is {count}; it must be 1 or more")
@@ -99,7 +99,7 @@ def point_to_point(
     if joints:
         joint_text = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[joint] for joint in joints)
         constraints.append(f"target still within reach (task {chosen.name}) with {joint_text} locked at the start")
-    constraint_text = ", ".join(constraints) or "drawn within the limits"
+    constraint_text = ", ".join(constraints) or "sampled within the limits"
     lower, upper = sampling_limits(arm)
     seeds = np.random.SeedSequence(seed)
     blocks: list[PointToPoint] = []
@@ -107,8 +107,8 @@ def point_to_point(
     while found_count < count:
         if len(blocks) == _MAX_BLOCKS:
             raise InputError(
-                f"only {found_count} of {sampled_count} motions of '{arm.name}' are as asked for ({constraint_text}), too few "
-                f"for {count}; ask for fewer motions, or for less of each"
+                f"only {found_count} of {sampled_count} motions of '{arm.name}' meet the constraints ({constraint_text}), too "
+                f"few for {count}; request fewer motions, or relax the constraints"
             )
         block_seed, solving = seeds.spawn(2)
         q0, q1 = np.random.default_rng(block_seed).uniform(lower, upper, (2, _BLOCK_MOTIONS, arm.n))

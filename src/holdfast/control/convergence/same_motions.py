@@ -1,4 +1,4 @@
-"""Runs of several control laws on the same motions, which a comparison consists of."""
+"""Simulation of several control laws on the same motions, for their comparison."""
 
 from __future__ import annotations
 
@@ -81,43 +81,44 @@ def compare_laws(
 ) -> LawComparison | LawChoice:
     """Simulate the same motions under several control laws, without a failure and with each joint locked from the start.
 
-    Nobody tells the laws: see :func:`holdfast.control.simulation.simulate`, which this is one call of for each law.
+    The laws receive no information about the failure. Each law is simulated by one call of
+    :func:`holdfast.control.simulation.simulate`.
 
-    With ``best=True`` the result is the law that most often reaches the target: every law meets the failures of
+    With ``best=True`` the result ranks the laws by how often they reach the target. Every law meets the failures of
     :func:`holdfast.convergence_map` with the same starts, targets, configurations and seed. To find the best pre-failure error,
-    give the failure-tolerant law with several.
+    give the failure-tolerant law with several values.
 
     Args:
-        laws: Laws of one arm and task, the first being the one that the others are compared with; or a
-            dictionary of them by name. Without names they are called by their labels, with ``best`` by their phrases.
-        q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`. With ``best`` the
-            ``starts`` of :func:`holdfast.convergence_map`, for example 300 random places.
-        target: As :func:`holdfast.control.simulation.simulate` takes it, one or N. With ``best`` the ``targets`` of
-            :func:`holdfast.convergence_map`.
-        best: Rank the laws by how often they reach their targets, instead of comparing them on given motions; ``failures``,
-            ``cycles``, ``radius``, ``restarts`` and ``about`` are then left out.
+        laws: Laws of one arm and task, of which the others are compared with the first; or a dictionary of laws by name. The
+            default names are their labels, with ``best`` their phrases.
+        q0: (n,) or (N, n) configurations at the start, rad and m, for example of :func:`holdfast.point_to_point`. With
+            ``best``, the ``starts`` of :func:`holdfast.convergence_map`, for example 300 random places.
+        target: One or N targets, (m,) or (N, m) positions, m, or (4, 4) or (N, 4, 4) poses, as for
+            :func:`holdfast.control.simulation.simulate`. With ``best``, the ``targets`` of :func:`holdfast.convergence_map`.
+        best: True to rank the laws by how often they reach their targets, instead of comparing them on given motions. Then
+            ``failures``, ``cycles``, ``radius``, ``restarts`` and ``about`` must be left out.
         failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0, each of which locks alone; None:
             no failures.
-        cycles: As for :func:`holdfast.control.simulation.simulate`, and so the next three.
-        time_limit: s or cycles.
-        tolerance: Of the adaptive method.
-        radius: Of the target in cycles, m (and rad).
-        restarts: Random starts of the search for the least error that a failed arm can have.
-        seed: Of these.
-        about: What the motions are, a phrase for the report.
-        clearance: As for :func:`holdfast.control.simulation.simulate`, and so ``cell``: every run is looked at, one after the
-            other, for what it touches first; that changes none.
+        cycles: True for discrete control cycles in place of continuous time.
+        time_limit: Time limit of each run, s or cycles. Default: that of :func:`holdfast.control.simulation.simulate`.
+        tolerance: Local error of a step of the adaptive method, rad (and m).
+        radius: Radius of the target in cycles, m (and rad).
+        restarts: Number of random starts of the search for the least error that a failed arm can have.
+        seed: Seed of these random starts, with ``best`` of all random choices.
+        about: Phrase for the report that describes the motions.
+        clearance: Collision model of the arm, used with a cell, which it may contain. None: the default model. Every run is
+            then checked for its first contact, which changes no run.
         cell: Objects around the arm, or their file.
-        configurations: With ``best``, motions for each place.
-        over: With ``best``, the places of the map: ``starts`` or ``targets``.
-        progress: With ``best``, called with (runs done, runs in all).
+        configurations: Number of motions for each place, with ``best``.
+        over: Places of the map with ``best``: ``starts`` or ``targets``.
+        progress: Function that is called with (runs done, runs in all), with ``best``.
 
     Returns:
         A :class:`holdfast.LawComparison`, with ``best`` a :class:`holdfast.LawChoice`.
 
     Raises:
-        InputError: Wrong shapes or options; laws of different arms or tasks; with ``best`` fewer than two laws.
-        TaskError: Failures that are not of one joint each.
+        InputError: Wrong shapes or options, laws of different arms or tasks, or with ``best`` fewer than two laws.
+        TaskError: A failure does not have exactly one joint.
     """
     law_by_name = dict(laws) if isinstance(laws, Mapping) else _index_by_label(laws, best)
     all_laws = tuple(law_by_name.values())
@@ -126,7 +127,7 @@ def compare_laws(
     arm, task = all_laws[0].arm, all_laws[0].task
     for name, law in law_by_name.items():
         if law.arm.fingerprint != arm.fingerprint or not law.task.same_rows(task):
-            raise InputError(f"law '{name}' is of another arm or task than '{next(iter(law_by_name))}'; make both of the same")
+            raise InputError(f"law '{name}' has another arm or task than '{next(iter(law_by_name))}'; use one arm and task")
     if best:
         if failures != "single" or cycles or radius != TARGET_RADIUS_M or restarts != _DEFAULT_RESTARTS or about:
             raise InputError("failures, cycles, radius, restarts and about belong to given motions; leave them out with best")
@@ -190,7 +191,7 @@ def _index_by_label(laws: Sequence[Law], by_phrase: bool) -> dict[str, Law]:
     for law in laws:
         label = law.phrase().replace(f", task {law.task.describe()}", "") if by_phrase else law.label
         if label in law_by_label:
-            raise InputError(f"two laws are called '{label}'; give a dictionary with names of your own")
+            raise InputError(f"two laws have the name '{label}'; give a dictionary with different names")
         law_by_label[label] = law
     return law_by_label
 
@@ -205,14 +206,14 @@ def _to_poses(law: Law, targets: FloatArray) -> FloatArray:
 
 
 def _find_least_errors(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> FloatArray:
-    """Return (F N,) least errors over all laws, which share them because joints are locked where they started."""
+    """Return the least errors (F N,), which are common to all laws because joints lock at their initial values."""
     least_errors = np.full(len(runs[0]), np.inf)
     for law_runs in runs:
         least_errors = np.fmin(least_errors, np.where(law_runs.code == RunOutcome.CONVERGED, law_runs.error, np.inf))
     for number, law_runs in enumerate(runs):
         open_rows = np.flatnonzero((least_errors > accuracy) & np.isfinite(law_runs.q_final).all(axis=1))
         if open_rows.size:
-            # From the ends of every law, but from random configurations once.
+            # The search starts from the ends of every law, but from random configurations only once.
             errors = _select_runs(law_runs, open_rows).least_error(restarts if number == 0 else 0, seed)
             least_errors[open_rows] = np.fmin(least_errors[open_rows], errors)
     return np.where(np.isfinite(least_errors), least_errors, np.nan)

@@ -1,4 +1,4 @@
-"""The starts in a workspace from which a target is still reached after an undetected lock on the way."""
+"""Starts in a workspace from which a target is still reached after an undetected lock on the way."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[int, int], None]
 
-_CHUNK_STARTS = 128  # starts analysed together and stored as one; no result depends on it
+_CHUNK_STARTS = 128  # starts that are analysed and stored together; no result depends on it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,19 +41,19 @@ class Workspace(Result):
     """Measures of the paper for P starts; the last column of each (P, n + 1) array is for an arbitrary joint.
 
     Attributes:
-        law: The law of the controller.
-        target: (4, 4) tool pose; only the rows of the task count.
-        places: Where the end effector starts, a :class:`holdfast.control.convergence.Places`.
-        bounds: Of each joint the arcs (lower, upper), rad, in which it may lock and the target stays in reach.
+        law: The control law.
+        target: (4, 4) tool pose of the target; only the rows of the task count.
+        places: Places of the end effector at the start.
+        bounds: Arcs (lower, upper) of each joint, rad, in which it may lock while the target stays in reach.
         method: ``brute``, ``procedure`` or ``sampled``.
-        relative_to: What ``finish`` is a share of: the part of a motion ``inside`` the bounds, or the ``whole``.
-        configurations: (P,) starting configurations that were looked at; 0 where the place is out of reach.
-        lost: (P,) of them, those whose healthy motion ran into a singular configuration; left out of everything.
-        reach: R100, Ravg, Rsens: of the share of a motion from which the target stays in reach, percent.
-        finish: F100, Favg, Fsens: of the share of it from which the failed arm reaches the target, percent; undecided runs left
-            out.
-        ends: (P, 6) how the failures ended: converged, stuck, moving, undecided; arriving, which is undecided at the time
-            limit but next to a solution that attracts; and not simulated because the joint locked where there is no sink.
+        relative_to: Reference of ``finish``: the part of a motion ``inside`` the bounds, or the ``whole`` motion.
+        configurations: (P,) number of starting configurations that were analysed; 0 if the place is out of reach.
+        lost: (P,) number of them whose healthy motion ran into a singular configuration; all measures exclude these.
+        reach: R100, Ravg and Rsens of the fraction of a motion from which the target stays in reach, percent.
+        finish: F100, Favg and Fsens of the fraction from which the failed arm reaches the target, percent, without undecided
+            runs.
+        ends: (P, 6) number of failures by outcome: converged, stuck, moving, undecided; arriving, which is undecided at the
+            time limit but next to an attracting solution; and not simulated because the joint locked where there is no sink.
     """
 
     law: Law
@@ -70,12 +70,12 @@ class Workspace(Result):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Columns of the measures: the joints by name, and ``any``, an arbitrary one."""
+        """Names of the columns of the measures: the joints, and ``any`` for an arbitrary joint."""
         return (*self.law.arm.joint_names, "any")
 
     @property
     def measures(self) -> dict[str, FloatArray]:
-        """R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
+        """Measures R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
         return dict(zip(MEASURE_NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
 
     @property
@@ -85,7 +85,7 @@ class Workspace(Result):
 
     @property
     def undecided_fraction(self) -> float:
-        """Fraction of the simulated failures that were undecided at the time limit; NaN if there is none."""
+        """Fraction of the simulated failures that were undecided at the time limit; NaN if no failure was simulated."""
         return (
             float(self.ends[:, [RunOutcome.UNDECIDED, END_ARRIVING]].sum() / self.simulated_count)
             if self.simulated_count
@@ -99,27 +99,31 @@ class Workspace(Result):
         return float(self.ends[:, END_NO_SINK].sum() / total) if total else float("nan")
 
     def means(self) -> dict[str, FloatArray]:
-        """Return the mean of every measure over the starts that have it, (n + 1,) each, percent."""
+        """Return the mean of every measure over the starts with a value, (n + 1,) each, percent."""
         return {name: mean_ignoring_nan(values, 0) for name, values in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
-        """Return the intervals of the means for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
+        """Return the intervals of the means if the starts are a random sample: (n + 1, 2) each, lower and upper end, percent.
 
-        The unit is the start: configurations and failures of one start are alike, and however many there are, they only
-        make its own value more exact. The intervals always cover, and are wide for few starts
-        (:meth:`holdfast.core.probability.Interval.of_fractions`). NaN where no start has a value.
+        The sampling unit is the start, because the configurations and failures of one start are correlated; more of them make
+        only the value of this start more accurate. The intervals always cover at the level ``confidence``, and are wide for few
+        starts (:meth:`holdfast.core.probability.Interval.of_fractions`). They are NaN if no start has a value.
         """
         check_confidence(confidence)
         return {name: mean_intervals(values, confidence) for name, values in self.measures.items()}
 
     def throughout(self, name: str = "R100", confidence: float = 0.95) -> tuple[Interval, ...]:
-        """Return the fraction of the starts, for each column, at which R100 (or F100) is 100 for all configurations.
+        """Return the fraction of the starts, for each column, at which a measure is 100, with its exact interval.
 
-        Only the configurations that were looked at are known, so that this is an upper bound of the share of starts at which
-        it holds for every configuration of the self-motion. The interval is exact; NaN where no start has the measure.
+        Only the analysed configurations are known, so this is an upper bound of the fraction of starts at which the measure is
+        100 for every configuration of the self-motion. It is NaN if no start has a value.
+
+        Args:
+            name: Name of the measure, ``R100`` or ``F100``.
+            confidence: Confidence level of the intervals.
 
         Raises:
-            InputError: Another name.
+            InputError: The name is neither R100 nor F100.
         """
         check_confidence(confidence)
         if name not in (REACH_NAMES[0], FINISH_NAMES[0]):
@@ -146,7 +150,7 @@ class Workspace(Result):
 def compute_workspace(
     job: TargetAnalysis, starts: StartConfigurations, store: str | Path | None = None, progress: Progress | None = None
 ) -> Workspace:
-    """Analyse one target, some starts at a time."""
+    """Analyse one target in chunks of starts, which are stored."""
     places, count = starts.places, len(starts.places)
 
     def analyse_chunks(numbers: Iterable[int]) -> Iterator[tuple[int, Rows]]:
@@ -180,7 +184,7 @@ def compute_workspace(
 
 
 def mean_intervals(values: FloatArray, confidence: float) -> FloatArray:
-    """Return (C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
+    """Return the intervals (C, 2) of the column means of values (P, C), percent, for P independent places."""
     bounds = np.full((values.shape[1], 2), np.nan)
     for index, column in enumerate(values.T):
         if not np.isnan(column).all():
@@ -190,7 +194,7 @@ def mean_intervals(values: FloatArray, confidence: float) -> FloatArray:
 
 
 def mean_ignoring_nan(values: FloatArray, axis: int) -> FloatArray:
-    """Return the mean along an axis of the values that are not NaN; NaN where there is none."""
+    """Return the mean along an axis of the values that are not NaN; NaN if there is none."""
     is_known = ~np.isnan(values)
     count = is_known.sum(axis=axis)
     return np.where(count > 0, np.where(is_known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)

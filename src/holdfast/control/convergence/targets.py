@@ -1,4 +1,4 @@
-"""Analysis of a workspace: the measures over starts, or over targets, which show the targets that a lock puts at risk."""
+"""Analysis of a workspace by measures over starts, or over targets, which show the targets that a lock puts at risk."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# Starts, configurations and failures, by the places of the map and whether places can be a lattice.
+# Number of starts, configurations and failures, by the places of the map and whether places can form a lattice.
 _DEFAULT_SAMPLE_SIZES: dict[tuple[Over, bool], tuple[str | int, int, int]] = {
     ("starts", True): ("grid", 36, 10),
     ("starts", False): (100, 8, 3),
@@ -57,13 +57,13 @@ class TargetMeasures(Result):
     """Measures of T targets over the same S starts; the last of the n + 1 columns is for an arbitrary joint.
 
     Attributes:
-        law: The law of the controller.
-        targets: Where the end effector should go.
-        starts: Where it begins.
-        values: R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, S, n + 1) each, percent; NaN for a target or start out of
-            reach, and F where no failure leaves the target in reach.
-        configurations: (T, S) starting configurations that were looked at, less those lost at singular configurations.
-        ends: (T, 6) how the failures ended, as in :class:`holdfast.Workspace`.
+        law: The control law.
+        targets: Places of the targets.
+        starts: Places of the end effector at the start.
+        values: Measures R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, S, n + 1) each, percent; NaN if the target or
+            start is out of reach, and for F also if no failure leaves the target in reach.
+        configurations: (T, S) number of analysed starting configurations without those lost at singular configurations.
+        ends: (T, 6) number of failures by outcome, as in :class:`holdfast.Workspace`.
     """
 
     law: Law
@@ -75,26 +75,26 @@ class TargetMeasures(Result):
 
     @property
     def measures(self) -> dict[str, FloatArray]:
-        """Mean of each measure for each target over the starts that have it, (T, n + 1) each, percent."""
+        """Mean of each measure for each target over the starts with a value, (T, n + 1) each, percent."""
         return {name: mean_ignoring_nan(columns, 1) for name, columns in self.values.items()}
 
     def means(self) -> dict[str, FloatArray]:
-        """Return the mean of every measure over the targets that have it, (n + 1,) each, percent."""
+        """Return the mean of every measure over the targets with a value, (n + 1,) each, percent."""
         return {name: mean_ignoring_nan(columns, 0) for name, columns in self.measures.items()}
 
     def intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
-        """Return the intervals of :meth:`means` for targets that are a random sample: (n + 1, 2) each, percent, for these very
-        starts.
+        """Return the intervals of :meth:`means` at the level ``confidence``, (n + 1, 2) each, percent.
 
-        The unit is the target. NaN where no target has a value.
+        They hold for these starts if the targets are a random sample. The sampling unit is the target. They are NaN if no
+        target has a value.
         """
         check_confidence(confidence)
         return {name: mean_intervals(columns, confidence) for name, columns in self.measures.items()}
 
     def target_intervals(self, confidence: float = 0.95) -> dict[str, FloatArray]:
-        """Return intervals of the ``measures`` of each target for starts that are a random sample: (T, n + 1, 2) each, percent.
+        """Return intervals of the ``measures`` of each target at the level ``confidence``, (T, n + 1, 2) each, percent.
 
-        The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
+        They hold if the starts are a random sample. The sampling unit is the start, as in :meth:`holdfast.Workspace.intervals`.
         """
         check_confidence(confidence)
         return {
@@ -159,76 +159,75 @@ def workspace(
     store: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Workspace | TargetMeasures:
-    """Compute from which starts a target is still reached when a joint locks on the way and is not detected.
+    """Compute the starts from which a target is still reached if a joint locks on the way and the lock is not detected.
 
-    From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
-    space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
-    locks where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in
-    reach: R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens
-    its greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
-    (:func:`holdfast.control.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the
-    failed arm reaches the target. *Any* joint: all joints must be inside, and the arm must reach the target whichever fails.
+    From every start the arm moves to the target from configurations that are equally spaced along its self-motion, in joint
+    space. The path of the end effector is divided into ``cells`` of equal length, and evaluated at their middle. If a joint
+    locks at a value inside the range of the target's self-motion (:func:`holdfast.joint_bounds`), the target stays in reach.
+    R100 is the percentage of the configurations for which this holds on the whole path, Ravg the mean fraction of the path,
+    and Rsens its largest minus its smallest value. At ``points`` of the part inside, for each joint, the failure is simulated
+    (:func:`holdfast.control.simulation.simulate`). F100, Favg and Fsens are the same statistics of the fraction of that part
+    from which the failed arm reaches the target. For *any* joint, all joints must be inside, and the arm must reach the
+    target for every failed joint.
 
-    Near the very ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit
-    counts as converged if it is next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
-    counted in ``ends``.
+    Near the ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit counts as
+    converged if it is next to a solution all of whose eigenvalues attract; otherwise F excludes it. ``ends`` counts both.
 
-    Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
+    In the part inside for a joint, the section that is inside for all joints is sampled with ``points`` points, and the rest
     in proportion; both are weighted by their lengths.
 
-    **By sampling** (``method="sampled"``), for any redundant arm and task: of every start up to
-    ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
-    more those at which inverse kinematics converges from random starts, which are not spread evenly over the manifold. The
-    measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
-    than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
-    every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
-    :meth:`holdfast.Workspace.intervals`.
+    **By sampling** (``method="sampled"``), for any redundant arm and task, every start has up to ``configurations`` random
+    configurations. With one degree of redundancy they are sampled from equally spaced points on its curves. With more, they
+    are those at which inverse kinematics converges from random starts, which do not cover the manifold evenly. The measures
+    use the sampled configurations in place of all. Rsens and Fsens are then too small rather than too large, and R100 and F100
+    of a start are estimates; 100 is necessary, but not sufficient, for every configuration to succeed
+    (:meth:`holdfast.Workspace.throughout`). :meth:`holdfast.Workspace.intervals` returns the intervals of the means over random
+    starts.
 
-    **Over targets** (``over="targets"``): the same measures for each of many targets, over the same starts.
+    **Over targets** (``over="targets"``), the result contains the measures for each of many targets over the same starts.
 
     Args:
         law: The control law.
-        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.control.simulation.simulate`; over targets also several, a
-            lattice or a number of random ones, as for the starts.
-        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
-            places, as in the paper); a number of random places (where the end effector is at random configurations); or (P, m)
-            positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none; over targets 20
-            random ones.
+        target: (m,) position, m, or (4, 4) pose, as in :func:`holdfast.control.simulation.simulate`; over targets also several,
+            a lattice, or a number of random ones, as for the starts.
+        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square around the workspace (tasks in a plane; 2032
+            places, as in the paper); a number of random places (tool poses at random configurations); or (P, m) positions, m,
+            or (P, 4, 4) poses. Default: the lattice, or 100 random places if there is none; over targets 20 random places.
         over: ``starts`` or ``targets``, the places of the map.
-        configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
-            of redundancy. 36 on a lattice, else 8, if not given; over targets 8 or 4.
-        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given; over targets 2.
+        configurations: Number of configurations on each curve of a start's self-motion; by sampling or with more than one
+            degree of redundancy, for each start. Default: 36 on a lattice, else 8; over targets 8 or 4.
+        points: Largest number of failures of each joint on each motion; 0 omits F. Default: 10 or 3; over targets 2.
         method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
-            failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
-        cells: Of the way.
-        time_limit: s; 2000/Ke if not given.
-        tolerance: Of the simulation's steps, rad.
-        relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
-            of the whole way.
-        sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
-            given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
-            either side of Hopf points, beside which limit cycles live.
-        seed: Of the search for configurations, and of random starts.
-        store: A folder to keep the results in; a stopped analysis resumes there. Only over starts.
-        progress: Called with (starts done, starts in all), or with targets over targets.
+            failure of random configurations. Default: ``brute`` for a task in a plane, else ``sampled``.
+        cells: Number of cells of the path.
+        time_limit: Time limit of each run, s. Default: 2000/Ke.
+        tolerance: Local error of a step of the simulation, rad (and m).
+        relative_to: Reference of F: ``inside``, the part inside, as in the paper, which excludes configurations without such a
+            part; or ``whole``, the whole path.
+        sinks: Arcs of locked values, rad, at which ``procedure`` simulates failures, by the index of the joint from 0. Default:
+            the values at which :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02
+            rad on either side of Hopf points, close to which limit cycles exist.
+        seed: Seed of the search for configurations and of random starts.
+        store: Folder in which the results are stored, so that a stopped analysis can be resumed. Only over starts.
+        progress: Function that is called with (starts done, starts in all), or with numbers of targets over targets.
 
     Returns:
         A :class:`holdfast.Workspace`, or over targets a :class:`holdfast.TargetMeasures`.
 
     Raises:
-        InputError: Wrong shapes or options, a target out of reach, or the procedure where stationary points form surfaces.
-        TaskError: An arm without redundancy for the task.
-        StoreError: A folder of another analysis, or one that cannot be written.
+        InputError: Wrong shapes or options, a target out of reach, or the procedure for surfaces of stationary points.
+        TaskError: The arm has no redundancy for the task.
+        StoreError: The folder contains another analysis, or cannot be written.
 
-    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
-    effector's path: the paper does not define it. Sampling, its intervals, and the measures over targets are ours.
+    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. The paper does not define the length
+    of a path; here it is that of the end effector's path. Sampling, its intervals, and the measures over targets are ours.
     """
     if over not in ("starts", "targets"):
         raise InputError(f"over '{over}' is not known; use starts or targets")
     if store is not None:
         if over == "targets":
             raise InputError("store keeps an analysis over starts; leave it out with over='targets'")
-        LAW_REGISTRY.label(law)  # says so where there is none
+        LAW_REGISTRY.label(law)  # raises InputError if the law has no label
     chosen = choose_method(law) if method is None else method
     kind: tuple[Over, bool] = over, choose_method(law) == "brute"
     default_starts, default_configurations, default_points = _DEFAULT_SAMPLE_SIZES[kind]

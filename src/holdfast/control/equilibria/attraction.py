@@ -1,4 +1,4 @@
-"""The basins of a failed arm: fractions of starts by stationary point, and basin boundaries of two healthy joints."""
+"""Basins of a failed arm: fractions of starts by stationary point, and basin boundaries of two healthy joints."""
 
 from __future__ import annotations
 
@@ -34,34 +34,34 @@ if TYPE_CHECKING:
 
 
 DEFAULT_STARTS = 2000
-END_TOLERANCE = 1e-2  # rad (and m): a run that ends nearer than this to a stationary point ended there
+END_TOLERANCE = 1e-2  # rad (and m): a run that ends closer than this to a stationary point counts as ending there
 END_AT_TARGET = -1
 END_MOVING = -2
 END_UNDECIDED = -3
 END_STUCK = -4
 _END_WORDS = {END_AT_TARGET: "target", END_STUCK: "stuck on a continuum", END_MOVING: "moving", END_UNDECIDED: "undecided"}
-_BOUNDARY_OFFSET_RAD = 1e-5  # where a basin boundary begins
+_BOUNDARY_OFFSET_RAD = 1e-5  # distance from the saddle at which a basin boundary begins
 _BOUNDARY_LENGTH_RAD = 30.0  # length to which a basin boundary is followed
-_SOURCE_SPEED_RAD_S = 1e-6  # rad/s: here it ends, at a source
+_SOURCE_SPEED_RAD_S = 1e-6  # rad/s: a basin boundary ends at a source, where it is slower than this
 _LINE_SPACING = 0.02
 _STALL_STEPS = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Basins(Result):
-    """Ends of the motions from N starts.
+    """Ends of the motions of a failed arm from N starts.
 
     Attributes:
-        points: Stationary points; those at which runs ended are among them.
-        starts: (N, n) rad and m.
-        end: (N,) index of the point; or -1 at the target, but not at an isolated solution; -2 moving; -3 undecided; -4 stuck,
-            but not at an isolated stationary point.
-        runs: The runs.
-        confidence: Of the intervals.
-        boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
-            at different points. Continuous, so that joints may run beyond pi.
-        shape: Starts along each of the two healthy joints, if they are a grid.
-        healthy: Joints that move and that the task notices, from 0.
+        points: Stationary points, including those at which runs ended.
+        starts: (N, n) configurations at the start, rad and m.
+        end: (N,) index of the stationary point at the end; -1 at the target, but not at an isolated solution; -2 moving;
+            -3 undecided; -4 stuck, but not at an isolated stationary point.
+        runs: Simulated runs from the starts.
+        confidence: Confidence level of the intervals.
+        boundaries: Lines of configurations (K, n) that lead into saddles, for two healthy joints. Starts on either side may end
+            at different points. The lines are continuous, so joints may exceed pi.
+        shape: Number of starts along each of the two healthy joints, if the starts form a grid.
+        healthy: Indices from 0 of the joints that can move and that affect the task.
     """
 
     points: StationaryPoints
@@ -83,7 +83,7 @@ class Basins(Result):
         return list(zip(map(self.name, codes), intervals, strict=True))
 
     def name(self, code: int) -> str:
-        """Return a value of ``end`` as text: the kind and number from 1 of a point, or a word."""
+        """Return the ``code`` of an entry of ``end`` as text: the kind and number (from 1) of a point, or a word."""
         return _END_WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
 
     @property
@@ -93,7 +93,7 @@ class Basins(Result):
         return Interval.from_counts(int(converged.sum()), len(self.end), self.confidence)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the starts with their ends, one row each, rad and m; see ``end`` for the codes.
+        """Return the starts, rad and m, and their ends in the codes of ``end``, one row for each start.
 
         Raises:
             HoldfastError: xarray is not installed (extra ``xarray``).
@@ -119,23 +119,23 @@ def basins(
 ) -> Basins:
     """Determine which starts of a failed arm reach the target, and where the others end.
 
-    Starts are drawn uniformly between the limits of the healthy joints, over the whole turn where there are none, and each is
-    simulated; its end is matched with the stationary points of :func:`holdfast.stationary_points`.
+    Starts are sampled uniformly between the limits of the healthy joints, or over a full turn if there are none. The motion
+    from each start is simulated, and its end is matched with the stationary points of :func:`holdfast.stationary_points`.
 
     Args:
         law: The control law, with its arm, task and gain.
-        target: (m,) for tasks without angular rows, or a tool pose (4, 4).
-        locked: ``{joint: value}``, rad or m, of one joint or several, by name or index from 0.
-        starts: How many random starts, or configurations (N, n), whose locked joints are set to their values.
-        grid: With two healthy joints, cell centres of a grid of so many by so many in place of ``starts``.
-        seed: Of the random starts and of the search for stationary points.
-        time_limit: Of each run, s; 3000/Ke if not given.
-        confidence: Of the intervals; of a grid they are what as many random starts would have.
+        target: (m,) position, m, for tasks without angular rows; or (4, 4) tool pose.
+        locked: Values of one or several locked joints as ``{joint: value}``, rad or m, by name or index from 0.
+        starts: Number of random starts, or (N, n) configurations, whose locked joints are set to their values.
+        grid: Number of cells along each of two healthy joints; the cell centres of this grid replace ``starts``.
+        seed: Seed of the random starts and of the search for stationary points.
+        time_limit: Time limit of each run, s. Default: 3000/Ke.
+        confidence: Confidence level of the intervals. For a grid they are those of the same number of random starts.
 
     Raises:
         InputError: Wrong shapes, joints or options.
 
-    Source: Goel et al. 2005, Fig. 8. Matching, shares and intervals are ours.
+    Source: Goel et al. 2005, Fig. 8. The matching, fractions and intervals are ours.
     """
     check_confidence(confidence)
     (joints, values), target_matrix = locks_with_values(law.arm, locked), target_pose(law.task, target)
@@ -187,7 +187,7 @@ def _make_starts(
 
 
 def _add_missed_points(system: RestSystem, points: StationaryPoints, runs: Runs) -> StationaryPoints:
-    """Add the points at which runs stopped and which the search did not find."""
+    """Add the points at which runs stopped but which the search did not find."""
     stuck_ends = _final_configurations(system, runs)[runs.code == RunOutcome.STUCK]
     new_points = select_distinct(system.law.arm, stuck_ends, points.q, END_TOLERANCE)
     if not len(new_points):
@@ -203,14 +203,14 @@ def _add_missed_points(system: RestSystem, points: StationaryPoints, runs: Runs)
 
 
 def _final_configurations(system: RestSystem, runs: Runs) -> FloatArray:
-    """Return (N, n) the ends of the runs, with joints that do not move the task at 0, as in stationary points."""
+    """Return the ends (N, n) of the runs, with joints that do not move the task at 0, as in stationary points."""
     q = runs.q_final.copy()
     q[:, list(system.idle)] = 0.0
     return q
 
 
 def _match_ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> IndexArray:
-    """Match the ends of runs (N,) with stationary points; see :class:`Basins`."""
+    """Return the codes (N,) of :class:`Basins` for the ends of runs."""
     codes = {
         RunOutcome.CONVERGED: END_AT_TARGET,
         RunOutcome.STUCK: END_STUCK,
@@ -249,18 +249,18 @@ def _trace_boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[
 def _integrate_line(
     speed: Callable[[float, FloatArray], FloatArray], start: FloatArray, is_end: Callable[[FloatArray], bool]
 ) -> FloatArray:
-    """Return (P, n) a line of unit speed from its start to its end, or to a singular configuration where it cannot continue."""
+    """Return a line (P, n) of unit speed from its start to its end, or to a singular configuration where it cannot continue."""
     from scipy.integrate import RK45, OdeSolution
 
     solver = RK45(speed, 0.0, start, _BOUNDARY_LENGTH_RAD, rtol=1e-8, atol=1e-10, max_step=0.1)
     times, interpolants = [0.0], []
     while solver.status == "running":
-        if solver.step() is not None:  # why no step is small enough
+        if solver.step() is not None:  # the solver found no step small enough
             break
         times.append(solver.t)
         interpolants.append(solver.dense_output())
         is_stalled = len(times) > _STALL_STEPS and times[-1] - times[-1 - _STALL_STEPS] < _LINE_SPACING
-        if is_stalled or (solver.t > _LINE_SPACING and is_end(solver.y)):  # nothing ends where it begins, where all is slow
+        if is_stalled or (solver.t > _LINE_SPACING and is_end(solver.y)):  # a line does not end at its slow beginning
             break
     if not interpolants:
         return start[None]

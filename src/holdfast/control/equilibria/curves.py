@@ -1,4 +1,4 @@
-"""The curves that stationary points form as one locked joint's value changes, and the parts where the arm gets stuck."""
+"""Curves that stationary points form as one locked joint's value changes, and the parts where the arm gets stuck."""
 
 from __future__ import annotations
 
@@ -22,18 +22,19 @@ if TYPE_CHECKING:
 Arc = tuple[float, float]
 
 FULL_TURN_RAD = 2 * np.pi
-ARC_TOLERANCE = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
-SAMPLE_RADIUS = 0.1  # rad (and m): sampled values this near form one range
-ANGLE_TOLERANCE = 1e-6  # rad (and m): degenerate curves at locked values this close have the same value
+ARC_TOLERANCE = 3e-5  # rad (and m): arcs closer than this are merged; where curves cross, ends are known to about 1e-5
+SAMPLE_RADIUS = 0.1  # rad (and m): sampled values closer than this are reported as one range
+ANGLE_TOLERANCE = 1e-6  # rad (and m): degenerate curves at locked values closer than this have the same value
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A section of a curve on which the kind does not change.
+    """Section of a curve on which the kind of the points does not change.
 
     Attributes:
-        kind: Of all its points but its ends.
-        first, last: Its ends, as indices of points of the curve.
+        kind: Kind of all points of the section except its ends.
+        first: Index of the first point of the section on the curve.
+        last: Index of the last point of the section on the curve.
     """
 
     kind: Kind
@@ -43,24 +44,25 @@ class Segment:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EquilibriumCurve:
-    """One curve of erroneous stationary points over the locked value.
+    """Curve of K erroneous stationary points over the value of one locked joint.
 
     Attributes:
-        q: (K, n) points in order, rad and m, continuous: joints may run beyond pi. The last point of a closed curve is its
-            first again, whole turns apart.
-        joint: The locked one, from 0.
-        kind: (K,) :class:`holdfast.control.equilibria.Kind`; ``SOLUTION`` where the curve passes the target.
-        eigenvalues: (K, h) of the healthy joints' linearised motion, by falling real part, in units of the gain Ke; NaN where J
-            loses rank.
+        q: (K, n) points in order, rad and m, continuous, so joints may exceed pi. The last point of a closed curve equals its
+            first point modulo full turns.
+        joint: Index from 0 of the locked joint.
+        kind: (K,) :class:`holdfast.control.equilibria.Kind` of each point; ``SOLUTION`` where the curve passes the target.
+        eigenvalues: (K, h) eigenvalues of the linearised motion of the h healthy joints by decreasing real part, in units of
+            the gain Ke; NaN where J loses rank.
         error: (K,) norm of the task's error, m and rad.
-        closed: It comes back to its first point.
-        degenerate: The whole curve lies at one locked value: a continuum of stationary points, each with an eigenvalue 0.
-        folds: Indices of points where the locked value turns back.
-        branch_points: Of points where another curve crosses.
-        rank_losses: Of points where the Jacobian loses rank; the law has no answer there.
-        solutions: Of points where the target is reached.
-        hopf_points: Of points where a complex pair of eigenvalues crosses the imaginary axis.
-        segments: Stretches of one kind.
+        closed: True if the curve returns to its first point.
+        degenerate: True if the whole curve lies at one locked value. It is then a continuum of stationary points, each with
+            an eigenvalue 0.
+        folds: Indices of points where the locked value reverses its direction.
+        branch_points: Indices of points where another curve crosses.
+        rank_losses: Indices of points where the Jacobian loses rank, so that the law has no answer.
+        solutions: Indices of points where the target is reached.
+        hopf_points: Indices of points where a complex pair of eigenvalues crosses the imaginary axis.
+        segments: Sections of the curve with points of one kind.
     """
 
     q: FloatArray
@@ -84,11 +86,11 @@ class EquilibriumCurve:
 
     @property
     def sinks(self) -> list[Arc]:
-        """Locked values at which the curve is a sink, ``(lower, upper)``, as they run along the curve."""
+        """Ranges ``(lower, upper)`` of locked values at which the curve is a sink, rad (or m), in the order of the curve."""
         return self.arcs(Kind.SINK)
 
     def arcs(self, kind: Kind) -> list[Arc]:
-        """Return the locked values of each segment of a kind, ``(lower, upper)``."""
+        """Return the ranges ``(lower, upper)`` of locked values, rad (or m), of the segments of one ``kind``."""
         segments = [segment for segment in self.segments if segment.kind == kind]
         ends = [np.sort(self.locked_values[[segment.first, segment.last]]).tolist() for segment in segments]
         return [(lower, upper) for lower, upper in ends]
@@ -100,12 +102,12 @@ class Curves(Result):
 
     Attributes:
         law: The control law.
-        target: (4, 4) wanted tool pose; a task takes its rows of it.
-        joint: The locked one, from 0.
-        curves: The curves.
-        loose: Stationary points that lie on surfaces rather than curves, a sample, each with its own locked value; as of arms
-            with a spherical shoulder, which can turn without moving what is locked.
-        starts: Random starts that were used; curves that none converges to are missed.
+        target: (4, 4) tool pose of the target; only the rows of the task count.
+        joint: Index from 0 of the locked joint.
+        curves: Curves of stationary points over the locked value.
+        loose: Sample of stationary points that lie on surfaces instead of curves, each with its own locked value. An example
+            is an arm with a spherical shoulder, which can rotate without moving the locked joint.
+        starts: Number of random starts that were used. The search misses curves to which no start converges.
     """
 
     law: Law
@@ -121,17 +123,17 @@ class Curves(Result):
 
     @property
     def sink_arcs(self) -> list[Arc]:
-        """Locked values at which the arm can get stuck at a sink: disjoint ``(lower, upper)``, by lower end.
+        """Disjoint ranges ``(lower, upper)`` of locked values at which the arm can get stuck at a sink, by lower end, rad or m.
 
-        Of a revolute joint lower is in [-pi, pi), and upper, less than a turn above, may pass pi; ``[(-pi, pi)]`` is every
-        value. Outside no sink was found, which does not exclude limit cycles or slow motion beside degenerate values.
+        For a revolute joint, lower is in [-pi, pi), and upper, less than a turn above, may exceed pi; ``[(-pi, pi)]`` is every
+        value. Outside, no sink was found, which does not exclude limit cycles or slow motion close to degenerate values.
         """
         arcs = [arc for curve in self.curves if not curve.degenerate for arc in curve.sinks]
         return merge_arcs(arcs, is_revolute=not self.law.arm.joints[self.joint].prismatic)
 
     @property
     def degenerate_angles(self) -> list[float]:
-        """Locked values of whole curves of stationary points in ascending order, rad in (-pi, pi] (or m)."""
+        """Sorted locked values at which whole curves of stationary points exist, rad in (-pi, pi] (or m)."""
         values = [np.median(curve.q, axis=0) for curve in self.curves if curve.degenerate]
         if not values:
             return []
@@ -141,7 +143,7 @@ class Curves(Result):
         return [float(angle) for angle in angles[np.r_[True, np.diff(angles) > ANGLE_TOLERANCE]]]
 
     def points_at(self, value: float) -> FloatArray:
-        """Return (P, n) the stationary points at one locked value, rad (or m), on the curves that are not degenerate."""
+        """Return the stationary points (P, n) at one locked ``value``, rad (or m), on the curves that are not degenerate."""
         arm = self.law.arm
         points = [np.empty((0, arm.n))]
         for curve in self.curves:
@@ -161,7 +163,7 @@ class Curves(Result):
 
 
 def merge_arcs(arcs: Sequence[Arc], is_revolute: bool) -> list[Arc]:
-    """Merge arcs ``(lower, upper)``; of a revolute joint modulo full turns, each with lower in [-pi, pi)."""
+    """Merge overlapping arcs ``(lower, upper)``; those of a revolute joint modulo full turns, with lower in [-pi, pi)."""
     if not is_revolute:
         return join_intervals(arcs, ARC_TOLERANCE)
     starts = [((lower + np.pi) % FULL_TURN_RAD - np.pi, upper - lower) for lower, upper in arcs]

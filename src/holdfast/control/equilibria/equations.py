@@ -1,12 +1,12 @@
-"""The equations of a failed arm at rest away from its target, which stay smooth where the Jacobian loses rank.
+"""Equations of a failed arm at rest away from its target, which stay smooth where the Jacobian loses rank.
 
 A law of the form ``rates = A J' y``, ``y = (J A J' + d I)^-1 v`` (pseudoinverse, weighted, damped) leaves the healthy joints
-at rest where some unit vector u has ``(A J')_H u = 0`` and the error is along ``b = (J A J' + d I) u``; for one locked joint
-and d = 0 that is along the column of the joint. Any other law is asked for a unit direction u with no healthy rate, and the
-error must be along ``b = u``. In both, the unknowns are q, u and a pair (c, s) of length 1 with ``c error = s b``, as many
-equations as unknowns but for the locked joints. That the target is reached (s = 0) does not satisfy them by itself, so that
-solutions are elsewhere, and stationary points run smoothly through the target, and through places where b vanishes (c = 0).
-Lengths are in units of :attr:`holdfast.Arm.length_unit`.
+at rest if some unit vector u satisfies ``(A J')_H u = 0`` and the error is along ``b = (J A J' + d I) u``. For one locked joint
+and d = 0, this is the direction of the column of the joint. For any other law, u is a unit command without any healthy rate,
+and the error must be along ``b = u``. In both cases the unknowns are q, u and a pair (c, s) of norm 1 with ``c error = s b``.
+There are as many equations as unknowns, not counting the locked joints. Reaching the target (s = 0) alone does not satisfy the
+equations, so solutions are found separately, and curves of stationary points pass smoothly through the target and through
+points where b vanishes (c = 0). Lengths are in units of :attr:`holdfast.Arm.length_unit`.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (21); the form with u, c and s is ours.
 """
@@ -28,8 +28,8 @@ from holdfast.kernels.program import SX
 from holdfast.model.arm.configurations import sampling_limits
 
 EQUATION_TOLERANCE = 1e-11  # norm of the equations
-_MAX_NEWTON_ROUNDS = 40  # rounds, and as many again for starts that are near
-_NEAR_RESIDUAL = 0.02  # residual of a start that is near
+_MAX_NEWTON_ROUNDS = 40  # rounds, and the same number again for starts whose residual is below _NEAR_RESIDUAL
+_NEAR_RESIDUAL = 0.02
 _INITIAL_DAMPING = 1e-2
 _DAMPING_DECREASE = 0.2
 _DAMPING_INCREASE = 5.0
@@ -37,7 +37,7 @@ _MAX_DAMPING = 1e6
 
 
 class RestEquations:
-    """The equations of erroneous rest of one law, for one locked joint or for several.
+    """Equations of erroneous rest of one law, for one locked joint or for several.
 
     Attributes:
         columns: Layout of the unknowns: joints ``q`` (n,), the unit vector ``u`` (m,), ``c`` and ``s``.
@@ -54,7 +54,7 @@ class RestEquations:
 
     @cached_property
     def _expressions(self) -> tuple[SX, SX, SX]:
-        """The equations, the remainder of ``A J' u`` on the locked joints, and the Jacobian of the equations."""
+        """Equations, remainder of ``A J' u`` on the locked joints, and Jacobian of the equations, as expressions."""
         law = self.law
         q, u, c, s = self.columns.split_symbol(self._unknowns).values()
         mask, quadratic_form = self.system.mask, law.quadratic()
@@ -65,18 +65,18 @@ class RestEquations:
             rest_rates, direction = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
             a, damping = ca.SX(ca.DM(quadratic_form[0])), quadratic_form[1]
-            # From the law's own unit of length.
+            # The law has its own unit of length.
             scale = ca.sparsify(ca.SX(ca.DM(law.task.scale(length_unit / law.task.length))))
             jacobian = scale @ law.jacobian(q)
             rest_rates = a @ jacobian.T @ u
-            # The column itself does not vanish where J loses rank, as J A J' u does.
+            # Where J loses rank, J A J' u vanishes, but the column of the joint does not.
             damped = jacobian @ rest_rates + damping * (scale @ scale @ u)
             direction = jacobian @ (1 - mask) if self._locks_one and not damping else damped
-        # As many equations as unknowns, but for the locked joints.
+        # There are as many equations as unknowns, not counting the locked joints.
         equations = ca.vertcat(mask * rest_rates, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * direction)
         expressions = [equations, ca.sum1((1 - mask) * rest_rates), ca.jacobian(equations, self._unknowns)]
         if quadratic_form is None:
-            # A law knows the derivatives of its rates better than those of its code would tell.
+            # The law's own derivatives are more accurate than those of its code.
             commanded, rate_jacobian = law.with_slopes(
                 q, ca.SX(ca.DM(np.linalg.inv(law.task.scale(length_unit)))) @ u, self._unknowns
             )
@@ -98,7 +98,7 @@ class RestEquations:
     @cached_property
     @cached_kernel
     def _search_loop(self) -> Loop:
-        """Levenberg-Marquardt loop, which accepts a step if it lowers the norm."""
+        """Levenberg-Marquardt loop, which accepts a step if it reduces the norm."""
         free, damping = ca.SX.sym("free", self.size), ca.SX.sym("damping")
         state = ca.vertcat(self._unknowns, damping)
         jacobian, equations = self._expressions[2] @ ca.diag(free), self._expressions[0]
@@ -121,7 +121,7 @@ class RestEquations:
         return values[:, used_rows], jacobian[:, used_rows]
 
     def locked_rates_residual(self, z: FloatArray, pose: FloatArray, mask: FloatArray) -> FloatArray:
-        """Return (N,) the remainder of ``A J' u`` on the locked joints, which is 0 where J loses rank."""
+        """Return the remainder (N,) of ``A J' u`` on the locked joints, which is 0 where J loses rank."""
         return np.asarray(self._locked_rates_kernel(z, pose[:3, 3], pose[:3, :3], mask))
 
     def sample_starts(self, count: int, generator: np.random.Generator) -> FloatArray:
@@ -138,7 +138,7 @@ class RestEquations:
         """Return unknowns (N, size) near configurations (N, n) that are nearly at rest, with the u and s that fit best."""
         z = np.column_stack([q, np.eye(self.law.task.m)[np.zeros(len(q), dtype=int)], np.ones(len(q)), np.zeros(len(q))])
         parts, slices = self.columns.view_parts(z), self.columns.slices
-        # The rates are linear in u, or, of a law that is asked for directions, nearly so.
+        # The rates are linear in u, or nearly linear for a law of another form.
         _, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
         parts["u"][:] = np.linalg.svd(jacobian[:, np.flatnonzero(mask), slices["u"]])[2][:, -1]
         values, jacobian = self._equation_kernel(z, pose[:3, 3], pose[:3, :3], mask)
@@ -149,14 +149,14 @@ class RestEquations:
         return z
 
     def search(self, z: FloatArray, pose: FloatArray, mask: FloatArray, free: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Search for unknowns (N, size) that satisfy the equations, from starts; only the ``free`` ones (size,) change."""
+        """Search from starts (N, size) for unknowns that satisfy the equations; only the ``free`` ones (size,) change."""
         start_count = len(z)
         inputs = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask, free])
         parameters = np.broadcast_to(inputs, (start_count, inputs.size))
         result = self._search_loop.run(
             np.column_stack([z, np.full(start_count, _INITIAL_DAMPING)]), parameters, EQUATION_TOLERANCE, _MAX_NEWTON_ROUNDS
         )
-        # Of the starts that reach the target nine in ten need 25 steps; most of those that need more than 40 never do.
+        # Nine in ten starts that converge need at most 25 steps; most of those that need more than 40 never converge.
         solutions, unfinished = result.state, np.flatnonzero(~result.done & (result.residual < _NEAR_RESIDUAL))
         solutions[unfinished] = self._search_loop.run(
             solutions[unfinished], parameters[unfinished], EQUATION_TOLERANCE, _MAX_NEWTON_ROUNDS

@@ -1,9 +1,9 @@
-"""Events along a curve of stationary points: folds, branch points, changes of stability, loss of rank, the target itself.
+"""Events along a curve of stationary points: folds, branch points, changes of stability, loss of rank, and the target.
 
-Each is a change of sign of a function of the point, bisected between two points of the curve, and becomes a point of it.
-Stability changes where the determinant of the linearisation changes its sign, or the product of all sums of two eigenvalues
-(the determinant of the bialternate sum): the second catches pairs that cross the imaginary axis while the determinant keeps
-its sign, which Goel et al. 2005 leave out.
+Each event is a sign change of a function of the point. It is located by bisection between two points of the curve and is then
+inserted as a point. Stability changes where the determinant of the linearisation changes its sign, or where the product of all
+sums of two eigenvalues (the determinant of the bialternate sum) does. The second test detects pairs that cross the imaginary
+axis while the determinant keeps its sign, which Goel et al. 2005 omit.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from holdfast.control.equilibria.stability import Kind, classify_kinds
 from holdfast.control.equilibria.system import RestSystem
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
-EVENT_SPACING = 1e-4  # rad and m: events nearer than this are at one place
+EVENT_SPACING = 1e-4  # rad and m: events closer than this coincide
 _EVENT_BISECTIONS = 44
 _EVENT_NEWTON_STEPS = 3
-_CROSSING_FRACTION = 1e-3  # of the largest singular value: directions with less are those of a crossing curve
+_CROSSING_FRACTION = 1e-3  # fraction of the largest singular value; smaller ones belong to directions of a crossing curve
 
 
 class CurveEvent(IntEnum):
     """Event at a point of a curve, in the order of the test functions.
 
-    ``FOLD``: the locked value turns back. ``BRANCH``: another curve crosses. ``RANK_LOSS``: the Jacobian loses rank.
+    ``FOLD``: the locked value reverses. ``BRANCH``: another curve crosses. ``RANK_LOSS``: the Jacobian loses rank.
     ``TARGET``: the target is reached. ``DETERMINANT`` and ``PAIR``: the determinant, or a sum of two eigenvalues, is 0.
     """
 
@@ -81,12 +81,12 @@ def make_curve_with_events(system: RestSystem, joint: int, z: FloatArray, closed
 
 @dataclass(frozen=True)
 class CurveSteps:
-    """Steps along a curve, from one point to the next.
+    """N steps along a curve, from one point to the next.
 
     Attributes:
-        system: What the curve is of.
-        start, end: (N, size) unknowns.
-        start_tangent, end_tangent: (N, size) unit tangents.
+        system: Equations of rest that the curve satisfies.
+        start, end: (N, size) unknowns at the ends of each step.
+        start_tangent, end_tangent: (N, size) unit tangents at the ends of each step.
     """
 
     system: RestSystem
@@ -96,9 +96,9 @@ class CurveSteps:
     end_tangent: FloatArray
 
     def interpolate(self, fraction: FloatArray) -> FloatArray:
-        """Return points (N, size) at a fraction (N,) of the steps: a cubic, corrected back to the curve.
+        """Return points (N, size) at a fraction (N,) of the steps: a cubic that is corrected to the curve.
 
-        Where another curve crosses, the way back is not defined in its direction; there the cubic stays as it is.
+        Where another curve crosses, the correction is undefined in the direction of that curve, so the cubic is not corrected.
         """
         x = fraction[:, None]
         displacement, active = self.end - self.start, self.system.active
@@ -116,7 +116,7 @@ class CurveSteps:
 
 
 def _evaluate_event_tests(system: RestSystem, joint: int, z: FloatArray, forward: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return (N, 6) the functions of which a change of sign is an event, and unit tangents (N, size)."""
+    """Return the test functions (N, 6), whose sign changes are events, and the unit tangents (N, size)."""
     _, jacobian = system.evaluate_equations(z)
     tangent = np.zeros_like(z)
     tangent[:, system.active] = np.linalg.svd(jacobian)[2][:, -1]
@@ -149,7 +149,7 @@ def _bisect_events(
 def _split_curve_by_kind(system: RestSystem, z: FloatArray, label: IndexArray, kind: NDArray[np.uint8]) -> tuple[Segment, ...]:
     """Split a curve into sections of one kind between events."""
     n, segments = system.law.arm.n, list[Segment]()
-    # Events of several functions at one place leave stretches of no length between them.
+    # Coinciding events of several functions leave sections of zero length between them.
     last_index = len(z) - 1
     end_distance = np.minimum(np.linalg.norm(z - z[0], axis=1), np.linalg.norm(z - z[last_index], axis=1))
     cuts = [0, *np.flatnonzero((label >= 0) & (end_distance > EVENT_SPACING))]
@@ -175,6 +175,6 @@ def _split_curve_by_kind(system: RestSystem, z: FloatArray, label: IndexArray, k
 
 
 def _has_imaginary_pair(eigenvalues: NDArray[np.complex128]) -> BoolArray:
-    """Return (N,) True where a complex pair lies on the imaginary axis."""
+    """Return a mask (N,) of the points at which a complex pair lies on the imaginary axis."""
     scale = np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray(((np.abs(eigenvalues.real) < 1e-6 * scale) & (np.abs(eigenvalues.imag) > 1e-6 * scale)).any(axis=1))

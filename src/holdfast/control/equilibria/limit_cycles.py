@@ -1,8 +1,8 @@
-"""The motion of a run that never stops: a limit cycle, or joints that rotate forever.
+"""Motion of a run that never stops: a limit cycle, or joints that rotate forever.
 
-A run that ends moving has had its whole time limit to approach what attracts it. From its end the motion is followed until
-it comes near itself again, modulo whole turns; the return is then made exact by shooting (Newton on the state and the
-period, with the variational equations), whose matrix gives the Floquet multipliers.
+A run that ends moving has had its whole time limit to approach its attractor. From its end, the motion is integrated until it
+approaches itself again, modulo full turns. Shooting (Newton's method on the state and the period, with the variational
+equations) then makes the return exact, and its matrix yields the Floquet multipliers.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 _ORBIT_SAMPLES = 4000
-_RETURN_FRACTION = 0.1  # of the extent of the motion: nearer to its start, it may have come round
+_RETURN_FRACTION = 0.1  # fraction of the motion's extent; a motion closer than this to its start may have returned
 _MAX_GUESSES = 6
 _NEWTON_STEPS = 8
 _CLOSURE_TOLERANCE = 1e-8  # rad (and m)
@@ -37,16 +37,16 @@ _SOLVER_OPTIONS: dict[str, Any] = {"method": "DOP853", "rtol": 1e-10, "atol": 1e
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Orbit(Result):
-    """The motion at the end of one run.
+    """Motion at the end of one run that never stops.
 
     Attributes:
-        label: ``limit cycle``, ``turning`` (a joint turns forever) or ``unknown``.
-        period: s (without the speed limit of the law, which changes no path); NaN where the motion did not close.
-        amplitude: (n,) greatest less least value of each joint over a period, rad (or m); over the window where there is none.
-        windings: (n,) whole turns of each joint in a period; 0 where there is none.
-        multipliers: Floquet multipliers, without the 1 along the orbit; empty where there is no period.
-        rates: (n,) mean rates, rad/s (or m/s).
-        q: (n,) a configuration of the orbit.
+        label: ``limit cycle``, ``turning`` (a joint rotates forever) or ``unknown``.
+        period: Period, s, without the speed limit of the law, which changes no path; NaN if the motion did not close.
+        amplitude: (n,) range of each joint over a period, rad (or m); over the window if there is no period.
+        windings: (n,) full turns of each joint in a period; 0 if there is no period.
+        multipliers: Floquet multipliers, without the 1 along the orbit; empty if there is no period.
+        rates: (n,) mean joint rates, rad/s (or m/s).
+        q: (n,) configuration on the orbit, rad and m.
         position_error: Least and greatest distance of the tool point from the target in the directions of the task, m.
         angle_error: Least and greatest angle of the end effector from the target in the directions of the task, rad.
         largest_times: Times after ``q`` at which the distance and the angle are greatest, s.
@@ -70,21 +70,21 @@ class Orbit(Result):
 
 
 def orbit(runs: Runs, k: int = 0, window: float = 400.0) -> Orbit:
-    """Find the motion that run k, which ended moving, repeats forever.
+    """Find the motion that a run repeats forever after it ended moving.
 
     Args:
-        runs: Of :func:`holdfast.control.simulation.simulate`, in continuous time.
-        k: Which run, from 0.
-        window: How long to look for a return, in units of 1/Ke.
+        runs: Runs of :func:`holdfast.control.simulation.simulate` in continuous time.
+        k: Index of the run, from 0.
+        window: Duration in which the motion must return, in units of 1/Ke.
 
     Raises:
-        InputError: No such run, or one that did not end moving.
+        InputError: There is no such run, or it did not end moving.
     """
     codes = np.atleast_1d(runs.code)
     if not 0 <= k < codes.size:
-        raise InputError(f"there is no run {k}; runs are 0 to {codes.size - 1}")
+        raise InputError(f"there is no run {k}; give an index from 0 to {codes.size - 1}")
     if codes[k] != RunOutcome.MOVING or runs.cycles:
-        raise InputError(f"run {k} did not end moving in continuous time, so that it has no orbit")
+        raise InputError(f"run {k} did not end moving in continuous time, so it has no orbit; give a run that did")
     lock_times, end_time = np.atleast_2d(runs.lock_time)[k], np.atleast_1d(runs.time)[k]
     joints = tuple(int(joint) for joint in np.flatnonzero(lock_times <= end_time))
     target = runs.target
@@ -126,7 +126,7 @@ class _ShootingMethod:
         return self._make_orbit(path, float("nan"), np.zeros(len(q), dtype=np.int64), np.empty((0, 0)), window)
 
     def _find_returns(self, path: FloatArray, time: FloatArray) -> Sequence[float]:
-        """Return the times at which the motion is nearest to its start, once it has left it."""
+        """Return the times at which the motion is nearest to its start after it has left it."""
         distance = np.linalg.norm(wrap_angles(self.system.law.arm, path - path[0]), axis=1)
         departure = int(np.argmax(distance > _RETURN_FRACTION * distance.max()))
         minima = np.flatnonzero((distance[1:-1] <= distance[:-2]) & (distance[1:-1] < distance[2:])) + 1
@@ -134,7 +134,7 @@ class _ShootingMethod:
         return [float(return_time) for return_time in time[minima[:_MAX_GUESSES]]]
 
     def _close_orbit(self, q: FloatArray, period: float) -> tuple[FloatArray, float, FloatArray, IndexArray] | None:
-        """Find a state on the closed orbit near q, its period, the matrix of a return, and the full turns of each joint."""
+        """Return a state on the closed orbit near q, its period, the matrix of a return, and the full turns of each joint."""
         arm, moving_joints, h = self.system.law.arm, self.moving_joints, self.moving_joints.size
         first_period, section_normal = period, self._field(q)[moving_joints]
         for _ in range(_NEWTON_STEPS):
@@ -158,7 +158,7 @@ class _ShootingMethod:
         return None
 
     def _integrate_flow(self, q: FloatArray, period: float) -> tuple[FloatArray, FloatArray]:
-        """Return the state after a time, and its derivative by the start, (h, h)."""
+        """Return the state after a period, and its derivative (h, h) with respect to the start."""
         from scipy.integrate import solve_ivp
 
         system, n, h = self.system, self.system.law.arm.n, self.moving_joints.size

@@ -1,4 +1,4 @@
-"""The points at which a failed arm can stop with its joint locked at a given value, and their kinds."""
+"""Points at which a failed arm can stop with its joint locked at a given value, and their kinds."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 WAVE_STARTS = 256
 MAX_IDLE_WAVES = 3
 MAX_WAVES = 40
-POINT_TOLERANCE = 1e-5  # rad (and m): points nearer than this are one
+POINT_TOLERANCE = 1e-5  # rad (and m): points closer than this are equal
 CONTINUUM_SPACING = 0.05  # rad (and m) between points of a continuum
 MAX_CONTINUUM_POINTS = 256  # points of a continuum that are kept
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StationaryPoints(Result):
-    """Stationary points of an arm with locked joints, solutions and erroneous ones.
+    """P stationary points of an arm with k locked joints: solutions and erroneous points.
 
     Attributes:
         law: The control law.
-        target: (4, 4) wanted tool pose; a task takes its rows of it.
-        locked: Locked joints, from 0.
-        at: (k,) their values, rad (or m).
-        q: (P, n) rad and m, from -pi to pi: solutions first, then sinks, saddles, sources and degenerate points;
-            joints that the task does not notice are at 0.
-        kind: (P,) :class:`holdfast.control.equilibria.Kind`.
-        eigenvalues: (P, n - k) of the linearised motion of the healthy joints, complex, by falling real part, in units of the
-            gain Ke.
+        target: (4, 4) tool pose of the target; only the rows of the task count.
+        locked: Indices from 0 of the locked joints.
+        at: (k,) values of the locked joints, rad (or m).
+        q: (P, n) configurations, rad and m, from -pi to pi, in the order solutions, sinks, saddles, sources, degenerate points;
+            joints that do not move the task are at 0.
+        kind: (P,) :class:`holdfast.control.equilibria.Kind` of each point.
+        eigenvalues: (P, n - k) complex eigenvalues of the linearised motion of the healthy joints by decreasing real part, in
+            units of the gain Ke.
         error: (P,) norm of the task's error, m and rad.
-        residual: (P,) norm of the healthy joints' rates in units of Ke: 0 but for rounding.
-        continuum: (P,) True for points that are not isolated, a sample of what may be a curve or a surface of stationary
-            points, as where a spherical shoulder can turn without moving what is locked.
-        within_limits: (P,) all joints are within their limits, which the law does not heed.
-        starts: Random starts that were used; points that none converges to are missed.
+        residual: (P,) norm of the healthy joints' rates in units of Ke, which is 0 to rounding.
+        continuum: (P,) True for points that are not isolated. They are a sample of a curve or surface of stationary points, for
+            example of an arm whose spherical shoulder can rotate without moving the locked joint.
+        within_limits: (P,) True if all joints are within their limits, which the law does not enforce.
+        starts: Number of random starts that were used. The search misses points to which no start converges.
     """
 
     law: Law
@@ -64,12 +64,12 @@ class StationaryPoints(Result):
         return len(self.q)
 
     def of_kind(self, *chosen: Kind) -> StationaryPoints:
-        """Return only the points of these kinds."""
+        """Return only the points of the ``chosen`` kinds."""
         return self._subset(np.isin(self.kind, chosen))
 
     @property
     def kinds(self) -> list[str]:
-        """``solution``, ``sink``, ``saddle``, ``source`` or ``degenerate`` of each point."""
+        """Kind of each point as text: ``solution``, ``sink``, ``saddle``, ``source`` or ``degenerate``."""
         return [Kind(kind).word for kind in self.kind]
 
     @property
@@ -88,15 +88,15 @@ class StationaryPoints(Result):
 
     @property
     def attracting(self) -> BoolArray:
-        """(P,) True for sinks, and for points that repel in no direction: those of a continuum that the arm can end on."""
+        """(P,) True for points that repel in no direction: sinks, and points of a continuum at which the arm can end."""
         return is_attracting(self.eigenvalues)
 
     @property
     def balance(self) -> int:
-        """Isolated points that attract or repel all around, minus saddles: sum of the signs of the determinants.
+        """Number of isolated points that attract or repel in all directions, minus the number of saddles.
 
-        By Poincare and Hopf the sum for two healthy joints that turn without end is 0 where J is regular everywhere, which
-        tells of points that were missed.
+        This is the sum of the signs of the determinants. By the Poincare-Hopf theorem it is 0 for two healthy joints without
+        limits if J is regular everywhere, so another value indicates that the search missed points.
         """
         is_isolated = ~self.continuum & np.isfinite(self.eigenvalues).all(axis=1)
         sign_sum = int(np.sign(np.prod(self.eigenvalues[is_isolated], axis=1).real).sum())
@@ -110,8 +110,8 @@ class StationaryPoints(Result):
 def find_stationary_points(
     system: RestSystem, locked_values: FloatArray, generator: np.random.Generator, report_progress: Progress = ignore_progress
 ) -> StationaryPoints:
-    """Find all stationary points that random starts reach with the locked joints at (k,)."""
-    # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
+    """Find all stationary points that random starts reach with the locked joints at ``locked_values`` (k,)."""
+    # With redundant joints the target is reached on curves or surfaces, of which one wave gives a sample.
     has_spare_joints = int(system.healthy.sum()) > system.law.task.m
     target_waves, search = 1 if has_spare_joints else MAX_WAVES, system.find_target_configurations
     solutions, solution_starts = _gather_points(system, locked_values, search, generator, target_waves, ignore_progress)
@@ -129,7 +129,7 @@ def _gather_points(
     max_waves: int,
     report_progress: Progress,
 ) -> tuple[FloatArray, int]:
-    """Return stationary points (P, n) from waves of starts, until some bring none new and isolated, and the starts used."""
+    """Return stationary points (P, n) and the number of starts, in waves until some add no new isolated point."""
     arm = system.law.arm
     isolated, continuum = np.empty((0, arm.n)), np.empty((0, arm.n))
     starts = idle_waves = 0
@@ -144,7 +144,7 @@ def _gather_points(
         new_continuum = select_distinct(arm, candidates[~is_isolated], continuum, CONTINUUM_SPACING)
         continuum = np.concatenate([continuum, new_continuum])[:MAX_CONTINUUM_POINTS]
         idle_waves = 0 if len(new_points) else idle_waves + 1
-        report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
+        report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if the next waves add none
         if idle_waves == MAX_IDLE_WAVES:
             break
     return np.concatenate([isolated, continuum]), starts

@@ -26,29 +26,31 @@ def stationary_points(law: Law, target: ArrayLike, locked: LockedAnywhere, *, se
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = ...) -> StationaryPoints | Curves: ...
 @check_arguments
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = 0) -> StationaryPoints | Curves:
-    """Find where the arm can stop while its controller has no information about the locked joints.
+    """Find the configurations at which the arm can stop while its controller has no information about the locked joints.
 
-    With ``{joint: value}``, all stationary points that were found for these values of the locked joints: solutions, where the
-    target is reached, and erroneous ones, where only locked joints are commanded. They are looked for from random starts, until
-    three waves of 256 starts bring nothing new. With one joint and no value, ``{joint: None}``, it may be anywhere: the curves
-    that the erroneous points make as its value changes are traced; see :class:`holdfast.control.equilibria.Curves`.
+    With ``{joint: value}``, the result contains all stationary points that were found for these values of the locked joints:
+    solutions, where the target is reached, and erroneous points, where only locked joints are commanded. The search starts from
+    random configurations and stops when three waves of 256 starts find no new point. With one joint without a value,
+    ``{joint: None}``, the function traces the curves of erroneous points over its value instead; see
+    :class:`holdfast.control.equilibria.Curves`.
 
-    The speed limit of the law is left out, as it changes no path, and so are the joint limits, which the law does not heed.
+    The law's speed limit is ignored because it changes no path, and the joint limits because the law does not enforce them.
 
     Args:
         law: The control law, with its arm, task and gain.
-        target: (m,) for tasks without angular rows, or a tool pose (4, 4).
-        locked: ``{joint: value}``, rad or m, of one joint or several, by name or index from 0; or one joint without a value.
-        seed: Of the starts.
+        target: (m,) position, m, for tasks without angular rows; or (4, 4) tool pose.
+        locked: Values of one or several joints as ``{joint: value}``, rad or m, by name or index from 0; or one joint without a
+            value.
+        seed: Seed of the random starts.
 
     Returns:
-        :class:`holdfast.control.equilibria.StationaryPoints`, or :class:`holdfast.control.equilibria.Curves` of a joint without
-        a value.
+        A :class:`holdfast.control.equilibria.StationaryPoints`, or, for a joint without a value, a
+        :class:`holdfast.control.equilibria.Curves`.
 
     Raises:
         InputError: Wrong shapes, joints or values.
 
-    Source: Goel et al. 2005, Theorem 1 as corrected, eq. (18) to (22). Looking for all points is ours.
+    Source: Goel et al. 2005, Theorem 1 as corrected, eq. (18) to (22). The search for all points is ours.
     """
     target_matrix = target_pose(law.task, target)
     lock_values = read_locks(law.arm, locked)

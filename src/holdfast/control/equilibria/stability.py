@@ -1,7 +1,7 @@
-"""The failed closed loop near a stationary point: its linearisation, its eigenvalues, and the kind of the point.
+"""Linearisation of the failed closed loop near a stationary point, its eigenvalues, and the kind of the point.
 
-Source: Goel, Maciejewski, Balakrishnan 2005, eq. (22). That signs change only where the determinant vanishes is not so:
-complex pairs cross too, and eigenvalues are looked at everywhere.
+Source: Goel, Maciejewski, Balakrishnan 2005, eq. (22). The signs of real parts change not only where the determinant vanishes,
+because complex pairs can cross the imaginary axis, too. Eigenvalues are therefore evaluated at every point.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from holdfast.kernels.kernel import Kernel
 
 Kinds = NDArray[np.uint8]
 
-REACHED_ERROR = 1e-6  # rad, and lengths in units of the arm's own: an error below it counts as 0
-ZERO_BAND = 1e-6  # of the linearisation's norm, or of 1: real parts below it have no sign
+REACHED_ERROR = 1e-6  # rad, and lengths in the arm's unit: a smaller error counts as 0
+ZERO_BAND = 1e-6  # fraction of the linearisation's norm, or of 1: smaller real parts count as 0
 
 
 class Kind(IntEnum):
     """Kind of a stationary point.
 
-    ``SOLUTION``: the target is reached. The others are erroneous: ``SINK`` (attracts), ``SADDLE``, ``SOURCE`` (repels), and
-    ``DEGENERATE`` where a real part is zero, so that the linearisation does not decide.
+    At a ``SOLUTION`` the target is reached. The other kinds are erroneous: ``SINK`` (attracts), ``SADDLE``, ``SOURCE``
+    (repels), and ``DEGENERATE``, where a real part is zero, so that the linearisation does not decide the stability.
     """
 
     SOLUTION = 0
@@ -47,13 +47,13 @@ class Kind(IntEnum):
 
 
 def is_attracting(eigenvalues: NDArray[np.complex128]) -> BoolArray:
-    """Return (N,) True where no real part is above 0, zeros allowed; NaN does not attract."""
+    """Return a mask (N,) of the points whose eigenvalues have no real part above 0; NaN does not attract."""
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     return np.asarray((eigenvalues.real < band).all(axis=1))
 
 
 def classify_kinds(eigenvalues: NDArray[np.complex128], scaled_errors: FloatArray) -> Kinds:
-    """Return (N,) :class:`Kind` from eigenvalues (N, h), complex, and scaled errors (N,); NaN is degenerate."""
+    """Return the :class:`Kind` (N,) for complex eigenvalues (N, h) and scaled errors (N,); NaN is degenerate."""
     real_parts = np.real(eigenvalues)
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
     conditions = [
@@ -67,7 +67,11 @@ def classify_kinds(eigenvalues: NDArray[np.complex128], scaled_errors: FloatArra
 
 
 class Linearisation:
-    """Rates and linearisation of the failed arm under one law, without its speed limit, in units of ``1/Ke``."""
+    """Rates and linearisation of the failed arm under one ``law``, without its speed limit, with time in units of ``1/Ke``.
+
+    The methods take configurations ``q`` (N, n), rad and m, the ``pose`` (4, 4) of the target, and the mask ``healthy`` (n,) of
+    the h healthy joints.
+    """
 
     def __init__(self, law: Law) -> None:
         self.law, self._system = law, FailedArmSystem(law)
@@ -93,12 +97,12 @@ class Linearisation:
         return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: FloatArray, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return commanded rates (N, n) of all joints at q (N, n), errors (N,), m and rad, and (N,) with lengths scaled."""
+        """Return commanded rates (N, n) of all joints at ``q`` for ``pose``, and errors (N,), in m and rad and scaled."""
         outputs = self._rates_kernel.rows(q, pose[:3, 3], pose[:3, :3])
         return outputs[:, :-2], outputs[:, -2], outputs[:, -1]
 
     def field(self, pose: FloatArray, healthy: BoolArray) -> Callable[[FloatArray], FloatArray]:
-        """Return the fastest function of the motion, rates (n,) of q (n,), other joints at rest; not for several threads."""
+        """Return a fast function, not thread-safe, from q (n,) to the rates (n,) of the ``healthy`` joints for ``pose``."""
         n, rates_function = self.law.arm.n, self._rates_kernel.single_row()
         inputs = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
         healthy_mask = healthy.astype(np.float64)
@@ -110,19 +114,19 @@ class Linearisation:
         return healthy_rates
 
     def matrices(self, q: FloatArray, pose: FloatArray, healthy: BoolArray) -> FloatArray:
-        """Return the linearisation (N, h, h) of the healthy joints at q (N, n)."""
+        """Return the linearisation (N, h, h) of the ``healthy`` joints at ``q`` for the target ``pose``."""
         jacobians, task_jacobian, scaled_error = self._jacobian_kernel(q, pose[:3, 3], pose[:3, :3])
-        # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
-        # of the rotation vector is 0/0 there.
+        # At the target, where the derivative of the rotation vector is 0/0, the error changes by -J. The law is linear in the
+        # error there or has no derivative.
         n, at_target = self.law.arm.n, np.flatnonzero(scaled_error < REACHED_ERROR)
-        # Of the error with each joint in turn.
+        # The change of the error with each joint in turn.
         error_changes = -task_jacobian[at_target].transpose(0, 2, 1).reshape(-1, self.law.task.m)
         rates = self.law.velocity(np.repeat(q[at_target], n, axis=0), error_changes)
         jacobians[at_target] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(jacobians[:, healthy][:, :, healthy])
 
     def eigenvalues(self, q: FloatArray, pose: FloatArray, healthy: BoolArray) -> NDArray[np.complex128]:
-        """Return the eigenvalues (N, h) by falling real part; NaN where the law is undefined."""
+        """Return the eigenvalues (N, h) of :meth:`matrices` for ``q``, ``pose``, ``healthy``, by decreasing real part."""
         matrices = self.matrices(q, pose, healthy)
         is_finite = np.isfinite(matrices).all(axis=(1, 2))
         eigenvalues = np.full(matrices.shape[:2], np.nan, dtype=np.complex128)
@@ -134,5 +138,5 @@ class Linearisation:
 
 @lru_cache(maxsize=16)
 def linearisation(law: Law) -> Linearisation:
-    """Return the compiled linearisation of a law."""
+    """Return the compiled linearisation of ``law``."""
     return Linearisation(law)

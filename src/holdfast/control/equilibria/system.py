@@ -1,4 +1,4 @@
-"""One law, target, and set of locked joints, with the functions that describe its stationary points."""
+"""Equations of rest for one law, target, and set of locked joints."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers import joint_space
 from holdfast.model.arm.model import Arm
 
-MAX_HEALTHY_FRACTION = 1e-7  # of all rates: healthy joints that move less are still
-VANISHED_COSINE = 1e-5  # of c: b is that short, per unit of error
-IDLE_COLUMN_FRACTION = 1e-12  # of the Jacobian: a joint with a smaller column does not move the task
+MAX_HEALTHY_FRACTION = 1e-7  # fraction of all rates up to which healthy joints count as still
+VANISHED_COSINE = 1e-5  # value of c below which b counts as vanished, per unit of error
+IDLE_COLUMN_FRACTION = 1e-12  # fraction of the Jacobian; a joint with a smaller column does not move the task
 
 
 class RestSystem:
-    """The equations of rest and the linearisation of a failed arm.
+    """Equations of rest and linearisation of a failed arm.
 
     Attributes:
         law: The control law.
-        pose: (4, 4) target.
-        locked_joints: Locked joints, from 0.
-        idle: Joints that the task does not notice, from 0: they are at 0, and are left out of everything.
+        pose: (4, 4) tool pose of the target.
+        locked_joints: Indices from 0 of the locked joints.
+        idle: Indices from 0 of the joints that do not move the task; they are fixed at 0 and excluded.
         mask: (n,) 0 for locked joints, else 1.
-        healthy: (n,) neither locked nor idle.
-        active: Unknowns but for idle joints, as indices; one more than equations where one joint is locked.
+        healthy: (n,) True for joints that are neither locked nor idle.
+        active: Indices of the unknowns without idle joints; one more than there are equations if one joint is locked.
     """
 
     def __init__(self, law: Law, pose: FloatArray, joints: tuple[int, ...]) -> None:
@@ -68,7 +68,7 @@ class RestSystem:
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
         unknowns, is_solved = self.equations.search(z, self.pose, self.mask, free_unknowns)
-        # Where b vanishes the equations hold with c = 0, but J has lost rank and the law no answer.
+        # Where b vanishes the equations hold with c = 0, but J has lost rank, so the law has no answer.
         parts = self.equations.columns.view_parts(unknowns[is_solved])
         q = parts["q"][np.abs(parts["c"][:, 0]) > VANISHED_COSINE]
         _, _, scaled_error = self.linear.rates(q, self.pose)
@@ -80,37 +80,37 @@ class RestSystem:
         return q[converged]
 
     def can_reach(self, values: FloatArray, generator: np.random.Generator) -> BoolArray:
-        """Return (N,) True where the target is reached from one random start with the locked joint at values (N,)."""
+        """Return a mask of the values (N,) of the locked joint at which one random start reaches the target."""
         q = self.sample_starts(len(values), generator)[:, : self.law.arm.n]
         q[:, self.locked_joints[0]] = values
         return solution_search(self.law).search(q, self.pose, self.mask)[1]
 
     def is_stationary(self, q: FloatArray) -> BoolArray:
-        """Return (N,) True where only locked joints are commanded at q (N, n)."""
+        """Return a mask of the configurations q (N, n) at which only locked joints are commanded."""
         rates, _, _ = self.linear.rates(q, self.pose)
         return np.asarray(np.linalg.norm(rates[:, self.healthy], axis=1) < MAX_HEALTHY_FRACTION * np.linalg.norm(rates, axis=1))
 
     def is_law_at_rest(self, z: FloatArray) -> bool:
-        """Return True if the law itself is at rest along z (N, size), where it is defined."""
+        """Return True if the law itself is at rest at all z (N, size) at which it is defined."""
         q = z[:, : self.law.arm.n]
         _, _, scaled_error = self.linear.rates(q, self.pose)
         return bool(self.is_stationary(q)[scaled_error > 1e-3].mean() > 0.5)
 
     def evaluate_equations(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Evaluate the equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by the active unknowns."""
+        """Evaluate the equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) for the active unknowns."""
         values, jacobian = self.equations.evaluate_equations(z, self.pose, self.mask)
         return values[:, self._equation_rows], jacobian[:, self._equation_rows][:, :, self.active]
 
     def locked_rates_residual(self, z: FloatArray) -> FloatArray:
-        """Return (N,) the values of :meth:`RestEquations.sum_locked_rates`."""
+        """Return the residual (N,) of :meth:`RestEquations.locked_rates_residual`."""
         return self.equations.locked_rates_residual(z, self.pose, self.mask)
 
     def eigenvalues(self, q: FloatArray) -> NDArray[np.complex128]:
-        """Return (N, h) the values of :meth:`Linearisation.eigenvalues`."""
+        """Return the eigenvalues (N, h) of :meth:`Linearisation.eigenvalues`."""
         return self.linear.eigenvalues(q, self.pose, self.healthy)
 
     def refine_points(self, q: FloatArray) -> FloatArray:
-        """Return (N, n) the erroneous stationary points near q (N, n), locked joints at their values; NaN for none."""
+        """Return the erroneous stationary points (N, n) near q (N, n) for the values of the locked joints; NaN for none."""
         n = self.law.arm.n
         free_unknowns = self._free.copy()
         free_unknowns[list(self.locked_joints)] = 0.0
@@ -120,7 +120,7 @@ class RestSystem:
         return np.where(is_solved[:, None], unknowns[:, :n], np.nan)
 
     def is_isolated(self, q: FloatArray) -> BoolArray:
-        """Return (N,) False where an eigenvalue is 0."""
+        """Return a mask (N,) of the points q (N, n) at which no eigenvalue is 0."""
         if not len(q):
             return np.zeros(0, dtype=bool)
         magnitudes = np.abs(self.eigenvalues(q))
@@ -129,7 +129,10 @@ class RestSystem:
 
 @lru_cache(maxsize=64)
 def idle_joints(law: Law) -> tuple[int, ...]:
-    """Return the joints that do not move the task of a law at any configuration, from 0; stationary points have them at 0."""
+    """Return the indices from 0 of the joints that move the task of ``law`` at no configuration.
+
+    Stationary points have these joints at 0.
+    """
     quadratic_form = law.quadratic()
     if quadratic_form is not None and not np.array_equal(quadratic_form[0], np.diag(np.diag(quadratic_form[0]))):
         return ()
@@ -141,12 +144,12 @@ def idle_joints(law: Law) -> tuple[int, ...]:
 
 
 def wrap_angles(arm: Arm, q: FloatArray) -> FloatArray:
-    """Return configurations (N, n) with revolute joints from -pi to pi, whatever their limits."""
+    """Return configurations (N, n) with revolute joints wrapped to -pi to pi, regardless of their limits."""
     return joint_space.wrap_joints(arm.without_limits, q)
 
 
 def select_distinct(arm: Arm, q: FloatArray, known_points: FloatArray, min_distance: float) -> FloatArray:
-    """Select those of q (N, n), in order, that are ``min_distance`` from known points (P, n) and each other."""
+    """Select in order the configurations of q (N, n) that are ``min_distance`` from known points (P, n) and each other."""
     unlimited_arm = arm.without_limits
     if len(known_points) and len(q):
         q = q[joint_space.find_nearest(unlimited_arm, known_points, q)[0] > min_distance]

@@ -1,8 +1,8 @@
-"""The condition under which only locked joints are commanded (erroneous convergence), for any number of locked joints.
+"""Condition under which only locked joints are commanded (erroneous convergence), for any number of locked joints.
 
 The controller commands ``W^-1 J' y`` with ``y = (J W^-1 J')^-1 xc``. Only locked joints are commanded if and only if y is
-orthogonal to every healthy column of ``J W^-1`` (Theorem 1'). The paper's own two conditions (rank, and a command in the
-span of the locked columns) are this for one locked joint; for several they are not sufficient.
+orthogonal to every healthy column of ``J W^-1`` (Theorem 1'). The paper's two conditions (rank, and a command in the span of
+the locked columns) are equivalent for one locked joint, but not sufficient for several.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, Theorem 1, eq. (10) to (12), corrected; eq. (18) to (21).
 """
@@ -18,20 +18,21 @@ from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.model import Arm
 
-RANK_TOLERANCE = 1e-9  # of the largest singular value: a smaller one counts as 0
+RANK_TOLERANCE = 1e-9  # fraction of the largest singular value; smaller ones count as 0
 
 
 def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> FloatArray:
-    """Return the commands that move no healthy joint: ``(J W^-1 J') null(S(J W^-1)')``, S() with the columns of locked joints
-    zeroed.
+    """Return the space of the commands that move no healthy joint: ``(J W^-1 J') null(S(J W^-1)')``.
+
+    S() sets the columns of locked joints to 0.
 
     Args:
         j: (m, n) Jacobian of full rank.
-        weights: (n, n) symmetric positive definite or (n,) above 0; None: the pseudoinverse.
-        locked: Joints, from 0.
+        weights: (n, n) symmetric positive definite matrix, or (n,) weights above 0; None: those of the pseudoinverse.
+        locked: Indices from 0 of the locked joints.
 
     Returns:
-        (m, d) orthonormal basis, d = m - rank; d = 0 where no command is stuck.
+        (m, d) orthonormal basis with d = m - rank; d = 0 if no command is stuck.
 
     Raises:
         InputError: Wrong shapes, joints or weights.
@@ -49,14 +50,14 @@ def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int
 def is_stuck(
     j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int], *, command: ArrayLike, tolerance: float = 1e-9
 ) -> bool:
-    """Return True if a command moves no healthy joint: their fraction of the joint rates is at most the tolerance.
+    """Return True if a command moves no healthy joint, within a tolerance.
 
     Args:
         j: (m, n) Jacobian of full rank.
-        weights: As for :func:`stuck_subspace`.
-        locked: Joints, from 0.
-        command: (m,) task velocity. A command of zero is not stuck: the target is reached.
-        tolerance: Of the healthy rates, as a share of all rates.
+        weights: (n, n) or (n,) weights of the joints; see :func:`stuck_subspace`.
+        locked: Indices from 0 of the locked joints.
+        command: (m,) task velocity. A command of zero is not stuck, because the target is reached.
+        tolerance: Largest fraction of the healthy rates in all joint rates.
 
     Raises:
         InputError: Wrong shapes, joints or weights.
@@ -76,15 +77,16 @@ def is_stuck(
 
 
 def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayLike) -> FloatArray:
-    """Return the part of a command not along the column of a joint, (6,): zero where the joint alone would execute it all.
+    """Return the part (6,) of a command that is not along the column of a joint, m/s and rad/s.
 
-    For a revolute joint with axis z and lever ``z x p``: ``x_v - (z'x_w)(z x p)`` and ``x_w - (z'x_w) z``, with one common
-    factor; for a sliding one ``x_v - (z'x_v) z`` and ``x_w``.
+    It is zero if the joint alone would execute the whole command. For a revolute joint with axis z and lever ``z x p`` it is
+    ``x_v - (z'x_w)(z x p)`` and ``x_w - (z'x_w) z``, with one common factor; for a prismatic joint ``x_v - (z'x_v) z`` and
+    ``x_w``.
 
     Args:
         arm: The arm.
-        q: (n,) rad and m.
-        joint: By name or index from 0.
+        q: (n,) configuration, rad and m.
+        joint: Name, or index from 0, of the joint.
         command: (6,) twist in the world, m/s and rad/s.
 
     Raises:
@@ -102,14 +104,14 @@ def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayL
 
 
 def null_components(j: ArrayLike, weights: ArrayLike | None, joint: int) -> FloatArray:
-    """Return ``N' w_i``, (n - m,): zero where a command along the column of joint i is stuck. N spans the null space of J.
+    """Return ``N' w_i`` (n - m,), which is zero if a command along the column of joint i is stuck.
 
-    For the pseudoinverse these are the joint's components of the null vectors.
+    N spans the null space of J. For the pseudoinverse the result contains the joint's components of the null vectors.
 
     Args:
         j: (m, n) Jacobian of full rank.
-        weights: As for :func:`stuck_subspace`.
-        joint: From 0.
+        weights: (n, n) or (n,) weights of the joints; see :func:`stuck_subspace`.
+        joint: Index from 0 of joint i.
 
     Raises:
         InputError: Wrong shapes, joint or weights.

@@ -1,7 +1,7 @@
-"""Curves of erroneous rest over the value of one locked joint, by a predictor along the tangent and a corrector.
+"""Tracing of curves of erroneous rest over the value of one locked joint, by a tangent predictor and a corrector.
 
-Source: Goel, Maciejewski, Balakrishnan 2005, section on tracing stationary manifolds. In the equations used here the
-curves run smoothly through configurations where J loses rank and through the target.
+Source: Goel, Maciejewski, Balakrishnan 2005, section on tracing stationary manifolds. With the equations used here, the curves
+pass smoothly through the target and through configurations at which J loses rank.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from holdfast.core.progress import Progress, ignore_progress
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.solvers.curve_tracing import Component, distance_to_curve
 
-CURVE_SPACING = 0.04  # of the unknowns, rad and m
+CURVE_SPACING = 0.04  # distance of consecutive points in the unknowns, rad and m
 WAVE_STARTS = 128
 MAX_IDLE_WAVES = 3
 MAX_WAVES = 30
 _CORRECTOR_STEPS = 6
-_MIN_STEP_FRACTION = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
+_MIN_STEP_FRACTION = 2.0**-12  # fraction of the spacing; the curve ends if no longer step succeeds
 _MIN_TANGENT_COSINE = 0.97  # least cosine between tangents at the two ends of a step
 _MAX_LENGTH_RAD = 200.0  # rad: longer curves are cut
-_MAX_TRAVEL_M = 50.0  # m: a prismatic joint beyond it has left
-_ON_CURVE_FRACTION = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
-_SURFACE_TOLERANCE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
+_MAX_TRAVEL_M = 50.0  # m: the curve ends if a prismatic joint exceeds it
+_ON_CURVE_FRACTION = 0.15  # fraction of the spacing: a seed closer than this to a traced curve lies on it
+_SURFACE_TOLERANCE = 1e-6  # fraction of the largest singular value; points with a smaller one are not on a single curve
 _MAX_LOOSE_POINTS = 512
-_NEW_FRACTION = 0.2  # of a curve's points must lie on no other curve
-_CONSTANT_TOLERANCE = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
+_NEW_FRACTION = 0.2  # least fraction of a curve's points that must lie on no other curve
+_CONSTANT_TOLERANCE = 1e-6  # rad (and m): a locked value that changes less along a whole curve is constant
 
 
 def trace_curves(
@@ -71,7 +71,7 @@ class RestCurveTracer:
     def find_curves(
         self, generator: np.random.Generator, report_progress: Progress = ignore_progress
     ) -> tuple[list[EquilibriumCurve], FloatArray, int]:
-        """Find every curve to which starts converge, until waves bring no new one, the points on none, and the starts used."""
+        """Return the curves to which starts converge, in waves until some add none, the points on no curve, and the starts."""
         curves: list[EquilibriumCurve] = []
         loose_points = np.empty((0, self._n))
         starts = idle_waves = 0
@@ -86,18 +86,18 @@ class RestCurveTracer:
                 curve = self._trace_curve(remaining[0])
                 remaining = remaining[1:]
                 if curve is not None:
-                    # A seed where the equations are flat can lie beside a curve that is known.
+                    # Where the equations are flat, a seed can lie next to a known curve.
                     if len(self._select_off_curves(curve.q, curves)) > _NEW_FRACTION * len(curve.q):
                         curves.append(curve)
                     remaining = self._select_off_curves(remaining, [curve])
             idle_waves = 0 if len(curves) > known_count else idle_waves + 1
-            report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if nothing new comes
+            report_progress(starts, starts + (MAX_IDLE_WAVES - idle_waves) * WAVE_STARTS)  # if the next waves add none
             if idle_waves == MAX_IDLE_WAVES:
                 break
         return curves, wrap_angles(self.system.law.arm, loose_points), starts
 
     def _is_on_curve(self, z: FloatArray) -> BoolArray:
-        """Return (N,) True where the points near z (N, size) form one curve, no surface, and none with several u for one q."""
+        """Return a mask of the z (N, size) near which points form one curve, not a surface, and with a single u for each q."""
         if not len(z):
             return np.zeros(0, dtype=bool)
         _, jacobian = self.system.evaluate_equations(z)
@@ -108,7 +108,7 @@ class RestCurveTracer:
         )
 
     def _select_off_curves(self, z: FloatArray, curves: Sequence[EquilibriumCurve]) -> FloatArray:
-        """Select those of z (N, size) that lie on none of the curves."""
+        """Select the unknowns of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
                 component = Component(
@@ -135,7 +135,7 @@ class RestCurveTracer:
         return make_curve_with_events(self.system, self.joint, z, closed, is_constant)
 
     def _follow_curve(self, z: FloatArray, tangent: FloatArray) -> tuple[list[FloatArray], bool]:
-        """Return the points of the curve in one direction from z, and whether it came back to z."""
+        """Return the points of the curve in one direction from z, and whether it returned to z."""
         points, start, start_tangent = [z], z, tangent
         step, length, curvature = self.spacing, 0.0, np.zeros_like(z)
         is_prismatic = self.system.law.arm.prismatic
@@ -158,9 +158,9 @@ class RestCurveTracer:
         return points, False
 
     def _correct_point(self, z: FloatArray, tangent: FloatArray | None) -> tuple[FloatArray, FloatArray, bool]:
-        """Return the point of the curve in the plane through z across the tangent, its unit tangent, and whether there is one.
+        """Return the point of the curve in the plane through z normal to the tangent, its unit tangent, and whether it exists.
 
-        Without a tangent, the nearest point, with its tangent either way.
+        Without a tangent, the point is the nearest one, and the sign of its tangent is arbitrary.
         """
         if tangent is None:
             values, jacobian = self.system.evaluate_equations(z[None])
@@ -197,7 +197,7 @@ class RestCurveTracer:
         return 0 < fraction <= 1 and lateral_distance < 0.1 * np.sqrt(squared_length) and float(start_tangent[:n] @ step) > 0
 
     def _nearest_equivalent_start(self, start: FloatArray, z: FloatArray) -> FloatArray:
-        """Return the start as the next point after z: in the same turn, with u, c, and s of the same signs."""
+        """Return the start as the next point after z, in the same turn and with the same signs of u, c, and s."""
         n = self._n
         q = z[:n] + self._joint_difference(start[:n], z[:n])
         signs = itertools.product((1, -1), repeat=3)

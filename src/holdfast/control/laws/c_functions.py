@@ -1,4 +1,4 @@
-"""Expressions as static C functions for an enclosing file, without warnings in C99 and without symbols for a linker."""
+"""Translation of expressions to static C99 functions, which compile without warnings and export no linker symbols."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class CFunction:
     """Inputs and outputs of one C function.
 
     Attributes:
-        inputs: Its pointers, each with its symbols.
-        outputs: Its arrays, each with the expressions that fill it one after the other, every matrix column by column.
+        inputs: Symbols of each input pointer, by its name.
+        outputs: Expressions that fill each output array in order, by its name; matrices are stored column by column.
     """
 
     inputs: Mapping[str, SX]
@@ -26,7 +26,7 @@ class CFunction:
 
     @property
     def arrays(self) -> dict[str, SX]:
-        """Outputs as columns."""
+        """Each output as one column of expressions."""
         return {
             name: ca.vertcat(*[ca.vec(ca.densify(expression)) for expression in parts]) for name, parts in self.outputs.items()
         }
@@ -36,7 +36,7 @@ def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
     """Return the C99 text of functions ``static void CALL(const double *input, ..., double *output, ...)``.
 
     Args:
-        functions: By their names.
+        functions: Inputs and outputs of each function, by its name.
     """
     texts = []
     for function_name, function in functions.items():
@@ -47,7 +47,7 @@ def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
 
 
 def fill_template(package: str, folder: str, file: str, words: Mapping[str, str]) -> str:
-    """Return a text file of a package with its words in capitals filled in, the longest first."""
+    """Return a text file of a package with each placeholder in ``words`` replaced, the longest placeholder first."""
     text = resources.files(package).joinpath(folder, file).read_text(encoding="utf-8")
     for word in sorted(words, key=len, reverse=True):
         text = text.replace(word, words[word])
@@ -55,7 +55,7 @@ def fill_template(package: str, folder: str, file: str, words: Mapping[str, str]
 
 
 def write_c_comment(lines: Sequence[str]) -> str:
-    """Return lines as a comment of C, in plain ASCII, that nothing in them ends."""
+    """Return lines as a C comment in plain ASCII, with comment delimiters inside the lines broken up."""
     safe_lines = [
         line.replace("*/", "* /").replace("/*", "/ *").encode("ascii", "replace").decode().replace("\n", " ") for line in lines
     ]

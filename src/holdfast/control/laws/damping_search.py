@@ -5,10 +5,10 @@ With ``J J' = V diag(sigma^2) V'``, ``c = V' u`` and ``s = lambda^2``, the dampe
 
     PKE^2 = s^2 |y|^2 + max_i a_i^2 (2 s + |j_i|^2),   y_k = c_k / (sigma_k^2 + s).
 
-The healthy error ``s |y|`` grows with s, so the allowed one fixes the largest s; below it PKE may have several minima. The
-search evaluates PKE^2 and its slope on a grid that is even in s near 0 and in log s far from it, because nothing changes
-faster than log s does between the poles ``-sigma_k^2``, and refines the best cells in which the slope turns from down to up,
-by the tangents at both ends if PKE has a kink there (another joint becomes the worst), else by the secant of the slope.
+The healthy error ``s |y|`` increases with s, so the allowed error fixes the largest s. Below that, PKE may have several minima.
+The search evaluates PKE^2 and its slope on a grid that is uniform in s near 0 and uniform in log s far from 0, because no term
+varies faster than log s between the poles ``-sigma_k^2``. It refines the best cells in which the slope changes from negative
+to positive: by the tangents at both ends if PKE has a kink (another joint becomes the worst), else by the secant of the slope.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9). The search is ours.
 """
@@ -26,26 +26,26 @@ from holdfast.kernels import c_backend
 from holdfast.kernels.linalg import Vector, damped_gram, dot_product, rotate_to_singular_rows, select_smallest, solve_spd
 from holdfast.kernels.program import SX
 
-SINGULAR_TOLERANCE = 1e-12  # of the largest singular value: at most this counts as 0
+SINGULAR_TOLERANCE = 1e-12  # fraction of the largest singular value up to which a singular value counts as 0
 MIN_DAMPING = 1e-3  # damping where none is allowed, in the unit of the singular values
-_JACOBI_SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
-_ORTHOGONAL_COSINE = 1e-13  # in C a cosine between two rows that is less is 0
-_CONVERGED_COSINE = 1e-8  # in C so are all of the next sweep, if those of this one were less
-# _BISECTION_STEPS and _NEWTON_STEPS: for the largest damping: to rounding (measured)
+_JACOBI_SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # sweeps of Jacobi rotations for m rows; enough for rounding (measured)
+_ORTHOGONAL_COSINE = 1e-13  # in C, a smaller cosine between two rows counts as 0
+_CONVERGED_COSINE = 1e-8  # in C, if all cosines of a sweep are smaller, those of the next sweep count as 0
+# Steps of the search for the largest damping; enough for rounding (measured).
 _BISECTION_STEPS = 6
 _NEWTON_STEPS = 4
-_EDGE_FRACTION = 0.05  # of a cell: the next point keeps this far from its ends
-_SMOOTH_FRACTION = 0.02  # of a cell: tangents that meet this close to its middle belong to a parabola rather than to a kink
-_ROUNDING_BEND = 1e-11  # relative: the tangents of a cell across which PKE^2 bends by less meet at a place made of rounding
-_FIRST_FRACTION = 0.2  # of the smallest sigma^2: below about this the grid is even in s
+_EDGE_FRACTION = 0.05  # fraction of a cell: least distance of the next point from its ends
+_SMOOTH_FRACTION = 0.02  # fraction of a cell: tangents that meet this close to its middle belong to a parabola, not to a kink
+_ROUNDING_BEND = 1e-11  # relative: if PKE^2 bends by less across a cell, rounding decides where its tangents meet
+_FIRST_FRACTION = 0.2  # fraction of the smallest sigma^2 below which the grid is nearly uniform in s
 _NEVER_VALUE = 1e300
 _TINY_VALUE = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
 _SAME_ERROR_TOLERANCE = (
-    1e-9  # relative: two peak errors closer than this are one, and the last point of the refinement is taken
+    1e-9  # relative: peak errors closer than this count as equal, and the last point of the refinement is used
 )
-_END_TOLERANCE = 1e-9  # relative: a damping as near to the largest is that
-_KINK_TOLERANCE = 1e-6  # relative: as near is the second error to the first at a kink
-_FLAT_SLOPE = 1e-9  # of error / s: two slopes smaller than this are both 0, of joints that always share their error
+_END_TOLERANCE = 1e-9  # relative: a damping this close to the largest one counts as the largest
+_KINK_TOLERANCE = 1e-6  # relative: largest difference between the two largest errors at a kink
+_FLAT_SLOPE = 1e-9  # of error / s: two slopes smaller than this count as 0; such joints always have the same error
 
 
 @dataclass(frozen=True)
@@ -53,10 +53,10 @@ class DampingChoice:
     """Result of the search for the damping.
 
     Attributes:
-        damping: lambda, in the unit of the singular values of J.
-        largest: The largest damping within the allowed healthy error.
-        feasible: 1, or 0 where no damping is within it; both dampings are then :data:`MIN_DAMPING`.
-        rates: (n,) ``J' (J J' + lambda^2 I)^-1 u``.
+        damping: Best damping lambda, in the unit of the singular values of J.
+        largest: Largest damping that keeps the healthy error within the allowed one.
+        feasible: 1, or 0 if no damping keeps it within the allowed one; both dampings are then :data:`MIN_DAMPING`.
+        rates: (n,) joint rates ``J' (J J' + lambda^2 I)^-1 u``.
     """
 
     damping: SX
@@ -68,8 +68,8 @@ class DampingChoice:
 def search_damping(j: SX, u: SX, allowed: SX | float) -> DampingChoice:
     """Search for the best damping for the task Jacobian J (m, n) and a direction u (m,) of norm 1.
 
-    Directions that a singular J cannot produce count as error whatever the damping; J = 0 or an allowed error that is
-    less than theirs is not feasible.
+    Directions that a singular J cannot produce count as error for every damping. The search is infeasible if J = 0 or if
+    their error exceeds the allowed error.
     """
     m, n = j.shape
     rows, components, squares = rotate_to_singular_rows(
@@ -104,7 +104,7 @@ def search_damping(j: SX, u: SX, allowed: SX | float) -> DampingChoice:
 
 
 def generate_c_search(m: int, n: int, allowed: float) -> str:
-    """Return the C99 text of the same search for m rows and n joints, in loops that end as early as possible.
+    """Return the C99 text of the search for m rows and n joints, with loops that end as early as possible.
 
     ``static void damped_inverse(const double *j, const double *v, double *rates, double *damping, double *largest,
     double *feasible)`` takes J (m, n) row by row and a velocity v (m,) of any norm.
@@ -129,7 +129,7 @@ def generate_c_search(m: int, n: int, allowed: float) -> str:
     replacements = {key: str(value) for key, value in counts.items()} | {
         key: c_backend.c_number(value) for key, value in tolerances.items()
     }
-    # Pairs of rows of the same sum, modulo m, have no row in common: a processor need not wait for one to begin another.
+    # Pairs of rows with equal index sums modulo m have no row in common, so a processor can overlap their rotations.
     row_pairs = sorted(combinations(range(m), 2), key=lambda pair: sum(pair) % m) or [(0, 0)]
     replacements["PAIRS"] = ", ".join(f"{{{first}, {second}}}" for first, second in row_pairs)
     sum_terms = {"RATE": "f->rows[#][i] * r[#]", "HEALTHY": "squares[#]", "TURNING": "squares[#] * r[#] * f->squares[#]"}
@@ -142,26 +142,26 @@ def generate_c_search(m: int, n: int, allowed: float) -> str:
 
 
 def _grid_sizes(m: int) -> tuple[int, int, int]:
-    """Return the cells of the grid for m rows, the number of refined ones, and the rounds of refinement."""
+    """Return the number of grid cells for m rows, the number of refined cells, and the rounds of refinement."""
     return (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
 
 
 def differentiate_damped_rates(j: SX, v: SX, allowed: float, result: dict[str, SX], symbols: SX) -> SX:
     """Return the derivatives (n, k) of ``J' (J J' + s I)^-1 v`` without differentiating the search.
 
-    Where it has ended one of three equations holds, and by the implicit function theorem tells how s changes: the healthy
-    error is the allowed one, the errors of two joints are the same (a kink), or the slope of the worst error is 0. Where no
-    damping is best, or none is allowed, s stays.
+    At the result of the search one of three equations holds: the healthy error equals the allowed error, the errors of two
+    joints are equal (a kink), or the slope of the worst error is 0. The implicit function theorem then yields the derivative
+    of s. If the best damping is 0 or no damping is feasible, s is constant.
 
     Args:
         j: (m, n) task Jacobian, an expression of ``symbols``.
         v: (m,) task velocity, an expression of ``symbols``.
-        allowed: Error of the healthy arm for the unit velocity.
-        result: ``damping``, ``largest_damping`` and ``feasible`` there, as the search has them.
+        allowed: Allowed error of the healthy arm for the unit velocity.
+        result: ``damping``, ``largest_damping`` and ``feasible`` from the search.
         symbols: (k,) symbols.
     """
     n, k = j.shape[1], symbols.numel()
-    # Symbols stand for what is not differentiated, until the end.
+    # Symbols stand for the quantities that are not differentiated; they are substituted at the end.
     s, is_at_end, is_following, is_kink = (ca.SX.sym(name) for name in ("s", "ends", "follows", "kink"))
     worst, second_worst = ca.SX.sym("top", n), ca.SX.sym("other", n)
     y = ca.vertcat(*solve_spd(damped_gram(j, s), ca.vertsplit(ca.densify(v))))
@@ -196,7 +196,7 @@ def differentiate_damped_rates(j: SX, v: SX, allowed: float, result: dict[str, S
 
 
 def _select_largest_joint(sizes: SX, errors: SX, slopes_by_joint: SX) -> tuple[SX, SX, SX]:
-    """Return the largest of the sizes (n,) as 0 and 1 (n,), and its error and slope."""
+    """Return a selection (n,) that is 1 at the largest size and 0 elsewhere, with the error and slope selected by it."""
     largest, largest_index = sizes[0], ca.SX(0)
     for index in range(1, sizes.numel()):
         is_larger = sizes[index] > largest
@@ -207,7 +207,7 @@ def _select_largest_joint(sizes: SX, errors: SX, slopes_by_joint: SX) -> tuple[S
 
 @dataclass(frozen=True)
 class _PeakError:
-    """``PKE^2`` of s = lambda^2: squared singular values, c, the products ``(V' j_i)_k c_k`` (m, n), ``|j_i|^2``."""
+    """``PKE^2`` as a function of s = lambda^2, from sigma_k^2, c, the products ``(V' j_i)_k c_k`` (m, n), and ``|j_i|^2``."""
 
     squares: Vector
     c: Vector
@@ -223,7 +223,7 @@ class _PeakError:
         return [dot_product([products[joint] for products in self.products], r) for joint in range(len(self.columns))]
 
     def __call__(self, s: SX) -> tuple[SX, SX]:
-        """Return the value and the slope."""
+        """Return the value and the slope at s."""
         value, slope = self._value_slope_function(s, *self._function_arguments)
         return value, slope
 
@@ -233,9 +233,7 @@ class _PeakError:
 
     @cached_property
     def _value_slope_function(self) -> ca.Function:
-        """Value and slope as a function of s and the numbers here, built once because CasADi's Python is slow for each of 50
-        calls.
-        """
+        """CasADi function for value and slope, built once because building it in each of 50 calls would be slow."""
         symbols = [ca.SX.sym("x", len(vector)) for vector in (self.squares, self.c, *self.products, self.columns)]
         squares, c, *products, columns = ([*ca.vertsplit(vector)] for vector in symbols)
         s, missing = ca.SX.sym("s"), ca.SX.sym("missing")
@@ -267,9 +265,9 @@ class _PeakError:
 def _find_largest_squared_damping(squares: Vector, squared_parts: Vector, allowed_square: SX) -> SX:
     """Return the s at which the squared healthy error ``sum parts s^2 / (sigma^2 + s)^2`` is ``allowed_square``.
 
-    In ``t = 1/s`` one over the error is concave and nearly straight (as the trust-region equation), so Newton's method
-    from the left never passes the root. Bounds by the parts up to, and below, each singular value come first, and then
-    bisections of the logarithm: with singular values far apart Newton's method alone would take long.
+    As a function of ``t = 1/s``, the reciprocal of the error is concave and nearly linear (as in the trust-region equation), so
+    Newton's method from the left never overshoots the root. Bounds from the parts up to and below each singular value, and
+    bisections of the logarithm, come first because Newton's method alone is slow if the singular values differ widely.
     """
     m, total = len(squares), dot_product(squared_parts, [ca.SX(1)] * len(squared_parts))
     lower_bounds, upper_bounds = [], []
@@ -306,7 +304,7 @@ def _find_largest_squared_damping(squares: Vector, squared_parts: Vector, allowe
 
 def _minimise_error(error: _PeakError, largest: SX, m: int) -> SX:
     cell_count, refined_cells, rounds = _grid_sizes(m)
-    # s = first (ratio^k - 1), from 0 to the largest
+    # The grid points are s = first_step (ratio^k - 1), from 0 to the largest.
     first_step = _maximum(_FIRST_FRACTION * select_smallest(error.squares), 1e-12 * largest)
     first_step = ca.if_else(first_step < largest / 3, first_step, largest / 3)
     ratio = ca.exp(ca.log(1 + largest / first_step) / cell_count)
@@ -339,15 +337,13 @@ def _minimise_error(error: _PeakError, largest: SX, m: int) -> SX:
 
 
 def _estimate_minimum(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
-    """Return the value where the tangents at both ends of a cell meet, if the slope turns from down to up in it."""
+    """Return the value where the tangents at both ends of a cell meet, if the slope changes from negative to positive."""
     has_minimum = ca.logic_and(ga < 0, gb > 0)
     return ca.if_else(has_minimum, fa + ga * _tangent_crossing_offset(a, fa, ga, b, fb, gb), _NEVER_VALUE)
 
 
 def _tangent_crossing_offset(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
-    """Return the distance beyond a at which the tangents at a and b meet: the middle for a parabola, a kink between
-    two lines.
-    """
+    """Return the distance from a at which the tangents at a and b meet: the middle of a parabola, or a kink of two lines."""
     slope_change = gb - ga
     return (fa - fb + gb * (b - a)) / ca.if_else(slope_change > 0, slope_change, _NEVER_VALUE)
 
@@ -356,12 +352,12 @@ def _refine_minimum(error: _PeakError, cell: Vector, best_point: SX, least_value
     a, fa, ga, b, fb, gb = cell
     x, value = best_point, least_value
     for round_number in range(rounds):
-        edge_fraction = _EDGE_FRACTION if round_number < rounds - 1 else 0.0  # the last point may lie where it is best
+        edge_fraction = _EDGE_FRACTION if round_number < rounds - 1 else 0.0  # the last point may lie anywhere in the cell
         width, slope_change = b - a, gb - ga
         intersection = _tangent_crossing_offset(a, fa, ga, b, fb, gb)
-        # Where the slope of a parabola is 0.
+        # The slope of a parabola is 0 here.
         parabola_minimum = -ga * width / ca.if_else(slope_change > 0, slope_change, _NEVER_VALUE)
-        # In a cell so narrow that its values differ by rounding alone, only their slopes still tell where the minimum is.
+        # In a cell so narrow that its values differ by rounding alone, only the slopes locate the minimum.
         is_smooth = ca.logic_or(
             ca.fabs(intersection - width / 2) < _SMOOTH_FRACTION * width, slope_change * width < _ROUNDING_BEND * fa
         )
@@ -373,7 +369,7 @@ def _refine_minimum(error: _PeakError, cell: Vector, best_point: SX, least_value
         is_rising = slope > 0
         a, fa, ga = (ca.if_else(is_rising, old_value, new_value) for old_value, new_value in ((a, x), (fa, value), (ga, slope)))
         b, fb, gb = (ca.if_else(is_rising, new_value, old_value) for old_value, new_value in ((b, x), (fb, value), (gb, slope)))
-    # Values this close differ by rounding alone, and would let it choose among dampings that differ by its square root.
+    # Values this close differ by rounding alone, so choosing by value would change the damping by the root of the rounding.
     uses_last = value <= least_value * (1 + _SAME_ERROR_TOLERANCE)
     return ca.if_else(uses_last, x, best_point), ca.if_else(uses_last, value, least_value)
 

@@ -1,4 +1,4 @@
-"""A control law as a C99 file that needs nothing but ``math.h``, for a robot's own controller."""
+"""Export of a control law as a C99 file for a robot's own controller, which needs only ``math.h``."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ from holdfast.model.arm.task import Task
 
 TEST_CASES = 5
 MAX_TRIES = 1000
-MAX_CONDITION_NUMBER = 100.0  # then a sine that differs in its last digit does not matter
-RATE_TOLERANCE = 1e-9  # of the largest rate
+MAX_CONDITION_NUMBER = 100.0  # of a test case, so that the last digit of another compiler's sine does not matter
+RATE_TOLERANCE = 1e-9  # fraction of the largest rate
 
 _C_KEYWORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
@@ -53,14 +53,15 @@ class _Law(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class ExportedLaw(Result):
-    """The files of a law, into which it may be unpacked.
+    """Paths of the files of an exported control law; unpacking yields source, header, example, and test.
 
     Attributes:
-        law: The law.
-        source: ``NAME.c``.
-        header: ``NAME.h``.
-        example: ``NAME_example.c``, a control loop.
-        test: ``NAME_test.c``, which returns 0 if the compiled function gives what holdfast computed for five configurations.
+        law: The exported control law.
+        source: Path of ``NAME.c``, the law.
+        header: Path of ``NAME.h``, its header.
+        example: Path of ``NAME_example.c``, a control loop.
+        test: Path of ``NAME_test.c``, which returns 0 if the compiled function reproduces holdfast's rates for five
+            configurations.
     """
 
     law: _Law
@@ -85,10 +86,10 @@ class ExportedLaw(Result):
 
 
 def check_name(name: str) -> str:
-    """Return the name, if it can be that of a C function.
+    """Return the name if it is a valid name of a C function.
 
     Raises:
-        InputError: It cannot be.
+        InputError: The name is not valid in C, or is a keyword of C.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,62}", name) or name in _C_KEYWORDS.split():
         raise InputError(f"'{name}' cannot name a C function; use letters, digits and underscores, a letter first")
@@ -97,8 +98,9 @@ def check_name(name: str) -> str:
 
 @cached_json
 def make_c_files(law: _Law, name: str) -> dict[str, str]:
-    """Return the text of ``NAME.c``, ``NAME.h``, ``NAME_example.c``, and ``NAME_test.c``; see
-    :meth:`holdfast.control.laws.Law.export_c`.
+    """Return the texts of ``NAME.c``, ``NAME.h``, ``NAME_example.c``, and ``NAME_test.c``, by the name of the file.
+
+    :meth:`holdfast.control.laws.Law.export_c` documents their contents.
     """
     check_name(name)
     q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m)
@@ -130,7 +132,7 @@ def _source_text(law: _Law, name: str, function: ca.Function) -> str:
     copies = "".join(f"    if ({output}) *{output} = fine ? out_{output} : 0;\n" for output in extra_outputs)
     declared = "".join(f"    double out_{output} = 0;\n" for output in extra_outputs)
     names = ", ".join(quote_c_string(output) for output in law.arm.joint_names)
-    # Zero rates stop an arm; NaN would go on to its drives.
+    # Zero rates stop an arm, whereas NaN would reach its drives.
     return f"""{law.computed_in_c()}
 const char *const {name}_joints[{n}] = {{{names}}};
 
@@ -165,7 +167,7 @@ def _header_text(law: _Law, name: str, function: ca.Function) -> str:
 
 #define {name.upper()}_JOINTS {law.arm.n}
 #define {name.upper()}_ROWS {law.task.m}
-/* What made this file, and of which arm: Arm.fingerprint in Python, "fingerprint" in 'holdfast describe --json'. */
+/* Version of holdfast, and fingerprint of the arm ("fingerprint" in 'holdfast describe --json', Arm.fingerprint in Python). */
 #define {name.upper()}_HOLDFAST "{holdfast_version()}"
 #define {name.upper()}_ARM "{law.arm.fingerprint}"
 
@@ -176,7 +178,7 @@ extern "C" {{
 /* The joints in the order of q and rates. */
 extern const char *const {name}_joints[{law.arm.n}];
 
-/* 0 if the joints of a driver are these, in this order; else the place, from 1, of the first that is not. */
+/* Returns 0 if a driver has these joints in this order, else the position (from 1) of the first joint that differs. */
 int {name}_check_joints(const char *const names[], int count);
 
 {_c_signature(law, name, function)};
@@ -195,14 +197,14 @@ def _example_text(law: _Law, name: str, function: ca.Function) -> str:
     names = ", ".join(quote_c_string(joint_name) for joint_name in law.arm.joint_names)
     null_arguments = ", 0" * (function.n_out() - 1)
     return f"""/*
- * A control loop around {name}: an arm without dynamics follows the rates for one second.
+ * Control loop around {name}, in which an arm without dynamics follows the rates for one second.
  * cc -std=c99 {name}.c {name}_example.c -lm -o {name}_example
  */
 #include "{name}.h"
 
 #include <stdio.h>
 
-/* The joints as your driver orders them: fill this from the driver, not from {name}_joints. */
+/* Joint names in the order of your driver. Take them from the driver, not from {name}_joints. */
 static const char *const driver[] = {{{names}}};
 
 int main(void) {{
@@ -217,7 +219,7 @@ int main(void) {{
     }}
     for (k = 0; k < 100; ++k) {{
         if ({name}(q, v, rates{null_arguments})) {{
-            fprintf(stderr, "no answer in cycle %d: the arm is still\\n", k);
+            fprintf(stderr, "the law has no answer in cycle %d; the rates are 0\\n", k);
             return 1;
         }}
         for (i = 0; i < {n}; ++i) q[i] += cycle * rates[i]; /* send the rates to the drives */
@@ -237,7 +239,7 @@ def _test_text(law: _Law, name: str, function: ca.Function) -> str:
         for q, v, rates in test_cases
     )
     return f"""/*
- * Does {name} compute here what holdfast {holdfast_version()} computed where it was written? Returns 0 if so.
+ * Test of {name}: returns 0 if it computes the same rates here as holdfast {holdfast_version()} did when it wrote this file.
  * cc -std=c99 {name}.c {name}_test.c -lm -o {name}_test
  */
 #include "{name}.h"
@@ -259,17 +261,17 @@ int main(void) {{
             off = fmax(off, fabs(rates[i] - cases[k].rates[i]));
         }}
         if (code || !(off <= {RATE_TOLERANCE:g} * size)) {{
-            printf("case %d: returned %d, rates differ by %g of their size\\n", k + 1, code, off / size);
+            printf("case %d: returned %d, the relative error of the rates is %g\\n", k + 1, code, off / size);
             bad = 1;
         }}
     }}
     for (i = 0; i < {n}; ++i) q[i] = zero / zero;
     if ({name}(q, cases[0].v, rates{null_arguments}) != 1 || rates[0] != 0) {{
-        printf("NaN in q must return 1 and zero rates; was this compiled with -ffast-math?\\n");
+        printf("NaN in q does not return 1 and zero rates; do not compile with -ffast-math\\n");
         bad = 1;
     }}
     if ({name}_check_joints({name}_joints, {n}) != 0 || {name}_check_joints({name}_joints, {n - 1}) != {n}) {{
-        printf("the check of the joints is broken\\n");
+        printf("{name}_check_joints accepts wrong joints or rejects the right ones\\n");
         bad = 1;
     }}
     puts(bad ? "failed" : "passed");
@@ -279,7 +281,7 @@ int main(void) {{
 
 
 def _sample_cases(law: _Law, function: ca.Function) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """Sample configurations away from singular ones, and commands, and return them with the rates that holdfast computes."""
+    """Return sampled configurations away from singularities, sampled commands, and the rates that holdfast computes."""
     generator, test_cases = np.random.default_rng(0), []
     jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])
     lower, upper = sampling_limits(law.arm)
@@ -304,12 +306,12 @@ def holdfast_version() -> str:
 
 
 def format_numbers(values: ArrayLike) -> str:
-    """Return numbers in the notation of C, with every digit."""
+    """Return numbers in C notation with all their digits."""
     return ", ".join(repr(float(value) + 0.0) for value in np.asarray(values))
 
 
 def quote_c_string(text: str) -> str:
-    """Return a C string, with bytes that are not plain ASCII in octal."""
+    """Return a C string literal, with octal escapes for bytes that are not plain ASCII."""
     escaped = "".join(
         chr(byte) if 32 <= byte < 127 and byte not in b'"\\?' else f"\\{byte:03o}" for byte in text.encode(errors="replace")
     )
@@ -318,10 +320,10 @@ def quote_c_string(text: str) -> str:
 
 @reports_progress("writing down the law")
 def write_law_files(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
-    """Write the four files of a law.
+    """Write the four files of a law and return their paths.
 
     Raises:
-        StoreError: They cannot be written.
+        StoreError: The files cannot be written.
     """
     source, header, example, test = write_files(folder, make_c_files(law, name))
     return ExportedLaw(law=law, source=source, header=header, example=example, test=test)
@@ -331,14 +333,14 @@ def _describe_c_function(law: _Law, name: str, extra_outputs: list[str]) -> str:
     units = ", ".join(f"{joint.name} [{joint.unit}]" for joint in law.arm.joints)
     lines = [
         f"{name}: {law.phrase()}, for the arm {law.arm.title}.",
-        f"Made by holdfast {holdfast_version()} of the arm {law.arm.fingerprint}; C99, needs only math.h.",
+        f"Made by holdfast {holdfast_version()} for the arm {law.arm.fingerprint}; C99, needs only math.h.",
         "",
         f"q      joint positions: {units}",
         f"v      velocity of the task's rows ({law.task.name}, {law.task.frame} frame), m/s and rad/s",
         "rates  joint rates in the order of q, per second",
-        *([f"{', '.join(extra_outputs)}: what else the law computes; each may be NULL"] if extra_outputs else []),
+        *([f"{', '.join(extra_outputs)}: further outputs of the law; each may be NULL"] if extra_outputs else []),
         "",
-        "Returns 0; or 1 and zero rates where an input is not finite or the law has no answer (the arm is exactly singular).",
-        "Gain, speed limit and joint limits are not in it. Compile without -ffast-math.",
+        "Returns 0; or 1 and zero rates if an input is not finite or the law has no answer (the arm is exactly singular).",
+        "The function applies no gain, speed limit, or joint limits. Compile without -ffast-math.",
     ]
     return write_c_comment(lines)

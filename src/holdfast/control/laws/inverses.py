@@ -1,4 +1,4 @@
-"""Pseudoinverse, weighted and damped inverse."""
+"""Control laws that invert the task Jacobian: pseudoinverse, weighted inverse, and damped inverse."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ from holdfast.model.arm.task import Task, TaskSpec
 
 
 class Pseudoinverse(Law):
-    """Least-norm joint rates, ``J' (J J')^-1 v``; NaN at an exactly singular configuration, without hidden damping.
+    """Control law with the joint rates of least norm, ``J' (J J')^-1 v``.
+
+    At an exactly singular configuration the rates are NaN, because the law contains no hidden damping.
+    The arguments are those of :class:`holdfast.control.laws.Law`.
 
     Source: Goel et al. 2005, eq. (5).
     """
@@ -29,17 +32,25 @@ class Pseudoinverse(Law):
     name, slug, source = "pseudoinverse", "pseudoinverse", "Goel et al. 2005, eq. (5)"
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """See :meth:`Law.inverse`."""
+        """Return the joint rates (n,) of least norm for the scaled ``j`` (m, n) and ``v`` (m,); see :meth:`Law.inverse`."""
         return damped_least_norm(j, v, 0.0)
 
     def quadratic(self) -> tuple[FloatArray, float]:
-        """See :meth:`Law.quadratic`."""
+        """Return the matrix ``A`` (n, n) and the number ``d`` of the law; see :meth:`Law.quadratic`."""
         return np.eye(self.arm.n), 0.0
 
 
 @check_constructor
 class Weighted(Law):
-    """Joint rates of least weighted norm, ``W^-1 J' (J W^-1 J')^-1 v``.
+    """Control law with the joint rates of least weighted norm, ``W^-1 J' (J W^-1 J')^-1 v``.
+
+    Args:
+        arm: The arm.
+        weights: (n,) weights above 0, or (n, n) symmetric positive definite matrix W. A larger weight slows its joint down.
+        task, gain, speed_limit: Task, gain and speed limit, as for every :class:`holdfast.control.laws.Law`.
+
+    Raises:
+        InputError: The weights have a wrong shape or are not positive.
 
     Source: Goel et al. 2005, eq. (10).
     """
@@ -67,23 +78,23 @@ class Weighted(Law):
             raise InputError("weights must be a symmetric positive definite matrix, or numbers above 0")
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """See :meth:`Law.inverse`."""
+        """Return the joint rates (n,) of least weighted norm for ``j`` (m, n), ``v`` (m,); see :meth:`Law.inverse`."""
         weight_root = np.linalg.inv(np.linalg.cholesky(self.weights)).T  # W^-1 = root root'
         sparse_root = ca.sparsify(ca.SX(ca.DM(weight_root)))
         return sparse_root @ damped_least_norm(j @ sparse_root, v, 0.0)
 
     def quadratic(self) -> tuple[FloatArray, float]:
-        """See :meth:`Law.quadratic`."""
+        """Return the matrix ``A`` (n, n) and the number ``d`` of the law; see :meth:`Law.quadratic`."""
         return np.asarray(np.linalg.inv(self.weights), dtype=np.float64), 0.0
 
     @property
     def settings(self) -> dict[str, Any]:
-        """See :attr:`Law.settings`; a full matrix has no label."""
+        """Weights of the law, (n,) or (n, n), by the name of the argument; a law with a full matrix has no label."""
         diagonal = np.diag(self.weights)
         return {"weights": diagonal if np.array_equal(self.weights, np.diag(diagonal)) else self.weights}
 
     def phrase(self) -> str:
-        """Return the law and its task, without gain and speed limit, for people."""
+        """Return a phrase that names the law, its settings, and its task, without gain and speed limit."""
         joint_weights = self.settings["weights"]
         return (
             f"{super().phrase()}, weights "
@@ -93,7 +104,15 @@ class Weighted(Law):
 
 @check_constructor
 class Damped(Law):
-    """Damped least squares with fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
+    """Control law with damped least squares and fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
+
+    Args:
+        arm: The arm.
+        damping: Damping factor above 0, not its square, in the unit of the scaled Jacobian (m for a position task).
+        task, gain, speed_limit: Task, gain and speed limit, as for every :class:`holdfast.control.laws.Law`.
+
+    Raises:
+        InputError: The damping is not above 0.
 
     Source: Goel et al. 2003, section 2.
     """
@@ -115,24 +134,24 @@ class Damped(Law):
         self.fixed_damping = float(damping)
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """See :meth:`Law.inverse`."""
+        """Return the damped joint rates (n,) for the scaled ``j`` (m, n) and ``v`` (m,); see :meth:`Law.inverse`."""
         return damped_least_norm(j, v, self.fixed_damping**2)
 
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """See :meth:`Law.damping`."""
+        """Return the fixed damping at each ``q`` (N, n) and ``v`` (N, m), or NaN; see :meth:`Law.damping`."""
         return self._fill_constant(q, v, self.fixed_damping)
 
     def quadratic(self) -> tuple[FloatArray, float]:
-        """See :meth:`Law.quadratic`."""
+        """Return the matrix ``A`` (n, n) and the number ``d`` of the law; see :meth:`Law.quadratic`."""
         return np.eye(self.arm.n), self.fixed_damping**2
 
     @property
     def settings(self) -> dict[str, Any]:
-        """See :attr:`Law.settings`."""
+        """Damping of the law, by the name of the argument."""
         return {"damping": self.fixed_damping}
 
     def phrase(self) -> str:
-        """Return the law and its task, without gain and speed limit, for people."""
+        """Return a phrase that names the law, its settings, and its task, without gain and speed limit."""
         return f"{super().phrase()}, damping {self.fixed_damping:g}"
 
 
@@ -143,7 +162,10 @@ def _one_to_n(arm: Arm, task: object) -> FloatArray:
 
 @constructor()
 def pseudoinverse(arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, *, speed_limit: float | None = None) -> Pseudoinverse:
-    """Least-norm joint rates; Goel et al. 2005, eq. (5)."""
+    """Make the control law with the joint rates of least norm; Goel et al. 2005, eq. (5).
+
+    ``arm``, ``task``, ``gain`` and ``speed_limit`` are those of :class:`holdfast.control.laws.Law`.
+    """
     return Pseudoinverse(arm, task, gain, speed_limit=speed_limit)
 
 
@@ -156,7 +178,10 @@ def weighted(
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> Weighted:
-    """Joint rates of least weighted norm; Goel et al. 2005, eq. (10)."""
+    """Make the control law with the joint rates of least weighted norm; Goel et al. 2005, eq. (10).
+
+    ``arm``, ``weights``, ``task``, ``gain`` and ``speed_limit`` are those of :class:`holdfast.control.laws.Weighted`.
+    """
     return Weighted(arm, weights, task, gain=gain, speed_limit=speed_limit)
 
 
@@ -169,5 +194,8 @@ def damped(
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> Damped:
-    """Damped least squares with fixed damping; Goel et al. 2003, section 2."""
+    """Make the control law of damped least squares with fixed damping; Goel et al. 2003, section 2.
+
+    ``arm``, ``damping``, ``task``, ``gain`` and ``speed_limit`` are those of :class:`holdfast.control.laws.Damped`.
+    """
     return Damped(arm, damping, task, gain=gain, speed_limit=speed_limit)

@@ -1,8 +1,8 @@
 """Control laws: the joint rates that a controller without fault information commands for a motion of the end effector.
 
 Every law is one straight-line program of the task Jacobian and a task velocity, so that the same law runs in the batch
-kernel, in C on a robot's controller and in the browser. The velocity itself is ``Ke`` times the error, slowed down as a
-whole where its linear part would pass the speed limit.
+kernel, in C on a robot's controller and in the browser. The task velocity is ``Ke`` times the error, and it is scaled down
+as a whole if its linear part would exceed the speed limit.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (5), (6); Goel, Maciejewski, Balakrishnan 2005, eq. (5), (6), (10).
 """
@@ -38,25 +38,25 @@ from holdfast.model.arm.task import Task, as_task
 
 
 class Law(Presentable, Labelled, Differentiable, Steppable):
-    """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
+    """Control law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
 
-    In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
-    ``step.others`` then holds what else :meth:`outputs` computes.
+    In a control loop, call ``step = law.prepare()`` once and ``rates = step(q, v)`` in every period, with q (n,), v (m,) and
+    rates (n,). ``step.others`` then contains the further :meth:`outputs`.
 
     Args:
         arm: The arm.
         task: Rows of the end effector's velocity that are prescribed.
-        gain: ``Ke``, 1/s, or 1/cycle where time counts in cycles.
-        speed_limit: Largest norm of the linear part of v, m/s or m/cycle; v is slowed as a whole. None: no limit.
+        gain: ``Ke``, 1/s, or 1/cycle if time is counted in cycles.
+        speed_limit: Largest norm of the linear part of v, m/s or m/cycle; v is scaled down as a whole. None: no limit.
 
     Attributes:
-        name: For people.
-        slug: On the command line and in files.
+        name: Name of the law in texts.
+        slug: Name of the law on the command line and in files.
         source: Paper and equation.
 
     Raises:
         TaskError: The task has more rows than the arm has joints.
-        InputError: A gain or speed limit that is not above 0.
+        InputError: The gain or the speed limit is not above 0.
     """
 
     name = ""
@@ -81,22 +81,25 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
     @abstractmethod
     def inverse(self, j: SX, v: SX) -> SX:
-        """Return the joint rates (n,) for a task velocity v (m,) and the task Jacobian J (m, n), both with scaled
-        linear rows.
+        """Return the joint rates (n,), per second, of the law.
+
+        Args:
+            j: (m, n) task Jacobian with its linear rows divided by the task's characteristic length.
+            v: (m,) task velocity with its linear rows divided by the task's characteristic length.
         """
 
     def jacobian(self, q: SX) -> SX:
-        """Return the task Jacobian (m, n) that the law uses: linear rows divided by the task's characteristic length."""
+        """Return the task Jacobian (m, n) at ``q`` (n,), with linear rows divided by the task's characteristic length."""
         return self.task.jacobian(self.arm, q)
 
     def scale_velocity(self, v: SX) -> SX:
-        """Return a task velocity (m,) in m/s and rad/s with its linear rows divided by the task's characteristic length."""
+        """Return ``v`` (m,), m/s and rad/s, with its linear rows divided by the task's characteristic length."""
         return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
     def command(self, error: SX) -> SX:
-        """Return the task velocity (m,) for an error of the task's components (m,), m and rad: eq. (6), within the speed limit.
+        """Return the task velocity (m,), m/s and rad/s, for an ``error`` (m,), m and rad: eq. (6), within the speed limit.
 
-        A smaller gain far away only takes more time; it does not change the path.
+        The speed limit acts like a smaller gain far from the target: the motion takes longer on the same path.
         """
         if self.speed_limit is None:
             return self.gain * error
@@ -106,25 +109,26 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return scale * self.gain * error
 
     def rates(self, q: SX, v: SX) -> SX:
-        """Return the joint rates (n,) for q (n,) and a task velocity v (m,), m/s and rad/s."""
+        """Return the joint rates (n,), rad/s and m/s, for ``q`` (n,), rad and m, and ``v`` (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scale_velocity(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
-        """Return :meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
+        """Return :meth:`rates` and their derivatives (n, k) by symbols ``by`` (k,), in which ``q`` and ``v`` are expressed."""
         rates = self.rates(q, v)
         return rates, ca.jacobian(rates, by)
 
     def quadratic(self) -> tuple[FloatArray, float] | None:
-        """Return ``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
+        """Return ``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v`` with scaled rows; None for any other law."""
         return None
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
-        """Return the outputs of the law for q (n,) and a task velocity v (m,): ``rates`` (n,) first, then all others."""
+        """Return the outputs of the law for ``q`` (n,) and ``v`` (m,), m/s and rad/s: ``rates`` (n,) first, then all others."""
         return {"rates": self.rates(q, v)}
 
     def computed_in_c(self) -> str:
-        """Return the C99 text of ``static void computed(const double *q, const double *v, double *rates, ...)``:
-        :meth:`outputs`.
+        """Return the C99 text of ``static void computed(const double *q, const double *v, double *rates, ...)``.
+
+        The function computes :meth:`outputs`.
         """
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         return generate_c_functions(
@@ -132,9 +136,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         )
 
     def inverse_in_c(self) -> str:
-        """Return the C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, J (m, n)
-        row by row.
-        """
+        """Return the C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, j row by row."""
         j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
         return generate_c_functions({"inverse": CFunction({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
 
@@ -164,9 +166,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return Kernel(f"{self.name}, slopes", [q, v], [derivatives[:, : self.arm.n], derivatives[:, self.arm.n :]])
 
     def row_function(self) -> RowFunction:
-        """See :meth:`holdfast.kernels.frameworks.Differentiable.row_function`; its slopes are those of the rates by
-        q and by v.
-        """
+        """Return the function of one row and its derivatives, those of the rates with respect to q and v."""
         return RowFunction(
             name=self.name,
             sizes=(self.arm.n, self.task.m),
@@ -184,14 +184,14 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Compute the commanded joint rates.
 
         Args:
-            q: (n,) or (N, n), rad and m.
+            q: (n,) configuration or (N, n) configurations, rad and m.
             v: (m,) or (N, m) velocity of the task's rows, m/s and rad/s.
 
         Returns:
-            (n,) or (N, n), rad/s and m/s; NaN in a row where q or v is, or where the law has no answer.
+            (n,) or (N, n) joint rates, rad/s and m/s; NaN in a row where q or v is NaN or the law has no answer.
 
         Raises:
-            InputError: A wrong shape.
+            InputError: q or v has a wrong shape.
         """
         outputs, single = self._evaluate_outputs(q, v)
         rates = np.ascontiguousarray(outputs[:, : self.arm.n])
@@ -199,17 +199,17 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
     @check_arguments
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Compute the damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law that has none.
+        """Compute the damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law without damping.
 
         Args:
-            q: (n,) or (N, n), rad and m.
-            v: (m,) or (N, m), m/s and rad/s.
+            q: (n,) configuration or (N, n) configurations, rad and m.
+            v: (m,) or (N, m) velocity of the task's rows, m/s and rad/s.
 
         Returns:
-            A number or (N,); NaN in a row where q or v is.
+            One damping or (N,) dampings; NaN in a row where q or v is NaN.
 
         Raises:
-            InputError: A wrong shape.
+            InputError: q or v has a wrong shape.
         """
         return self._fill_constant(q, v, 0.0)
 
@@ -218,11 +218,14 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Compute the deviation of the tool velocity from the command, for the healthy arm and with each joint locked.
 
         Args:
-            q: (n,) or (N, n), rad and m.
-            v: (m,) or (N, m), m/s and rad/s; only its direction counts. A row of zeros gives NaN.
+            q: (n,) configuration or (N, n) configurations, rad and m.
+            v: (m,) or (N, m) velocity of the task's rows, m/s and rad/s; only its direction counts. A row of zeros gives NaN.
+
+        Returns:
+            Velocity errors and angles, with a leading axis N if q or v has one.
 
         Raises:
-            InputError: A wrong shape.
+            InputError: q or v has a wrong shape.
 
         Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (10).
         """
@@ -232,22 +235,32 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         return deviation.read_deviations(values[0] if single else values, self.arm.n)
 
     def peak_velocity_error(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Return PKE (8): the largest velocity error over all single locked joints, for the unit velocity; a number or (N,)."""
+        """Return PKE (8), the largest velocity error over all single locked joints for the unit velocity, as () or (N,).
+
+        ``q`` and ``v`` are those of :meth:`deviations`.
+        """
         return self.deviations(q, v).peak_velocity_error
 
     def peak_angular_deviation(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Return PAD (10): the largest angle to the command over all single locked joints, rad; a number or (N,).
+        """Return PAD (10), the largest angle to the command over all single locked joints, rad, as () or (N,).
 
-        No choice of the pre-failure error bounds it: see :class:`holdfast.control.laws.Deviations`.
+        ``q`` and ``v`` are those of :meth:`deviations`. No choice of the pre-failure error bounds the angle; see
+        :class:`holdfast.control.laws.Deviations`.
         """
         return self.deviations(q, v).peak_angular_deviation
 
     def healthy_angle(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Return the angle between the healthy arm's velocity and the command, rad; a number or (N,)."""
+        """Return the angle between the healthy arm's velocity and the command, rad, as () or (N,).
+
+        ``q`` and ``v`` are those of :meth:`deviations`.
+        """
         return self.deviations(q, v).healthy_angle
 
     def velocity_errors(self, q: ArrayLike, v: ArrayLike) -> FloatArray:
-        """Return the velocity error with each joint locked, for the unit velocity: (n,) or (N, n)."""
+        """Return the velocity error with each joint locked, for the unit velocity, as (n,) or (N, n).
+
+        ``q`` and ``v`` are those of :meth:`deviations`.
+        """
         return self.deviations(q, v).errors
 
     def _evaluate_outputs(self, q: ArrayLike, v: ArrayLike) -> tuple[FloatArray, bool]:
@@ -281,32 +294,32 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
     @check_arguments
     def export_c(self, folder: str | Path, name: str | None = None) -> export.ExportedLaw:
-        """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
+        """Write the law as a C99 file that needs only ``math.h``, with its header, an example, and a test.
 
-        The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
-        where an input is not finite or the law has no answer. What else the law computes (:meth:`outputs`) follows the rates.
-        The same inputs give what :meth:`velocity` gives, to rounding. ``NAME_check_joints`` compares the joints of a driver, by
-        name, with the order of q. The header, which C++ takes too, holds holdfast's version and the arm's fingerprint.
+        The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0, or 1 and zero rates
+        if an input is not finite or the law has no answer. The further :meth:`outputs` of the law follow the rates. Its rates
+        equal those of :meth:`velocity` to rounding. ``NAME_check_joints`` compares the joint names of a driver with the order
+        of q. The header also works in C++ and contains the version of holdfast and the arm's fingerprint.
 
         Args:
-            folder: Where the files go; made if it is not there.
-            name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
+            folder: Folder of the files, created if it does not exist.
+            name: Name of the function and the files. Default: the name of the law, for example ``failure_tolerant``.
 
         Returns:
-            The paths of source, header, example and test; they may be unpacked.
+            The paths of source, header, example and test, which can be unpacked.
 
         Raises:
-            InputError: A name that C does not take, or an arm that is close to singular everywhere.
+            InputError: The name is not valid in C, or the arm is close to singular everywhere.
             StoreError: The files cannot be written.
         """
         return export.write_law_files(self, folder, self.slug.replace("-", "_") if name is None else name)
 
     def phrase(self) -> str:
-        """Return the law and its task, without gain and speed limit, for people."""
+        """Return a phrase that names the law, its settings, and its task, without gain and speed limit."""
         return f"{self.name}, task {self.task.describe()}"
 
     def describe(self) -> str:
-        """One phrase for people."""
+        """Return a phrase that names the law, its settings, its task, its gain, and its speed limit."""
         limit_text = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
         return f"{self.phrase()}, gain {self.gain:g}/s{limit_text}"
 
@@ -314,7 +327,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Return all values that distinguish the law from other laws of the same arm, as JSON data.
 
         Raises:
-            InputError: It has no label.
+            InputError: The law has no label.
         """
         limits = {"gain": self.gain, "speed_limit": self.speed_limit}
         return {"law": LAW_REGISTRY.label(self), **limits, "task": self.task.to_dict()}
@@ -324,21 +337,21 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
 
 
 def _linear_selector(task: Task) -> FloatArray:
-    """Return (3, m) the matrix from a task velocity to its linear velocity."""
+    """Return the matrix (3, m) from a task velocity to its linear velocity."""
     return np.asarray(task.rows[:, :3].T)
 
 
 @check_arguments
 def by_name(name: str, arm: Arm, **options: Any) -> Law:
-    """Make a law from its label: ``pseudoinverse``, or ``damped:0.1``.
+    """Make a control law from its label, for example ``pseudoinverse`` or ``damped:0.1``.
 
     Args:
-        name: The law's ``slug``, with its settings.
+        name: Label, which is the ``slug`` of the law and its settings.
         arm: The arm.
-        options: What the law takes besides: ``task``, ``gain``, ``speed_limit``; settings may also be given here.
+        options: Further arguments of the law (``task``, ``gain``, ``speed_limit``), or settings that the label omits.
 
     Raises:
-        InputError: An unknown name, an option that the law does not have, or one that is missing.
+        InputError: The name is unknown, the law does not have an option, or an option is missing.
         TaskError: The task has more rows than the arm has joints.
     """
     law: Law = LAW_REGISTRY.make(name, arm, **options)

@@ -26,31 +26,32 @@ from holdfast.model.arm.task import Task, TaskSpec
 class FailureTolerant(Law):
     """Damped inverse whose damping minimises the peak velocity error over all single locked joints.
 
-    At every instant the damping lambda minimises PKE (8) among those with which the *healthy* arm's velocity error stays within
-    ``pre_failure_error`` (9); it depends on the configuration and on the direction of the command, not on its size. PKE may
-    have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0 and
-    logarithmic beyond, and a refinement of its best cells, all of fixed length. Measured against the exact optimum from
-    polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3), and against a dense grid on 20,000
-    each, none was worse by more than 1e-9. Of full poses (m = 6) about 1 in 3,000 was (an iiwa14, by 2e-6; of an earlier 20,000
-    of a 7R arm the worst missed a narrow minimum, and PKE was 6e-4 of itself too large).
+    At every instant the damping lambda minimises PKE (8) under the constraint that the *healthy* arm's velocity error stays
+    within ``pre_failure_error`` (9). Lambda depends on the configuration and on the direction of the command, not on its norm.
+    For m >= 3, PKE may have several minima as a function of lambda. The search is therefore global: it refines the best cells
+    of a grid in lambda^2 that is uniform near 0 and logarithmic beyond, in a fixed number of steps. It was compared with the
+    exact optimum from polynomial roots (8,000 random cases each of a 3R arm, m = 2, and a 7R arm, m = 3) and with a dense grid
+    (20,000 each); no result was worse by more than 1e-9. For full poses (m = 6) about 1 in 3,000 was (an iiwa14, by 2e-6). In
+    20,000 earlier cases of a 7R arm, the worst missed a narrow minimum, which made PKE too large by the fraction 6e-4.
 
-    Where the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
-    meets (9): :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position task). A
-    command of zero gives zero rates and zero damping.
+    If the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
+    satisfies (9). Then :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position
+    task). A command of zero gives zero rates and zero damping.
 
     Args:
         arm: The arm.
-        task: Rows of the end effector's velocity that are prescribed, from 1 to 6. Their characteristic length decides how
-            metres and radians are weighed, and so changes the result.
+        task: Rows of the end effector's velocity that are prescribed, from 1 to 6. Their characteristic length weighs
+            metres against radians and therefore changes the result.
         pre_failure_error: Allowed error of the healthy arm for the unit velocity, between 0 and 1.
-        gain: As for every law.
-        speed_limit: As for every law.
+        gain: ``Ke``, 1/s.
+        speed_limit: Largest norm of the linear part of the task velocity, m/s. None: no limit.
 
     Raises:
         TaskError: The task has more rows than the arm has joints.
-        InputError: A pre-failure error that is not between 0 and 1.
+        InputError: The pre-failure error is not between 0 and 1.
 
-    Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9), with <= for <, as otherwise there often is no minimum.
+    Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9), with <= for <, because otherwise there often is no
+    minimum.
     """
 
     name, slug = "failure-tolerant inverse", "failure-tolerant"
@@ -73,21 +74,24 @@ class FailureTolerant(Law):
         self.pre_failure_error = float(pre_failure_error)
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """See :meth:`Law.inverse`."""
+        """Return the rates (n,) with the best damping for the scaled ``j`` (m, n) and ``v`` (m,); see :meth:`Law.inverse`."""
         return self._build_damped_outputs(j, v)["rates"]
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
-        """Return ``rates`` (n,), ``damping``, ``largest_damping``, and ``feasible`` (1 or 0)."""
+        """Return ``rates`` (n,), ``damping``, ``largest_damping``, and ``feasible`` (1 or 0) for ``q`` (n,) and ``v`` (m,)."""
         return self._build_damped_outputs(self.jacobian(q), self.scale_velocity(v))
 
     def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
-        """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
+        """Return rates and derivatives for ``q``, ``v``, ``by`` as :meth:`Law.with_slopes`, without differentiating the search.
+
+        The derivatives follow from the optimality conditions, because the search itself has about ten thousand operations.
+        """
         j, scaled = self.jacobian(q), self.scale_velocity(v)
         choice = self._build_damped_outputs(j, scaled)
         return choice["rates"], damping_search.differentiate_damped_rates(j, scaled, self.pre_failure_error, choice, by)
 
     def computed_in_c(self) -> str:
-        """See :meth:`Law.computed_in_c`."""
+        """Return the C99 text of :meth:`outputs`, with the search in loops; see :meth:`Law.computed_in_c`."""
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         scaling_text = generate_c_functions(
             {"seen": CFunction({"q": q, "v": v}, {"j": [self.jacobian(q).T], "scaled": [self.scale_velocity(v)]})}
@@ -103,7 +107,7 @@ static void computed(const double *q, const double *v, {output_arguments}) {{
 """
 
     def inverse_in_c(self) -> str:
-        """See :meth:`Law.inverse_in_c`."""
+        """Return the C99 text of :meth:`inverse`, with the search in loops; see :meth:`Law.inverse_in_c`."""
         return f"""{damping_search.generate_c_search(self.task.m, self.arm.n, self.pre_failure_error)}
 static void inverse(const double *j, const double *v, double *rates) {{
     double told[3];
@@ -130,16 +134,20 @@ static void inverse(const double *j, const double *v, double *rates) {{
         }
 
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """See :meth:`Law.damping`."""
+        """Compute the best damping at ``q`` (n,) or (N, n) for ``v`` (m,) or (N, m); see :meth:`Law.damping`."""
         return self._extra_output(q, v, 0)
 
     def largest_damping(self, q: ArrayLike, v: ArrayLike) -> Any:
-        """Compute the largest damping that keeps the healthy arm's error within the allowed one; a number or (N,)."""
+        """Compute the largest damping that keeps the healthy arm's error within the allowed one, as () or (N,).
+
+        ``q``, ``v`` and the unit are those of :meth:`Law.damping`.
+        """
         return self._extra_output(q, v, 1)
 
     def feasible(self, q: ArrayLike, v: ArrayLike) -> BoolArray | np.bool_:
-        """Return True where some damping keeps the healthy arm's error within the allowed one; () or (N,), False where q or v
-        is NaN.
+        """Return True if some damping keeps the healthy arm's error within the allowed one, as () or (N,).
+
+        ``q`` and ``v`` are those of :meth:`Law.damping`. The result is False in a row where q or v is NaN.
         """
         flags: BoolArray | np.bool_ = self._extra_output(q, v, 2) > 0
         return flags
@@ -151,11 +159,11 @@ static void inverse(const double *j, const double *v, double *rates) {{
 
     @property
     def settings(self) -> dict[str, Any]:
-        """See :attr:`Law.settings`."""
+        """Allowed pre-failure error of the law, by the name of the argument."""
         return {"pre_failure_error": self.pre_failure_error}
 
     def phrase(self) -> str:
-        """Return the law and its task, without gain and speed limit, for people."""
+        """Return a phrase that names the law, its settings, and its task, without gain and speed limit."""
         return f"{super().phrase()}, pre-failure error at most {self.pre_failure_error:g}"
 
 
@@ -171,5 +179,9 @@ def failure_tolerant(
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> FailureTolerant:
-    """Make the damped inverse that minimises the error of the worst single locked joint; Goel et al. 2003, eq. (8), (9)."""
+    """Make the damped inverse that minimises the error of the worst single locked joint; Goel et al. 2003, eq. (8), (9).
+
+    ``arm``, ``task``, ``pre_failure_error``, ``gain`` and ``speed_limit`` are those of
+    :class:`holdfast.control.laws.FailureTolerant`.
+    """
     return FailureTolerant(arm, task, pre_failure_error, gain=gain, speed_limit=speed_limit)

@@ -1,4 +1,4 @@
-"""The trade-off behind the allowed pre-failure error: velocity error of the healthy arm against the gain after a failure.
+"""Trade-off behind the allowed pre-failure error: velocity error of the healthy arm against the gain after a failure.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 2 and conclusion.
 """
@@ -30,15 +30,16 @@ QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TradeOff(Result):
-    """Peak velocity errors against the allowed pre-failure error e, E values of it and N samples.
+    """Peak velocity errors of N samples for E allowed pre-failure errors e.
 
     Attributes:
-        arm, task: Of what.
-        allowed: (E,) pre-failure errors.
-        gain: (N, E) PKE with the best damping within e, by PKE of the pseudoinverse: below 1 the failed arm gains.
-        healthy_error: (N, E) velocity error of the healthy arm that it costs.
-        peak_error: (N, E) PKE itself.
-        seed: Of the samples.
+        arm: The arm.
+        task: The task.
+        allowed: (E,) allowed pre-failure errors, as fractions of the commanded speed.
+        gain: (N, E) PKE with the best damping within e, divided by PKE of the pseudoinverse; below 1 the failed arm benefits.
+        healthy_error: (N, E) velocity error of the healthy arm with that damping, a fraction of the commanded speed.
+        peak_error: (N, E) PKE with that damping.
+        seed: Seed of the samples.
     """
 
     arm: Arm
@@ -50,11 +51,21 @@ class TradeOff(Result):
     seed: int = field(kw_only=True)
 
     def quantiles(self, of: str = "gain", levels: Sequence[float] = QUANTILE_LEVELS) -> FloatArray:
-        """Return (L, E) quantiles over the samples of ``gain``, ``healthy_error``, or ``peak_error``."""
+        """Return (L, E) quantiles over the samples.
+
+        Args:
+            of: Name of the attribute: ``gain``, ``healthy_error``, or ``peak_error``.
+            levels: (L,) levels of the quantiles, from 0 to 1.
+        """
         return np.asarray(np.quantile(getattr(self, of), levels, axis=0))
 
     def median_interval(self, of: str = "gain", confidence: float = 0.95) -> FloatArray:
-        """Return (2, E) the distribution-free confidence interval of the medians over the samples, from order statistics."""
+        """Return (2, E) distribution-free confidence limits of the medians over the samples, from order statistics.
+
+        Args:
+            of: Name of the attribute: ``gain``, ``healthy_error``, or ``peak_error``.
+            confidence: Confidence level between 0 and 1.
+        """
         from scipy import stats
 
         values = np.sort(getattr(self, of), axis=0)
@@ -71,21 +82,21 @@ def trade_off(
     allowed: ArrayLike = _ALLOWED_ERRORS,
     seed: int = 0,
 ) -> TradeOff:
-    """Compute the post-failure gain against the pre-failure error, for random configurations and directions.
+    """Compute the post-failure gain as a function of the allowed pre-failure error, on random samples.
 
-    Configurations are uniform within the limits (one turn and 1 m to either side where there are none), directions uniform
-    on the sphere of the task's rows, linear ones divided by the characteristic length.
+    Configurations are uniform within the limits (one turn and 1 m to either side if a joint has none). Directions are uniform
+    on the sphere of the task's rows, with linear rows divided by the characteristic length.
 
     Args:
         arm: The arm.
         task: Rows of the end effector's velocity that are prescribed.
-        samples: Number of configurations and directions.
-        allowed: (E,) pre-failure errors, from 0 to below 1, in increasing order.
-        seed: Of the samples.
+        samples: Number of configurations and directions, 10 or more.
+        allowed: (E,) allowed pre-failure errors, from 0 to below 1, in increasing order.
+        seed: Seed of the samples.
 
     Raises:
         TaskError: The task has more rows than the arm has joints.
-        InputError: Allowed errors out of range, or fewer than 10 samples.
+        InputError: The allowed errors are out of range, or there are fewer than 10 samples.
 
     Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9).
     """

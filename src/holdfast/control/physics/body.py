@@ -1,4 +1,4 @@
-"""Body of a simulated robot that differs from the model of its arm, and the drives that move it."""
+"""Body of a simulated robot, which differs from the model of its arm, and the drives that move it."""
 
 from __future__ import annotations
 
@@ -24,17 +24,18 @@ class Body:
     """Differences between a simulated robot and the model of its arm, and the noise of its sensors.
 
     Attributes:
-        seed: Of what differs: one robot has one, whatever it does.
-        mismatch: Fraction by which masses, inertias and friction are off, at most, evenly drawn for each link and joint.
+        seed: Seed of the differences. Use one seed for everything that one robot does.
+        mismatch: Largest relative error of masses, inertias and friction, sampled uniformly for each link and joint.
         coulomb: Dry friction of every joint, N m and N.
-        viscous: Viscous friction, N m s/rad and N s/m.
+        viscous: Viscous friction of every joint, N m s/rad and N s/m.
         rotor: Rotor inertia of joints whose model states none, kg m^2 and kg.
         joint: Standard deviation of a joint sensor, rad and m.
-        torque: Of a recorded torque, N m and N.
-        position, angle: Of the measured tool point, m, and orientation, rad.
+        torque: Standard deviation of a recorded torque, N m and N.
+        position: Standard deviation of each coordinate of the measured tool point, m.
+        angle: Standard deviation of each component of the measured tool orientation, rad.
 
     Raises:
-        InputError: A number below 0, or a mismatch of 1 or more.
+        InputError: A value is below 0, or the mismatch is 1 or more.
     """
 
     seed: int = 0
@@ -56,17 +57,17 @@ class Body:
             raise InputError(f"mismatch of the body is {self.mismatch:g}; it must be below 1, or a mass would be 0")
 
     def model(self, arm: Arm, servos: Servos) -> tuple[Any, FloatArray, FloatArray]:
-        """Build the robot as a MuJoCo model with a motor at every joint; ``qpos`` counts from 0.
+        """Build the robot as a MuJoCo model with a motor at every joint, in which ``qpos`` is the configuration.
 
-        A motor's torque is its control less the servo's damping times the joint's rate: a drive's velocity loop, which is much
-        faster than the control cycle.
+        A motor's torque is its control minus the servo's damping times the joint's rate. This is the velocity loop of a drive,
+        which is much faster than the control cycle.
 
         Args:
             arm: The arm, with inertial data.
-            servos: The servos; their gains suit the arm's model, and their rate gives the step.
+            servos: The servos. Their gains suit the arm's model, and their rate determines the time step.
 
         Returns:
-            ``mujoco.MjModel``; stiffness and damping (n,) of the servos.
+            The ``mujoco.MjModel``, and the stiffness (n,) and damping (n,) of the servos in the units of :class:`Servos`.
 
         Raises:
             ArmError: Inertial data are missing or impossible, or a joint carries no mass.
@@ -84,7 +85,7 @@ class Body:
         return model, stiffness, damping
 
     def measure_poses(self, poses: FloatArray, rng: np.random.Generator) -> FloatArray:
-        """Return tool poses (N, 4, 4) as measured with noise."""
+        """Return the tool poses ``poses`` (N, 4, 4), m, with measurement noise from the generator ``rng``."""
         from scipy.spatial.transform import Rotation
 
         measured_poses = poses.copy()
@@ -95,7 +96,7 @@ class Body:
 
 
 def _build_motor_model(arm: Arm, *, step: float, rotor: float) -> Any:
-    """Build the ``mujoco.MjModel`` of an arm with a motor, whose control is its torque, at every joint."""
+    """Build the ``mujoco.MjModel`` of an arm with a motor at every joint, whose control is its torque."""
     mujoco = import_mujoco()
     model_spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), step=step)
     model_spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
@@ -109,18 +110,18 @@ def _build_motor_model(arm: Arm, *, step: float, rotor: float) -> Any:
 
 
 class Drives:
-    """The cascaded loops of a robot's drives, which turn references into torques.
+    """Cascaded control loops of a robot's drives, which convert references to torques.
 
     In each control cycle the position loop asks every motor for the torque
 
         K (reference - measured position) + D (reference rate - rate error) + gravity torque,
 
-    and from it the drive subtracts ``D`` times the joint's rate by itself, much faster than the control cycle: the bodies of
-    :meth:`holdfast.Body.model` have this damping inside MuJoCo, whose integrator is implicit in it. With any K and D above 0
-    that loop is passive, so joints that share an axis, and together are much lighter than one alone, stay stable.
+    from which the drive itself subtracts ``D`` times the joint's rate, much faster than the control cycle. The bodies of
+    :meth:`holdfast.Body.model` have this damping inside MuJoCo, whose integrator treats it implicitly. With any K and D above 0
+    the loop is passive, so joints that share an axis, and together are much lighter than one alone, remain stable.
 
-    The rate error is the derivative of the joint sensors' error (noise, quantisation, a sensor fault), filtered at 20 Hz. So
-    the noise of the sensors reaches the motors, but not as a difference of two samples 1 ms apart.
+    The rate error is the derivative of the joint sensors' error (noise, quantisation, a sensor fault), filtered at 20 Hz.
+    The noise of the sensors therefore reaches the motors, but not as a difference of two samples 1 ms apart.
 
     Args:
         stiffness: (..., n) K of each joint, N m/rad and N/m.
@@ -147,8 +148,8 @@ class Drives:
     ) -> FloatArray:
         """Compute the controls (..., n) of the motors, N m and N, from which the drives subtract ``D`` times the velocity.
 
-        The drive limits the sum to the effort before the motor makes a torque of it, so a weak motor is asked for no more
-        than a healthy one.
+        The drive limits the sum to the effort before the motor converts it to a torque, so a motor with a torque loss gets the
+        same command as a healthy one.
         """
         requested_torque = self.stiffness * (reference - measured) + self.damping * (rates - self.rate_error) + gravity
         damping_torque = self.damping * velocity

@@ -1,4 +1,4 @@
-"""The result of a joint motion with bodies and motors: tool error, constraint violations, limits, and rest."""
+"""Result of a joint motion with bodies and motors: tool error, constraint violations, limits, and rest."""
 
 from __future__ import annotations
 
@@ -24,35 +24,36 @@ from holdfast.model.failure_modes import Degraded
 
 Ended = Literal["finished", "stopped", "moving", "unstable"]
 
-LIMIT_TOLERANCE = 1e-3  # rad or m past a limit of position that servos may take
+LIMIT_TOLERANCE = 1e-3  # rad or m by which servos may exceed a position limit
 _MIN_SHOWN_ERROR = 1e-3  # mm or deg
-SPEED_TOLERANCE_FRACTION = 0.01  # of a speed limit: servos may be so much above it
+SPEED_TOLERANCE_FRACTION = 0.01  # fraction of a speed limit by which servos may exceed it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Execution(Result):
-    """One run of :func:`holdfast.execute`, T control cycles.
+    """One run of :func:`holdfast.execute` over T control cycles.
 
     Attributes:
-        arm: The arm, healthy.
-        degraded: What is left of it at the end, joints that locked on the way with their values; None if nothing failed.
+        arm: The healthy arm.
+        degraded: Degraded arm at the end, with the values at which joints locked during the motion; None without a failure.
         servos: The joint servos.
-        stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
-        lock_time: (n,) when each joint locked, s; infinite for those that did not.
-        noticed: When the controller noticed, s; infinite if it did not before the motion was over.
-        outcome: ``finished``: the motion was carried out to its end; ``stopped``: slowed to a standstill, since the lock was
-            noticed; ``moving``: not at rest when the time was over; ``unstable``: the physics left all bounds.
-        time: (T,) s.
+        stiffness: (n,) stiffness of the servos, N m/rad (N/m for prismatic joints).
+        damping: (n,) damping of the servos, N m s/rad (N s/m for prismatic joints).
+        lock_time: (n,) time at which each joint locked, s; infinite for joints that did not lock.
+        noticed: Time at which the controller detected the lock, s; infinite if it did not before the end of the motion.
+        outcome: ``finished`` if the motion was executed to its end; ``stopped`` if the arm slowed to a standstill after the
+            lock was detected; ``moving`` if it was not at rest at the end of the time; ``unstable`` if the physics diverged.
+        time: (T,) simulated time, s.
         q: (T, n) measured configuration, rad and m.
-        rates: (T, n) measured, rad/s and m/s.
-        reference: (T, n) what the servos are to follow, rad and m.
-        planned: (T, n) where the motion has the joints, rad and m; slowed down once a lock is noticed.
-        torque: (T, n) of the motors of healthy joints, gravity compensation included, N m and N; 0 for a locked joint.
-        goal: (4, 4) or (3,) where the tool should be at the end, m, world; None if nothing was asked for.
-        keep: What should be kept at every instant.
-        contacts: First of each link with each object of the cell, in order of time; None without a cell.
-        cell: The objects around the arm; None without.
-        error_limit: Largest allowed distance of a joint from the motion, rad and m; None: none was given.
+        rates: (T, n) measured joint rates, rad/s and m/s.
+        reference: (T, n) references of the servos, rad and m.
+        planned: (T, n) configuration according to the motion, rad and m, slowed down after a lock is detected.
+        torque: (T, n) motor torque of healthy joints with gravity compensation, N m and N; 0 for a locked joint.
+        goal: (4, 4) pose or (3,) position that the tool should have at the end, m, world; None without a goal.
+        keep: Constraints that the tool should satisfy at every instant.
+        contacts: First contact of each link with each object of the cell, in order of time; None without a cell.
+        cell: Objects around the arm; None without a cell.
+        error_limit: Largest allowed distance of a joint from the motion, rad and m; None without a limit.
     """
 
     arm: Arm
@@ -77,7 +78,7 @@ class Execution(Result):
 
     @property
     def q_final(self) -> FloatArray:
-        """(n,) configuration at the end, rad and m; with ``degraded`` the start of :func:`holdfast.recover`."""
+        """(n,) configuration at the end, rad and m, from which :func:`holdfast.recover` starts, together with ``degraded``."""
         return np.asarray(self.q[-1])
 
     @cached_property
@@ -117,7 +118,7 @@ class Execution(Result):
 
     @cached_property
     def beyond_limits(self) -> dict[str, float]:
-        """Joints that were outside the limits in force by more than 1 mrad or 1 mm, by name, with the most, rad or m."""
+        """Largest excess of each joint that passed a limit in force by more than 1 mrad or 1 mm, by joint name, rad or m."""
         excess = np.zeros(self.arm.n)
         for arm, samples in self._arms_by_sample_range:
             q = self.q[samples]
@@ -126,7 +127,7 @@ class Execution(Result):
 
     @cached_property
     def too_fast(self) -> dict[str, float]:
-        """Joints that were more than 1 % above the speed limit in force, by name, with their highest speed, rad/s or m/s."""
+        """Highest speed of each joint that exceeded the speed limit in force by more than 1 %, by joint name, rad/s or m/s."""
         speed_by_joint: dict[str, float] = {}
         for arm, samples in self._arms_by_sample_range:
             peak_speeds = np.abs(self.rates[samples]).max(axis=0, initial=0.0)
@@ -156,12 +157,12 @@ class Execution(Result):
 
     @cached_property
     def following_error(self) -> FloatArray:
-        """(T, n) distance of each joint from the motion, rad or m, locked joints too."""
+        """(T, n) distance of each joint, including locked joints, from the motion, rad or m."""
         return np.abs(self.q - self.planned)
 
     @cached_property
     def first_excess(self) -> tuple[str, float] | None:
-        """The joint that first exceeds the limit of the following error, by name, and when, s; None if none does."""
+        """Name of the joint that first exceeds the limit of the following error, and the time, s; None if no joint does."""
         if self.error_limit is None:
             return None
         error_fraction = self.following_error / np.where(self.arm.prismatic, self.error_limit[1], self.error_limit[0])
@@ -172,7 +173,7 @@ class Execution(Result):
 
     @cached_property
     def tool_error(self) -> tuple[FloatArray, FloatArray]:
-        """Distance (T,) between the measured and the planned tool point, m, and the angle (T,) between the two tools, rad."""
+        """(T,) distance between the measured and the planned tool point, m, and (T,) angle between their orientations, rad."""
         planned = self.arm.forward_kinematics(self.planned)
         rotations = rotation_vectors(self.poses[:, :3, :3] @ planned[:, :3, :3].transpose(0, 2, 1))
         return np.linalg.norm(self.poses[:, :3, 3] - planned[:, :3, 3], axis=1), np.linalg.norm(rotations, axis=1)
@@ -217,17 +218,17 @@ class Execution(Result):
         return f"{format_error(1000 * (self.goal_distance or 0.0))} mm{angle_text}"
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as rows over time: the measured joints, rad and m, and the tool point, m.
+        """Write the motion to ``file`` as rows over time with the measured joints, rad and m, and the tool point, m.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         header = ["time_s", *joint_columns(self.arm), "tool_x_m", "tool_y_m", "tool_z_m"]
         return write_table(file, "motion", header, np.column_stack([self.time, self.q, self.poses[:, :3, 3]]))
 
 
 def format_error(value: float) -> str:
-    """Return a number of 0 or more as text; a number too small to matter in mm or deg becomes an upper bound."""
+    """Return an error in mm or deg as text; an error too small to matter becomes an upper bound."""
     return f"{value:.3g}" if value >= _MIN_SHOWN_ERROR or value == 0 else f"less than {_MIN_SHOWN_ERROR:g}"
 
 

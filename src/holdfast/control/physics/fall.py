@@ -1,4 +1,4 @@
-"""The result of a free swing of a failed joint over time and when brakes act."""
+"""Result of the free swing of a failed joint, over time and at the moments at which brakes act."""
 
 from __future__ import annotations
 
@@ -22,14 +22,15 @@ Outcome = Literal["rest", "stop", "contact", "balanced", "moving"]
 class BrakedDrop:
     """State of the joint and the tool when the brakes act.
 
-    The brakes are taken to stop the joint at once, so the tool stays there; ``speed`` says how bold that is.
+    The brakes are assumed to stop the joint at once, so the tool stays there. The higher ``speed`` is, the more optimistic is
+    this assumption.
 
     Attributes:
         after_ms: Time from the failure to the brakes, ms.
-        angle: How far the joint has moved, rad or m.
+        angle: Displacement of the joint since the failure, rad or m.
         speed: Speed of the joint at that moment, rad/s or m/s.
-        drop: How far the tool has moved down, along gravity, m; negative if it has risen.
-        distance: Distance between the tool's place then and at the failure, m.
+        drop: Displacement of the tool along gravity since the failure, m; negative if the tool has risen.
+        distance: Distance between the tool point at that moment and at the failure, m.
     """
 
     after_ms: float
@@ -41,27 +42,27 @@ class BrakedDrop:
 
 @dataclass(frozen=True, kw_only=True)
 class FreeSwing(Result):
-    """The motion of an arm at rest whose joint ``joint`` swings free from time 0, with all others locked.
+    """Motion of an arm at rest whose joint ``joint`` swings free from time 0, with all others locked, over T time steps.
 
     Attributes:
         arm: The arm.
         q: (n,) configuration at the failure, rad or m.
         joint: Index from 0 of the failed joint.
-        damping: Viscous friction used, N m s/rad or N s/m.
-        time: (T,) s.
-        angle: (T,) how far the joint has moved since the failure, rad or m; positive about or along its axis.
-        velocity: (T,) rad/s or m/s.
+        damping: Viscous friction of the joint, N m s/rad or N s/m.
+        time: (T,) time since the failure, s.
+        angle: (T,) displacement of the joint since the failure, rad or m; positive about or along its axis.
+        velocity: (T,) velocity of the joint, rad/s or m/s.
         tool_position: (T, 3) tool point in the world, m.
-        rest_angle: Where it stops, counted from the failure, rad or m; NaN if it was still moving at the end.
+        rest_angle: Displacement at which the joint stops, rad or m; NaN if it was still moving at the end.
             Without stops this is the swing angle of English and Maciejewski (1998), eq. (38).
-        peak: Largest distance from where it failed, rad or m.
-        initial_acceleration: At the moment of failure, stops aside, rad/s^2 or m/s^2; the acceleration measure of English
-            and Maciejewski (1998), eq. (22), with the rotor inertia added.
+        peak: Largest distance of the joint from its value at the failure, rad or m.
+        initial_acceleration: Acceleration at the moment of failure without stops, rad/s^2 or m/s^2. This is the acceleration
+            measure of English and Maciejewski (1998), eq. (22), with the rotor inertia added.
         outcome: ``rest`` (hangs still), ``stop`` (lies against a limit), ``contact`` (lies against an object), ``balanced``
-            (gravity does not move it) or ``moving`` (not at rest in the time given).
-        drops: One per brake time.
-        cell: The objects around the arm, or None.
-        contacts: First of each link with each object of the cell, in order of time; None without a cell.
+            (gravity does not move it) or ``moving`` (not at rest at the end of the time).
+        drops: State at each brake time.
+        cell: Objects around the arm; None without a cell.
+        contacts: First contact of each link with each object of the cell, in order of time; None without a cell.
     """
 
     arm: Arm
@@ -91,10 +92,10 @@ class FreeSwing(Result):
         return self.outcome == "stop"
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion as rows over time: how far the joint has moved, its speed, and the tool point, m.
+        """Write the motion to ``file`` as rows over time: displacement and velocity of the joint, and the tool point, m.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The file cannot be written.
         """
         unit = self.arm.joints[self.joint].unit
         header = ["time_s", f"moved_{unit}", f"speed_{unit}_s", "tool_x_m", "tool_y_m", "tool_z_m"]

@@ -1,4 +1,4 @@
-"""A timed joint motion executed by servos in MuJoCo, with joints that lock on the way."""
+"""Execution of a timed joint motion by servos in MuJoCo, with joints that lock during the motion."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes import Degraded, Locked, degraded_at, read_locks
 
-LOCK_POSITION_TOLERANCE = 1e-6  # rad and m: a joint this near to where it is said to be locked is there
+LOCK_POSITION_TOLERANCE = 1e-6  # rad and m: largest distance of a joint from the value at which it is given as locked
 REST_SPEED = 1e-3  # rad/s and m/s
 MAX_DURATION_S = 3600.0  # s
 
@@ -50,35 +50,35 @@ def execute(
     """Execute a timed joint motion in MuJoCo with servos, and evaluate it (needs ``holdfast-arms[physics]``).
 
     Bodies, motors and locks are those of :func:`holdfast.simulate_physics`: a joint that locks while it moves stops at once,
-    and the jolt goes through the arm. The arm starts at rest where the motion begins. Until a lock is noticed the other joints
-    follow the motion as before; then it is run through ever more slowly, to a standstill, and ``at`` and ``degraded`` of the
-    result are what :func:`holdfast.recover` begins with. What it finds is carried out with ``locked=answer.degraded``. Joint
-    limits do not stop the arm; whether they were kept is in the result.
+    and the impact propagates through the arm. The arm starts at rest at the first configuration. Until the lock is detected,
+    the other joints follow the motion as before. Then the controller slows the motion down to a standstill. To recover, pass
+    ``q_final`` and ``degraded`` of the result to :func:`holdfast.recover`, and execute its motion with
+    ``locked=answer.degraded``. Joint limits do not stop the arm, but the result lists those that were exceeded.
 
     Args:
         arm: The arm, with inertial data.
-        q: (S, n) configurations, rad and m, straight in joint space from each to the next.
-        time: (S,) when they are to be met, s, each after the one before.
-        locked: Joints that lock where they are, ``{joint: None}`` or the joints alone, by name or index from 0; or a
-            :class:`holdfast.Degraded`, whose ranges and speeds are looked at from the first lock on.
-        lock_time: When they lock, s from the start, each at the next control cycle: one time, or one for each of them.
-        notice: s from the first lock until the controller knows of it and slows down; None: never, which is
-            also right for a motion that was planned for the lock.
-        stop: s that slowing down takes; the references stay on the motion.
-        goal: (4, 4) pose, or (3,) place, of the tool at the end, m, world.
-        keep: What the tool should keep at every instant; see :func:`holdfast.recover`. "At the start" is where ``q`` begins.
-        servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
-        settle: s that are simulated after the end of the motion, or after the arm has been stopped.
-        error_limit: Largest allowed distance of a joint from the motion, rad and m; ``exceeded`` of the result contains the
-            first joint that is farther off.
-        clearance: The shape of the arm, with a cell or beside one.
-        cell: Objects around the arm, or their file, which it touches and pushes against.
+        q: (S, n) configurations, rad and m, connected by straight lines in joint space.
+        time: (S,) increasing times of the configurations, s.
+        locked: Joints that lock at their current values, as ``{joint: None}`` or the joints alone, by name or index from 0;
+            or a :class:`holdfast.Degraded`, whose ranges and speeds are checked from the first lock on.
+        lock_time: Time of the locks, s from the start, rounded up to the next control cycle: one time, or one for each joint.
+        notice: Time from the first lock until the controller detects it and slows down, s. None: never, which is also
+            right for a motion that was planned for the lock.
+        stop: Duration of slowing down, s; the references stay on the motion.
+        goal: (4, 4) pose or (3,) position of the tool at the end, m, world.
+        keep: Constraints on the tool at every instant; see :func:`holdfast.recover`. "At the start" refers to the first ``q``.
+        servos: Servos of the joints. Default: ``Servos()``.
+        settle: Simulated time after the end of the motion, or after the arm has been stopped, s.
+        error_limit: Largest allowed distance of a joint from the motion, rad and m; ``first_excess`` of the result is the
+            first joint beyond it.
+        clearance: Collision model of the arm, used with a cell, which it may contain. None: the default model.
+        cell: Objects around the arm, or their file; the arm touches them and pushes against them.
 
     Returns:
-        An :class:`holdfast.Execution`: where the tool got to, what was kept, and the motion as it was measured.
+        An :class:`holdfast.Execution` with the tool error at the end, the violated constraints, and the measured motion.
 
     Raises:
-        InputError: Wrong shapes, joints or options, times that do not rise, a start within an object, or a cloud of points.
+        InputError: Wrong shapes, joints or options, times that do not increase, a start within an object, or a point cloud.
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
@@ -94,7 +94,7 @@ def execute(
     if error_limit is not None and not (len(error_limit) == 2 and all(limit > 0 for limit in error_limit)):
         raise InputError(f"error_limit is {error_limit}; give two numbers above 0, in rad and m")
     if notice is not None and not np.isfinite(lock_times).any():
-        raise InputError("notice has nothing to notice: no joint locks; give locked")
+        raise InputError(f"notice is {notice:g} s, but no joint locks; give locked, or no notice")
     detection_time = np.inf if notice is None else float(lock_times.min()) + notice
     chosen_servos = Servos() if servos is None else servos
     robot = ServoRobot(arm, waypoints[0], chosen_servos, chosen_clearance(arm, clearance or False, cell, looks=False))
@@ -162,8 +162,8 @@ def _make_lock_times(
         joint = arm.joint_index(name)
         if value is not None and abs(value - start[joint]) > LOCK_POSITION_TOLERANCE:
             raise InputError(
-                f"joint '{name}' is said to be locked at {value:.6g} and the motion begins with it at {start[joint]:.6g} "
-                f"{arm.joints[joint].unit}; a joint locks where it is"
+                f"joint '{name}' is locked at {value:.6g}, but the motion begins with it at {start[joint]:.6g} "
+                f"{arm.joints[joint].unit}; give the value at which the motion begins"
             )
     times_in_order = require_real_numbers(lock_time, "lock_time", "one time, or one for each locked joint, s")
     has_right_shape = times_in_order.shape in ((), (len(degraded.locked),))
@@ -180,9 +180,9 @@ def _make_lock_times(
 def _check_goal(goal: ArrayLike | None) -> FloatArray | None:
     if goal is None:
         return None
-    goal_array = require_real_numbers(goal, "goal", "a pose (4, 4) or a place (3,), m")
+    goal_array = require_real_numbers(goal, "goal", "a pose (4, 4) or a position (3,), m")
     if goal_array.shape not in ((4, 4), (3,)) or not np.isfinite(goal_array).all():
-        raise InputError(f"goal has shape {goal_array.shape}; give a pose (4, 4) or a place (3,) of finite numbers, m")
+        raise InputError(f"goal has shape {goal_array.shape}; give a pose (4, 4) or a position (3,) of finite numbers, m")
     return goal_array if goal_array.ndim == 1 else np.asarray(check_poses(goal_array)[0])
 
 
@@ -194,9 +194,9 @@ def _sample_servo_references(
     stop_duration: float,
     settle_duration: float,
 ) -> tuple[FloatArray, bool]:
-    """Return (K + 1, n) the servo references at each control cycle, and whether they lead to the end of the motion."""
+    """Return the servo references (K + 1, n) at each control cycle, and whether they lead to the end of the motion."""
     end_time = float(seconds[-1])
-    reaches_end = not detection_time + stop_duration / 2 < end_time  # slowing down takes it half as far as full speed
+    reaches_end = not detection_time + stop_duration / 2 < end_time  # slowing down covers half the distance of full speed
     stop_end = end_time if detection_time >= end_time else detection_time + stop_duration
     time = np.arange(int(np.ceil((stop_end + settle_duration) / period - 1e-9)) + 1) * period
     slowing_time = np.clip(time - detection_time, 0.0, stop_duration)
@@ -206,7 +206,7 @@ def _sample_servo_references(
 
 
 def _follow_references(robot: ServoRobot, references: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return measured configurations, rates, references, and torques, (T, n) each; T < K if the physics left all bounds."""
+    """Return measured configurations, rates, references, and torques, (T, n) each; T < K if the physics diverged."""
     period = 1 / robot.servos.rate
     cycles: list[tuple[FloatArray, FloatArray, FloatArray, FloatArray]] = []
     for cycle in track("control cycles", range(len(references)), most=True, every=100):

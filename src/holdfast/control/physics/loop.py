@@ -1,4 +1,4 @@
-"""The closed loop of a controller without fault information, with bodies and motors."""
+"""Closed loop of a controller without fault information, with bodies and motors."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 from holdfast.model.failure_modes import Locked
 
 REST_SPEED = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
-REST_DURATION = 0.1  # 1/Ke: for so long, without a break
+REST_DURATION = 0.1  # 1/Ke: uninterrupted duration of rest that ends a run
 TIME_LIMIT = 200.0  # 1/Ke
-RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
-DRIFT_FRACTION = 1e-3  # of the motion's extent: what the last period may differ from the one before it by
-MIN_EXTENT = 1e-3  # rad (and m): a smaller motion is not taken for a repeated one
+RETURN_TOLERANCE = 0.1  # fraction of the motion's extent by which a return may miss
+DRIFT_FRACTION = 1e-3  # fraction of the motion's extent by which the last two periods may differ
+MIN_EXTENT = 1e-3  # rad (and m): a smaller motion does not count as a repeated one
 
 
 @check_arguments
@@ -51,42 +51,42 @@ def simulate_physics(
 ) -> PhysicalRun:
     """Simulate one run of the closed loop on MuJoCo, next to the kinematic one (needs ``holdfast-arms[physics]``).
 
-    :func:`holdfast.control.simulation.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at
-    every control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor
-    works), and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor
-    does; one that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm
-    starts at rest. Joint limits do not stop it, and there is no sensor noise, dry friction, backlash or flexibility.
+    In :func:`holdfast.control.simulation.simulate`, healthy joints follow their commands exactly. Here they have bodies and
+    motors. At every control cycle the law, which has no fault information, receives the measured configuration (the failed
+    joint's sensor works), and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded at its value,
+    whatever its motor does. A joint that locks while it moves stops at once, and the impact (without rebound) propagates
+    through the arm. The arm starts at rest. Joint limits do not stop it, and there is no sensor noise, dry friction, backlash
+    or flexibility.
 
-    The objects of a cell are in the way: the capsules of the arm's links, which weigh nothing, touch them and slide along them
-    (a coefficient of friction of 1), and the motors go on pushing. A mesh is its convex hull here. What touches what, when
-    first and how deep the contact gave way, is in ``contacts``; where nothing touches the motion is that without a cell.
+    The objects of a cell are obstacles: massless capsules of the arm's links touch them and slide along them (a coefficient of
+    friction of 1), and the motors keep pushing. A mesh is its convex hull here. ``contacts`` lists the pairs in contact, with
+    the time of the first contact and its depth. Without contact the motion is the same as without a cell.
 
-    How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have both
-    been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own length), *stuck* if not.
-    *moving*, if the arm is under way at the time limit and repeats its motion: over the whole last period it was within a
-    thousandth of the motion's extent of where it had been one period earlier, and so had the same velocity. *stuck*, and the
-    reason is *contact*, where an object holds an arm that is still told to move. Else *undecided*: time_limit, where the arm is
-    still moving at the time limit; singular, where the law has no answer; or unstable, where the physics left all bounds, as
-    servos that are too stiff for their rate may make it.
+    A run is at rest when the law's command to the healthy joints (without the speed limit) and their true rates have both been
+    below 1e-6 Ke for 0.1/Ke. It is *converged* if the error is below 1e-5 (rad, and of the arm's own length), otherwise
+    *stuck*. It is also *stuck*, for the reason *contact*, if an object holds an arm that is still commanded to move. It is
+    *moving* if the arm still moves at the time limit and repeats its motion: over the whole last period it was within a
+    thousandth of the motion's extent of its position one period earlier, and so had the same velocity. Otherwise it is
+    *undecided*, for the reason time_limit (the arm still moves at the time limit), singular (the law has no answer), or
+    unstable (the physics diverged, for example because the servos are too stiff for their rate).
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.
         q0: (n,) configuration at the start, rad and m.
-        target: (m,) or (4, 4), as for :func:`holdfast.control.simulation.simulate`.
-        locked: Joints that lock where they are, ``{joint: None}`` or the joints alone, by name or index from 0.
-        servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
-        time_limit: s; 200/Ke if not given.
-        time: When the joints lock, s, each at the next control cycle: one time, or one for each of them.
-        clearance: The shape of the arm, with a cell or beside one.
+        target: (m,) position or (4, 4) pose, m, as for :func:`holdfast.control.simulation.simulate`.
+        locked: Joints that lock at their current values, as ``{joint: None}`` or the joints alone, by name or index from 0.
+        servos: Servos of the joints. Default: ``Servos()``.
+        time_limit: Simulated time limit, s. Default: 200/Ke.
+        time: Time of the locks, s, rounded up to the next control cycle: one time, or one for each joint.
+        clearance: Collision model of the arm, used with a cell, which it may contain. None: the default model.
         cell: Objects around the arm, or their file.
-        stop_at_contact: Of the kinematic run, see :func:`holdfast.control.simulation.simulate`; the physical one meets the
-            objects.
+        stop_at_contact: True if the kinematic run stops at the first contact; the physical run always meets the objects.
 
     Returns:
-        A :class:`holdfast.PhysicalRun`, which holds the kinematic run and how far they are apart.
+        A :class:`holdfast.PhysicalRun`, which contains the kinematic run and the distance between both.
 
     Raises:
-        InputError: Wrong shapes, joints or options, more than one run, a start within an object, or a cloud of points.
+        InputError: Wrong shapes, joints or options, more than one run, a start within an object, or a point cloud.
         ArmError: Inertial data are missing or impossible, or a joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
@@ -99,7 +99,7 @@ def simulate_physics(
     robot = ServoRobot(arm, start, chosen_servos, checked_clearance)
     runs = simulate(law, q0, target, locked=locked, time=time, clearance=checked_clearance, stop_at_contact=stop_at_contact)
     if runs.code.ndim:
-        raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
+        raise InputError(f"q0 and target give {len(runs)} runs; physics simulates one, so give one q0 and one target")
     robot.schedule_locks(runs.lock_time)
     cycles, ending = _run_cycles(robot, law, _target_pose(law, runs), run_limit)
     q, reference, torque = (np.reshape([cycle[part] for cycle in cycles], (-1, arm.n)) for part in range(3))
@@ -128,8 +128,8 @@ def _run_cycles(
     """Run the control cycles towards a target, its position (3,) and rotation (9,).
 
     Returns:
-        Configuration (n,), reference (n,), torque (n,), and squared error of each cycle; and the ending of a run that ended
-        before the time limit.
+        Configuration (n,), reference (n,), torque (n,), and squared error of each cycle; and the outcome and reason of a run
+        that ended before the time limit.
     """
     n, period, reference = law.arm.n, 1 / robot.servos.rate, robot.q
     command, inputs = _command_kernel(law).single_row(), np.concatenate([reference, *target])
@@ -151,7 +151,7 @@ def _run_cycles(
         squared_speed = float(velocity @ velocity)
         if not squared_speed < MAX_PHYSICAL_SPEED**2:
             return cycles, ("undecided", "unstable")
-        # An arm that lies against an object is told to move as long as it lies there.
+        # An arm that lies against an object is commanded to move as long as it lies there.
         is_at_rest = max(0.0 if is_in_contact else speed, np.sqrt(squared_speed)) < REST_SPEED * law.gain
         cycles_at_rest = cycles_at_rest + 1 if is_at_rest else 0
         if cycles_at_rest > rest_cycles:
@@ -163,9 +163,7 @@ def _run_cycles(
 
 @cached_kernel
 def _command_kernel(law: Law) -> Kernel:
-    """Return the kernel ``(q, p, R) -> rates`` (n,), their speed fraction, and squared errors, in m and in the
-    arm's own unit.
-    """
+    """Return the kernel ``(q, p, R) -> rates`` (n,), their speed fraction, and squared errors in m and in the arm's unit."""
     system = FailedArmSystem(law)
     error, _ = system.error_and_jacobian(system.q)
     velocity, speed_fraction = system.compute_limited_velocity(error)
@@ -182,10 +180,10 @@ def _target_pose(law: Law, runs: Runs) -> tuple[FloatArray, FloatArray]:
 
 
 def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolute: BoolArray) -> tuple[Ending, Why]:
-    """Classify a run that was under way at the time limit: it repeats its motion, or it is undecided.
+    """Classify a run that still moved at the time limit as one that repeats its motion, or as undecided.
 
-    It repeats its motion if over a whole last period it was where it had been one period earlier, and so had the same velocity.
-    The configurations (T, n) are those at the control cycles; values of revolute joints (n,) count modulo whole turns.
+    A run repeats its motion if its last period equals the period before it, so that the velocities are equal, too. The
+    configurations (T, n) are those at the control cycles; values of revolute joints (n,) count modulo full turns.
     """
     undecided: tuple[Ending, Why] = ("undecided", "time_limit")
     displacement = _wrap_angles(q[-1] - q, is_revolute)
@@ -198,7 +196,7 @@ def _classify_unfinished_run(q: FloatArray, rate: float, gain: float, is_revolut
     for period in minima[(minima > first_far) & (distance[minima] < RETURN_TOLERANCE * extent)].tolist():
         if 2 * period + 2 > len(q):
             break
-        # The return falls between two cycles: there the motion is a parabola.
+        # The return falls between two cycles, where the motion is interpolated by a parabola.
         neighbours = displacement[[-period - 2, -period - 1, -period]]
         speed = (neighbours[2] - neighbours[0]) / 2
         shift = -float(neighbours[1] @ speed) / max(float(speed @ speed), np.finfo(np.float64).tiny)

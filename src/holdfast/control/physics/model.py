@@ -1,4 +1,4 @@
-"""An arm as a MuJoCo model: the same frames, bodies, friction, rotor inertia and gravity, and nothing else."""
+"""Translation of an arm to a MuJoCo model with the same frames, bodies, friction, rotor inertia and gravity."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from holdfast.model.arm.mjcf import import_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_possible_inertia
 
-NO_LIMIT_RANGE = 1e9  # rad or m: a limit where there is none; MuJoCo's ranges are finite
-MIN_MOMENT_FRACTION = 1e-9  # of the largest principal moment
+NO_LIMIT_RANGE = 1e9  # rad or m: stands for no limit, because MuJoCo's ranges are finite
+MIN_MOMENT_FRACTION = 1e-9  # fraction of the largest principal moment
 MIN_MOMENT_KG_M2 = 1e-12  # kg m^2
 
 
 def compile_model(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
-    """Compile a spec of :func:`build_mujoco_spec` to a model with the joints' friction."""
+    """Compile a spec of :func:`build_mujoco_spec` to a model, and set the friction of the joints."""
     model = spec.compile()
-    # In the compiled model, because a spec takes it as one number or as three, by the version of MuJoCo.
+    # Set in the compiled model, because a spec takes one or three numbers, depending on the version of MuJoCo.
     model.dof_damping[:] = [arm.joints[joint].friction for joint in sorted(free)]
     return model
 
@@ -32,19 +32,19 @@ def compile_model(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
 def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
     """Build the ``mujoco.MjSpec`` of an arm in which the joints ``free`` move and all others are welded at ``q``.
 
-    The model's ``qpos`` counts from ``q``: it is 0 there, in rad or m. Body k + 1 is the moving frame of joint k, joints have
-    the arm's names, the site ``tool`` is the tool, the world is the arm's. The payload is part of the last body. MuJoCo wants
-    principal moments above 0: those of rods and points are lifted to 1e-9 of the body's largest and at least 1e-12 kg m^2.
+    The model's ``qpos`` is 0 at ``q``, in rad or m. Body k + 1 is the moving frame of joint k, joints have the arm's names, the
+    site ``tool`` is the tool, and the world is the arm's world. The payload is part of the last body. MuJoCo requires principal
+    moments above 0, so those of rods and points are raised to 1e-9 of the body's largest and at least 1e-12 kg m^2.
 
     Args:
-        arm: Every link known; a link may be massless as long as those behind it are not.
-        q: (n,) rad or m.
+        arm: The arm, with inertial data for every link; a link may be massless as long as a link behind it is not.
+        q: (n,) configuration, rad or m.
         free: Indices from 0 of the joints that move.
-        stops: Whether the arm's limits stop the free joints, without rebound.
-        step: s.
+        stops: True if the arm's limits stop the free joints, without rebound.
+        step: Time step, s.
 
     Raises:
-        ArmError: A link has no inertial data, or an inertia that no body can have, or a free joint carries no mass.
+        ArmError: A link has no inertial data or a physically impossible inertia, or a free joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
     mujoco = import_mujoco()
@@ -107,6 +107,6 @@ def _add_joint(mujoco: ModuleType, body: Any, joint: Joint, position: float, sto
         lower, upper = max(joint.lower - position, -NO_LIMIT_RANGE), min(joint.upper - position, NO_LIMIT_RANGE)
         added_joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
         added_joint.range = [lower, max(upper, lower + 1e-9)]
-        # As stiff as the step allows, critically damped: the joint stays where it hits.
+        # As stiff as the step allows and critically damped, so that the joint stays at the limit that it hits.
         added_joint.solref_limit = [2 * step, 1.0]
         added_joint.solimp_limit = [0.99, 0.999, 1e-3, 0.5, 2.0]

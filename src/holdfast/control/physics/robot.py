@@ -1,8 +1,8 @@
 """Simulated robots in MuJoCo: the body, the servos, the sensors, the faults, and one control cycle.
 
-Two kinds of robot differ in where the servo is. A :class:`ServoRobot` has the masses of the model, servos that MuJoCo evaluates
-at every step, and welds in place of locked joints. :class:`SimulatedRobots` have bodies that differ from the model, drives that
-get their command once in a control cycle, noisy sensors, and faults of every kind.
+There are two kinds of robot. A :class:`ServoRobot` has the masses of the model, servos that MuJoCo evaluates at every step, and
+welds in place of locked joints. :class:`SimulatedRobots` have bodies that differ from the model, drives that get their command
+once in a control cycle, noisy sensors, and faults of every kind.
 """
 
 from __future__ import annotations
@@ -22,26 +22,26 @@ from holdfast.model.arm.mjcf import import_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 
-MAX_PHYSICAL_SPEED = 1e4  # rad/s or m/s: no arm is so fast; MuJoCo itself goes on to 1e10 and then writes a log
-LOCK_TIME_TOLERANCE_S = 1e-9  # s: a lock at a control cycle's time is not left to the next one
+MAX_PHYSICAL_SPEED = 1e4  # rad/s or m/s: no arm is this fast; MuJoCo itself continues to 1e10 and then writes a log
+LOCK_TIME_TOLERANCE_S = 1e-9  # s: a lock at the time of a control cycle is not delayed to the next one
 
 
 class ServoRobot:
-    """An arm whose healthy joints are driven by servos inside MuJoCo, and whose locked joints are welded.
+    """Simulated arm whose healthy joints are driven by servos inside MuJoCo, and whose locked joints are welded.
 
     Args:
         arm: The arm, with inertial data.
         q: (n,) configuration at the start, rad and m, at rest.
         servos: Servos of the joints.
-        clearance: Shape of the arm, with the cell around it if there is one.
+        clearance: Collision model of the arm, with the cell around it if there is one.
 
     Attributes:
         stiffness, damping: (n,) gains of the servos.
-        rate_feed: (n,) time in s by which a reference that moves is given ahead, so that the damping does not slow it.
+        rate_feed: (n,) time in s by which a moving reference is advanced, so that the damping does not slow the joint.
         contacts: Contacts with the cell so far.
 
     Raises:
-        InputError: A start within an object of the cell.
+        InputError: The start lies within an object of the cell.
     """
 
     def __init__(self, arm: Arm, q: FloatArray, servos: Servos, clearance: Clearance | None = None) -> None:
@@ -71,7 +71,7 @@ class ServoRobot:
             motor.gaintype, motor.biastype = mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_AFFINE
         if self.contacts.clearance is not None:
             add_cell_objects(spec, self.contacts.clearance, step)
-        # Implicit in the motors' damping, which may be far stiffer than the light links behind it.
+        # The integrator must treat the motors' damping implicitly, because it may be far too stiff for light links.
         spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self.model = compile_model(spec, self.arm, self.free.tolist())
@@ -84,7 +84,7 @@ class ServoRobot:
         biases[:, 2] = -self.damping[self.free]
 
     def _joint_vector(self, values: FloatArray) -> FloatArray:
-        """Return values of the healthy joints as a vector (n,) that is 0 where the joint is locked."""
+        """Return values of the healthy joints as a vector (n,) that is 0 for locked joints."""
         vector = np.zeros(self.arm.n)
         vector[self.free] = values
         return vector
@@ -109,7 +109,7 @@ class ServoRobot:
         return np.minimum(np.maximum(reference, q - self._max_lead), q + self._max_lead)
 
     def simulate_cycle(self, goal: FloatArray, end_time: float) -> None:
-        """Simulate a control cycle that ends at a time in s towards a goal (n,), the reference with the feed of its rates."""
+        """Simulate a control cycle up to ``end_time`` in s towards ``goal`` (n,), the reference advanced by its rates."""
         self.data.ctrl[:] = (goal - self._start)[self.free]
         self._mujoco.mj_step(self.model, self.data, self.servos.substeps)
         if self.data.ncon > 0:
@@ -127,9 +127,9 @@ class ServoRobot:
             self._next_lock = float(self._lock_times[healthy].min(initial=np.inf))
 
     def lock_all_except(self, healthy: NDArray[np.bool_]) -> None:
-        """Lock the joints that are not healthy: they stop at once, as in an impact without rebound.
+        """Lock the joints that are not healthy, which stop at once, as in an impact without rebound.
 
-        The momenta of the joints that stay healthy go on: M_hh rates_h is after it what (M rates)_h was before.
+        The momenta of the healthy joints are conserved: M_hh rates_h after the impact equals (M rates)_h before it.
         """
         mujoco, rates, still_healthy = self._mujoco, self.data.qvel.copy(), healthy[self.free]
         momentum = np.zeros(self.free.size)
@@ -143,7 +143,7 @@ class ServoRobot:
 
 
 class FaultSource(Protocol):
-    """Faults of one simulated robot, such as :class:`holdfast.response.faults.FaultInjector`."""
+    """Source of the faults of one simulated robot, such as :class:`holdfast.response.faults.FaultInjector`."""
 
     def before_step(self, time: float) -> None:
         """Begin and end the faults that are due at a time in s, and insert the active ones into the MuJoCo model."""
@@ -155,9 +155,9 @@ class FaultSource(Protocol):
 
 
 class SimulatedRobots:
-    """R robots of one arm that run in lockstep, each with its own body, drives, sensor noise, and faults.
+    """Set of R robots of one arm that run in lockstep, each with its own body, drives, sensor noise, and faults.
 
-    A control cycle is :meth:`measure`, then :meth:`advance`.
+    A control cycle consists of :meth:`measure` and then :meth:`advance`.
 
     Args:
         arm: The arm, with inertial data.
@@ -168,7 +168,7 @@ class SimulatedRobots:
     Attributes:
         models, data: ``mujoco.MjModel`` and ``mujoco.MjData`` of each robot; ``qpos`` is the configuration.
         faults: Faults of each robot; None for a healthy one.
-        drives: Drives of all robots.
+        drives: Cascaded loops of all robots' drives.
         q: (R, n) true positions at the last measurement, rad and m.
         gravity: (R, n) gravity torques of the arm's model in the last cycle, N m and N.
     """
@@ -225,7 +225,7 @@ class SimulatedRobots:
 
         Args:
             q: (R, n) positions that the servos assume, rad and m.
-            reference: (R, n) rad and m.
+            reference: (R, n) references of the servos, rad and m.
             rates: (R, n) rates of the reference, rad/s and m/s.
         """
         self.gravity = self.compute_gravity_torques(q)
@@ -240,7 +240,7 @@ class SimulatedRobots:
 
 
 def split_tool_poses(poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Split tool poses (T, 4, 4), NaN where none was measured, into positions (T, 3) and quaternions (T, 4), x, y, z, w."""
+    """Split tool poses (T, 4, 4), NaN without a measurement, into positions (T, 3) and quaternions (T, 4), x, y, z, w."""
     from scipy.spatial.transform import Rotation
 
     is_measured = np.isfinite(poses[:, 0, 0])

@@ -1,4 +1,4 @@
-"""A run of the closed loop with bodies and motors, and its distance from the kinematic run."""
+"""Result of a run of the closed loop with bodies and motors, and its distance from the kinematic run."""
 
 from __future__ import annotations
 
@@ -20,29 +20,30 @@ if TYPE_CHECKING:
 Ending = Literal["converged", "stuck", "moving", "undecided"]
 Why = Literal["none", "singular", "time_limit", "unstable", "contact"]
 
-KINEMATIC_SAMPLES = 4000  # of the kinematic path, at equal times
-PATH_SEGMENTS = 800  # of each path where their distance is measured, of equal length
+KINEMATIC_SAMPLES = 4000  # samples of the kinematic path, at equal times
+PATH_SEGMENTS = 800  # segments of equal length, into which each path is split to measure their distance
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PhysicalRun(Result):
-    """One run of :func:`holdfast.simulate_physics`, T control cycles.
+    """One run of :func:`holdfast.simulate_physics` over T control cycles.
 
     Attributes:
-        law: The law of the controller.
+        law: The control law.
         servos: The joint servos.
-        stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
-        kinematic: The same run of :func:`holdfast.control.simulation.simulate`.
+        stiffness: (n,) stiffness of the servos, N m/rad (N/m for prismatic joints).
+        damping: (n,) damping of the servos, N m s/rad (N s/m for prismatic joints).
+        kinematic: The same run without bodies, by :func:`holdfast.control.simulation.simulate`.
         outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
-        reason: Why it is undecided: ``singular``, ``time_limit`` or ``unstable``; ``contact`` if an object holds it; else
-            ``none``.
-        time: (T,) s.
+        reason: Reason why the run is undecided (``singular``, ``time_limit`` or ``unstable``); ``contact`` if an object holds
+            the arm; else ``none``.
+        time: (T,) simulated time, s.
         q: (T, n) measured configuration, rad and m.
-        reference: (T, n) what the servos are to follow, rad and m.
-        torque: (T, n) of the motors of healthy joints, gravity compensation included, N m and N; 0 for a locked joint.
+        reference: (T, n) references of the servos, rad and m.
+        torque: (T, n) motor torque of healthy joints with gravity compensation, N m and N; 0 for a locked joint.
         x: (T, 3) tool point in the world, m.
         error: (T,) norm of the task's error, m and rad.
-        contacts: First of each link with each object of the cell, in order of time; None without a cell.
+        contacts: First contact of each link with each object of the cell, in order of time; None without a cell.
     """
 
     law: Law
@@ -67,37 +68,37 @@ class PhysicalRun(Result):
 
     @property
     def ending(self) -> str:
-        """Outcome of the run, and the reason for which it is undecided."""
+        """Outcome of the run as text, with the reason if it is undecided."""
         if self.reason == "time_limit":
             return f"still moving at the limit of {self.time[-1]:.6g} s"
         return self.outcome if self.reason == "none" else f"{self.outcome} ({self.reason})"
 
     @cached_property
     def errors_apart(self) -> tuple[FloatArray, FloatArray]:
-        """Position errors (T,), m, and angle errors (T,), rad, from the target."""
+        """(T,) distance from the target, m, and (T,) angle from the target, rad."""
         return self.kinematic._simulator.compute_errors(self.kinematic, 0, self.q)
 
     @cached_property
     def kinematic_path(self) -> RunPath:
-        """The kinematic run over the time of this one, or until it was at rest."""
+        """Path of the kinematic run over the time of this run, or until it was at rest."""
         return self.kinematic.path(0, KINEMATIC_SAMPLES, until=max(float(self.time[-1]), 1e-3))
 
     @property
     def terminal_distance(self) -> float:
-        """Distance between the tool points of both runs when this one ended, m."""
+        """Distance between the tool points of both runs at the end of this run, m."""
         return float(np.linalg.norm(self.x[-1] - self.kinematic_path.x[-1]))
 
     @property
     def terminal_turn(self) -> float:
-        """Angle between the tools of both runs when this one ended, rad."""
+        """Angle between the tool orientations of both runs at the end of this run, rad."""
         ends = np.stack([self.q[-1], self.kinematic_path.q[-1]])
         physical_rotation, kinematic_rotation = self.law.arm.forward_kinematics(ends)[:, :3, :3]
-        # Not the arccosine of the trace, which loses half of the digits of small angles.
+        # The arccosine of the trace would lose half of the digits of small angles.
         return float(2 * np.arcsin(min(np.linalg.norm(physical_rotation - kinematic_rotation) / np.sqrt(8), 1.0)))
 
     @cached_property
     def path_distance(self) -> float:
-        """Largest distance of a point of either tool path from the other path, as curves, whenever they are there, m."""
+        """Largest distance of a point of either tool path from the other path, m, as curves regardless of time."""
         physical_points, kinematic_points = _resample_evenly(self.x), _resample_evenly(self.kinematic_path.x)
         return max(_max_distance(physical_points, kinematic_points), _max_distance(kinematic_points, physical_points))
 

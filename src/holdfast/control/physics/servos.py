@@ -1,4 +1,4 @@
-"""Joint servos for an arm in MuJoCo, which turn commanded joint rates into torques."""
+"""Joint servos for an arm in MuJoCo, which convert commanded joint rates to torques."""
 
 from __future__ import annotations
 
@@ -15,36 +15,38 @@ from holdfast.core.validation import check_constructor
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 
-INERTIA_SAMPLES = 64  # at which the inertia that a servo is tuned to is looked for
-SATURATION_FRACTION = 0.999  # of the effort: a motor at its limit
-DEFAULT_LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
+INERTIA_SAMPLES = 64  # random configurations among which the largest inertia tunes a servo
+SATURATION_FRACTION = 0.999  # fraction of the effort from which a motor counts as torque-saturated
+DEFAULT_LEAD = 1.0  # rad or m: largest distance of a reference from a joint without torque limit
 
 
 @check_constructor
 @dataclass(frozen=True)
 class Servos:
-    """Joint servos: the gains and rates with which each joint follows its command.
+    """Joint servos, with the gains and rates at which each joint follows its command.
 
     The commanded rate is integrated into a reference r at every control cycle, and the motor's torque is
 
         K (r - q) + D (commanded rate - rate) + compensation x gravity torque,
 
-    cut off at the joint's effort. The reference stays within effort / K of the joint (1 rad or 1 m where the arm states no
-    effort): a motor at its limit winds up no further. There is no integral action besides, and no friction compensation.
+    limited to the joint's effort. The reference stays within effort / K of the joint (1 rad or 1 m if the arm states no
+    effort), which prevents windup at a saturated motor. There is no further integral action and no friction compensation.
 
     Attributes:
-        bandwidth: Hz. With w = 2 pi bandwidth, a joint's friction B and the largest inertia M that it alone sees at the start
-            and at 64 random configurations, K = w^2 M + w B and D = 2 ratio w M: with a ratio of 1 the joint alone follows with
-            a pole at -w, friction or not. Coupling between the joints makes some motions slower, some faster than that.
+        bandwidth: Bandwidth of a joint, Hz. With w = 2 pi bandwidth, the joint's friction B, and its largest inertia M (with
+            the other joints fixed) at the start and at 64 random configurations, K = w^2 M + w B and D = 2 ratio w M. With a
+            ratio of 1 a joint alone follows with a pole at -w, with or without friction. Coupling between the joints makes some
+            motions slower and some faster.
         ratio: Damping ratio of a joint without friction.
-        rate: Hz, of the control cycle: measured configuration, law, reference. Torques follow at every step of the physics.
-        compensation: Share of the gravity torque that the motors are given beforehand.
-        stiffness: K for each joint, N m/rad or N/m, in place of ``bandwidth`` and ``ratio``; then ``damping`` too.
-        damping: D for each joint, N m s/rad or N s/m.
-        step: s, the longest step of the physics.
+        rate: Rate of the control cycle (measured configuration, law, reference), Hz. The torques are updated at every step of
+            the physics.
+        compensation: Fraction of the gravity torque that the motors get as feedforward.
+        stiffness: (n,) K of the joints, N m/rad or N/m, in place of ``bandwidth`` and ``ratio``; requires ``damping``.
+        damping: (n,) D of the joints, N m s/rad or N s/m; requires ``stiffness``.
+        step: Longest time step of the physics, s.
 
     Raises:
-        InputError: A value that is not above 0 (``compensation``, ``damping``: below 0), or only one of K and D.
+        InputError: A value is not above 0 (``compensation``, ``damping``: is below 0), or only one of K and D is given.
     """
 
     bandwidth: float = 10.0
@@ -73,7 +75,10 @@ class Servos:
         return int(np.ceil(1 / (self.rate * self.step) - 1e-9))
 
     def gains(self, arm: Arm, mujoco: ModuleType, model: Any, *, start: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
+        """Return K and D, (n,) each, of ``arm`` for its MuJoCo ``model``, whose ``qpos`` is 0 at ``start`` (n,), rad and m.
+
+        ``mujoco`` is the imported module.
+        """
         if self.stiffness is not None:
             return self._read_gains("stiffness", arm), self._read_gains("damping", arm)
         inertia, natural_frequency = _largest_inertia(arm, mujoco, model, start), 2 * np.pi * self.bandwidth
@@ -91,25 +96,25 @@ class Servos:
         return gain_values
 
     def describe(self) -> str:
-        """One phrase for people."""
+        """Return a phrase with the gains, the rate, and the gravity compensation."""
         gains = "gains as given" if self.stiffness is not None else f"{self.bandwidth:g} Hz, damping ratio {self.ratio:g}"
         gravity = "" if self.compensation == 1 else f", {self.compensation:.0%} of gravity compensated"
-        return f"joint servos of {gains}, control at {self.rate:g} Hz{gravity}"
+        return f"joint servos with {gains}, control at {self.rate:g} Hz{gravity}"
 
 
 def max_reference_offsets(arm: Arm, stiffness: FloatArray) -> FloatArray:
-    """Return (n,) the largest distance of a reference from its joint, which requests the full effort."""
+    """Return the largest distance (n,) of a reference from its joint, which requests the full effort."""
     effort = np.array([joint.effort for joint in arm.joints])
     return np.where(np.isfinite(effort), effort / stiffness, DEFAULT_LEAD)
 
 
 def max_tracking_error(q: FloatArray, reference: FloatArray, locked: BoolArray) -> FloatArray:
-    """Return (n,) the largest distance of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
+    """Return the largest distance (n,) of each joint (T, n) from its reference while it was not locked (T, n), rad or m."""
     return np.asarray(np.where(locked, 0.0, np.abs(q - reference)).max(axis=0, initial=0.0))
 
 
 def saturated_fraction(arm: Arm, torque: FloatArray, locked: BoolArray) -> FloatArray:
-    """Return (n,) the fraction of the time (T, n) for which the motor of each joint was torque-saturated while not locked."""
+    """Return the fraction of the time (n,) for which the motor of each joint was torque-saturated while it was not locked."""
     effort = np.array([joint.effort for joint in arm.joints])
     healthy = ~locked
     is_saturated = healthy & (np.abs(torque) >= SATURATION_FRACTION * effort)
@@ -117,7 +122,7 @@ def saturated_fraction(arm: Arm, torque: FloatArray, locked: BoolArray) -> Float
 
 
 def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: FloatArray) -> FloatArray:
-    """Return (n,) the largest diagonal entry of the inertia matrix of each joint."""
+    """Return the largest sampled diagonal entry (n,) of the inertia matrix for each joint."""
     configurations = np.random.default_rng(0).uniform(*sampling_limits(arm), (INERTIA_SAMPLES, arm.n))
     data, inertias, product = mujoco.MjData(model), np.zeros(arm.n), np.zeros(arm.n)
     for q in (start, *configurations):

@@ -1,4 +1,4 @@
-"""A cell in a MuJoCo model: fixed objects that an arm can touch and that do not add to its mass."""
+"""Objects of a cell in a MuJoCo model, which an arm can touch, and the contacts with them."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from holdfast.model.collision.capsules import BASE_LINK, LinkCapsule, link_name
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.contacts import Contact
 
-_ARM_CONTACT_BIT = 1  # the arm touches the cell, and nothing touches itself
+_ARM_CONTACT_BIT = 1  # the arm touches the cell; neither the arm nor the cell touches itself
 _CELL_CONTACT_BIT = 2
 
 
 def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
     """Add the objects of a cell, and massless capsules of the arm's links, to the spec of an arm.
 
-    Contacts are as stiff as the step allows, critically damped, with MuJoCo's own friction (a coefficient of 1). A mesh is its
-    convex hull here.
+    Contacts are as stiff as the step allows and critically damped, with MuJoCo's default friction (a coefficient of 1). A mesh
+    is its convex hull here.
 
     Args:
-        spec: Of :func:`holdfast.control.physics.model.build_mujoco_spec`, for the same arm.
-        clearance: With the cell. Links that are welded touch nothing, nor does the arm itself.
-        step: s.
+        spec: Spec of :func:`holdfast.control.physics.model.build_mujoco_spec` for the arm.
+        clearance: Collision model of the arm, with the cell. Welded links touch nothing, and the arm does not touch itself.
+        step: Time step, s.
 
     Raises:
-        InputError: The cell holds a cloud of points.
+        InputError: The cell contains a point cloud.
     """
     mujoco, arm = import_mujoco(), clearance.arm
     contact_options = {"solref": [2 * step, 1.0], "solimp": [0.99, 0.999, 1e-3, 0.5, 2.0], "mass": 0.0}
@@ -69,8 +69,8 @@ def _solid_geom_options(mujoco: Any, spec: Any, solid: Solid, number: int) -> di
         return {"type": geom_types.mjGEOM_MESH, "meshname": mesh.name}
     if not isinstance(solid, PrimitiveSolid):
         raise InputError(
-            f"object '{solid.name}' is a cloud of points, for which MuJoCo has no body; for a physical run leave it out of the "
-            "cell, or put boxes or a mesh in its place"
+            f"object '{solid.name}' is a point cloud, for which MuJoCo has no body; remove it from the cell of a physical run, "
+            "or replace it by boxes or a mesh"
         )
     if isinstance(solid, Box):
         return {"type": geom_types.mjGEOM_BOX, "size": solid.size / 2}
@@ -83,13 +83,13 @@ def _solid_geom_options(mujoco: Any, spec: Any, solid: Solid, number: int) -> di
 
 
 class ContactLog:
-    """Contacts so far in a model of :func:`add_cell_objects`.
+    """Log of the contacts in a model of :func:`add_cell_objects`.
 
     Args:
-        clearance: As for :func:`add_cell_objects`; without a cell no contacts are looked for.
+        clearance: Collision model of the arm, with the cell; without a cell no contacts are recorded.
 
     Attributes:
-        cell: Objects around the arm; None without any.
+        cell: Objects around the arm; None without a cell.
         clearance: The same clearance; None without a cell.
     """
 
@@ -99,7 +99,7 @@ class ContactLog:
         self._contact_by_pair: dict[tuple[str, str], tuple[float, float]] = {}
 
     def record_contacts(self, model: Any, data: Any, time: float) -> None:
-        """Record the contacts of a moment, at a time in s."""
+        """Record the contacts at a time in s."""
         for index in range(data.ncon):
             contact = data.contact[index]
             pair = self._identify_pair(model, contact)
@@ -107,10 +107,10 @@ class ContactLog:
             self._contact_by_pair[pair] = first_time, max(depth, -float(contact.dist))
 
     def require_collision_free(self, model: Any) -> None:
-        """Reject a start within an object, from which the physics would throw the arm out.
+        """Reject a start within an object, from which the physics would eject the arm.
 
         Raises:
-            InputError: Which link is in what, and how deep.
+            InputError: A link lies within an object.
         """
         mujoco = import_mujoco()
         data = mujoco.MjData(model)
@@ -119,8 +119,8 @@ class ContactLog:
         if deepest is not None and deepest.dist < 0:
             touching_link, object_name = self._identify_pair(model, deepest)
             raise InputError(
-                f"q puts {touching_link} {-deepest.dist:.3g} m into object '{object_name}' of the cell; start where the "
-                f"arm is clear of it"
+                f"q puts {touching_link} {-deepest.dist:.3g} m into object '{object_name}' of the cell; start at a "
+                f"collision-free configuration"
             )
 
     def _identify_pair(self, model: Any, contact: Any) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""Free swing of a failed joint: it swings under gravity until friction stops it, with all others locked."""
+"""Free swing of a failed joint under gravity until friction stops it, with all other joints locked."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 
 DEFAULT_BRAKE_TIMES_MS = (50.0, 100.0, 200.0)  # ms
-DEFAULT_DAMPING_RATIO = 0.1  # of critical damping, where the arm states no friction to speak of
-MIN_DAMPING_RATIO = 0.02  # of critical damping; files carry less as a placeholder, and the joint would swing for minutes
-REST_AMPLITUDE_RAD = 1e-4  # rad: amplitude of the oscillation that is left
+DEFAULT_DAMPING_RATIO = 0.1  # fraction of critical damping that is used if the arm states less than MIN_DAMPING_RATIO
+MIN_DAMPING_RATIO = 0.02  # fraction of critical damping; files have less as a placeholder, which would swing for minutes
+REST_AMPLITUDE_RAD = 1e-4  # rad: amplitude of the remaining oscillation
 STOP_SPEED = 1e-4  # rad/s or m/s, against a stop
-BALANCED_TRAVEL = 1e-6  # rad or m: has not moved
-NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of what swings
+BALANCED_TRAVEL = 1e-6  # rad or m: a smaller displacement counts as none
+NEGLIGIBLE_FRACTION = 1e-9  # relative to mass, gravity and length of the swinging part
 CHECK_INTERVAL_STEPS = 20  # steps
-MIN_DURATION_S = 60.0  # of the time allowed when none is given
+MIN_DURATION_S = 60.0  # s: bounds of the duration if none is given
 MAX_DURATION_S = 300.0
 MAX_STEP_S = 0.02  # s
 
@@ -52,35 +52,36 @@ def free_swing(
 ) -> FreeSwing:
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast-arms[physics]``).
 
-    The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Nothing is in the way but the objects of a cell, and no limit unless ``limits``; a prismatic joint always falls to
-    its limit. A stop takes the impact without rebound; an object does nearly, and the capsules of the links that swing slide
-    along it (a coefficient of friction of 1; a mesh is its convex hull here). From exactly upright, rounding decides to which
-    side it falls, so its rest angle may have either sign.
+    From time 0 on the joint transmits no torque except viscous friction. The arm was at rest, and all other joints are held
+    exactly. Only the objects of a cell obstruct the motion, and joint limits if ``limits`` is True; a prismatic joint always
+    falls to its limit. The impact on a limit has no rebound, and the impact on an object nearly none. The capsules of the
+    swinging links slide along an object (a coefficient of friction of 1; a mesh is its convex hull here). From exactly
+    upright, rounding decides to which side the joint falls, so its rest angle may have either sign.
 
-    Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
-    small oscillation about its rest position (less is a placeholder in many files, and the joint would swing for minutes); else
-    10 % of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still stops; for a
-    prismatic joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
-    acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where friction is too stiff for that.
+    The default friction is the joint's own, if the arm states one above 2 % of the critical damping of the small oscillation
+    about its rest position. Many files contain less as a placeholder, with which the joint would swing for minutes. Otherwise
+    it is 10 % of the critical damping, with which the joint swings widely (each swing loses about 27 % of its amplitude) and
+    still stops. A prismatic joint has its own friction or none. Friction changes the peak, and the drops slightly, but neither
+    the rest angle nor the initial acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly if
+    friction is too stiff for that.
 
     Args:
-        arm: With inertial data for every link; a link may be massless.
+        arm: The arm, with inertial data for every link; a link may be massless.
         q: (n,) configuration at the failure, rad or m.
         joint: Name, or index from 0, of the failed joint.
-        damping: Viscous friction, N m s/rad or N s/m.
-        duration: Longest time, s; it ends sooner where the joint has stopped (an amplitude below 1e-4 rad is left). If not
-            given, 60 s, and up to 300 s where it swings slowly.
+        damping: Viscous friction, N m s/rad or N s/m. None: the default friction described above.
+        duration: Longest simulated time, s; the simulation ends earlier if the joint stops (an amplitude below 1e-4 rad
+            remains). Default: 60 s, and up to 300 s if the joint swings slowly.
         brake_after: Times from the failure to the brakes, ms.
         step: Time step, s.
-        limits: Whether the arm's limits stop the joint.
-        clearance: The shape of the arm, with a cell or beside one.
+        limits: True if the arm's limits stop the joint.
+        clearance: Collision model of the arm, used with a cell, which it may contain. None: the default model.
         cell: Objects around the arm, or their file.
 
     Raises:
-        InputError: A wrong joint, configuration or option, a start within an object, or a cloud of points.
-        ArmError: Inertial data are missing or impossible, nothing heavy hangs on the joint, or a prismatic joint has no limit
-            on the side to which it falls.
+        InputError: A wrong joint, configuration or option, a start within an object, or a point cloud.
+        ArmError: Inertial data are missing or impossible, the joint carries no mass, or a prismatic joint has no limit on the
+            side to which it falls.
         HoldfastError: MuJoCo is not installed.
     """
     joint_number = arm.joint_index(joint)
@@ -160,8 +161,8 @@ def _require_stop(joint: Joint, upwards: bool) -> None:
     side_name, limit = ("upper", joint.upper) if upwards else ("lower", joint.lower)
     if not np.isfinite(limit):
         raise ArmError(
-            f"joint '{joint.name}' slides and has no {side_name} limit, where gravity takes it, so it would fall forever; "
-            "give it that limit in m"
+            f"prismatic joint '{joint.name}' has no {side_name} limit, towards which gravity moves it, so it would fall "
+            "forever; give it that limit in m"
         )
 
 
@@ -169,7 +170,7 @@ def _require_stop(joint: Joint, upwards: bool) -> None:
 
 
 class _SwingModel:
-    """A MuJoCo model with one free joint at the moment of failure, and the motion that follows from its torque there."""
+    """MuJoCo model with one free joint at the moment of failure, and the motion that follows from the torque at that moment."""
 
     def __init__(self, model: Any, arm: Arm, joint: int, contact_log: ContactLog) -> None:
         self.mujoco, self.contact_log = import_mujoco(), contact_log
@@ -178,7 +179,7 @@ class _SwingModel:
         label = f"arm '{arm.name}', joint '{arm.joint_names[joint]}'"
         mass = float(model.body_subtreemass[joint + 1])
         offsets = model.body_pos[joint + 2 : arm.n + 1], model.body_ipos[joint + 1 : arm.n + 1]
-        length = float(sum(np.linalg.norm(part, axis=1).sum() for part in offsets))  # what swings is no longer than this
+        length = float(sum(np.linalg.norm(part, axis=1).sum() for part in offsets))  # upper bound of the swinging length
         start_torque = self._holding_torque(0.0)
         inertia = np.zeros(1)
         self.mujoco.mj_mulM(model, self.data, inertia, np.ones(1))
@@ -191,10 +192,10 @@ class _SwingModel:
         else:
             if self.inertia <= NEGLIGIBLE_FRACTION * mass * length**2:
                 raise ArmError(
-                    f"{label}: all that it carries lies on its axis and has no inertia about it, so its acceleration is not "
-                    "defined; give the links their inertia or the joint its armature"
+                    f"{label}: everything that it carries lies on its axis and has no inertia about it, so its acceleration is "
+                    "not defined; give the links their inertia or the joint its armature"
                 )
-            # One rigid body about one axis: the torque is a sine of the angle, so two values give it all.
+            # For one rigid body about one axis the torque is a sine of the angle, so two values determine it.
             quarter_torque = self._holding_torque(np.pi / 2)
             self.stiffness = float(np.hypot(start_torque, quarter_torque))
             self.rest_angle = float(-np.arctan2(start_torque, quarter_torque))
@@ -210,7 +211,7 @@ class _SwingModel:
         return float(self.data.qfrc_bias[0])
 
     def choose_damping(self, requested: float | None, joint: Joint) -> float:
-        """Choose the friction, and set it in the model."""
+        """Choose the friction, set it in the model, and return it."""
         if requested is not None:
             damping = float(requested)
         else:
@@ -218,7 +219,7 @@ class _SwingModel:
             damping = joint.friction if joint.friction > MIN_DAMPING_RATIO * critical else DEFAULT_DAMPING_RATIO * critical
         self.model.dof_damping[0] = damping
         if damping * self.model.opt.timestep > self.inertia:
-            # Runge-Kutta would blow up; motion this viscous is slow enough for a method of first order.
+            # Runge-Kutta would diverge; a motion with this friction is slow enough for a first-order method.
             self.model.opt.integrator = self.mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         return damping
 
@@ -234,7 +235,7 @@ class _SwingModel:
         return float(np.clip(15 / slowest_rate, MIN_DURATION_S, MAX_DURATION_S))
 
     def run(self, duration: float, min_duration: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Outcome]:
-        """Simulate the swing: times (T,), angles (T,), velocities (T,), tool positions (T, 3), and the outcome."""
+        """Simulate the swing, and return times (T,), angles (T,), velocities (T,), tool positions (T, 3), and the outcome."""
         mujoco, model, data = self.mujoco, self.model, self.data
         step = float(model.opt.timestep)
         self._holding_torque(0.0)
@@ -259,7 +260,7 @@ class _SwingModel:
         return time, table[:, 0].copy(), table[:, 1].copy(), table[:, 2:].copy(), outcome
 
     def _classify_state(self) -> Outcome:
-        """Classify the present state: moving unless nothing can move the joint any more."""
+        """Classify the present state, which is moving unless nothing can move the joint any more."""
         data = self.data
         angle, velocity = float(data.qpos[0]), float(data.qvel[0])
         if self.is_balanced:

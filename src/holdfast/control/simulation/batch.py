@@ -1,4 +1,4 @@
-"""The compiled closed loop of one law, which simulates batches of runs and classifies their outcomes."""
+"""Compiled closed loop of one law, which simulates batches of runs and classifies their outcomes."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ from holdfast.kernels.loop import Tell
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm import kinematics
 
-CONVERGENCE_TOLERANCE = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest counts as 0
+CONVERGENCE_TOLERANCE = 1e-5  # rad, and lengths in the arm's unit: a smaller error at rest counts as 0
 MIN_ENDLESS_SPEED = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not stopping
-DECAY_RATIO = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
-LOOP_CALLS_PER_RUN = 1500  # of the loop, for each run (measured of several arms, tasks and laws: 900 to 11,000, once 130)
-MAX_BLOCK_RUNS = 8192  # runs that one thread makes together
+DECAY_RATIO = 0.99  # ratio of the greatest speeds in successive tenths of the time, below which an arm is slowing down
+LOOP_CALLS_PER_RUN = 1500  # calls of the loop for each run (measured for several arms, tasks, laws: 900 to 11,000, once 130)
+MAX_BLOCK_RUNS = 8192  # runs that one thread simulates together
 MIN_BLOCK_RUNS = 256  # no result depends on it
 
 
@@ -55,9 +55,9 @@ Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, BoolArray]]
 
 
 class ClosedLoopSimulator:
-    """The compiled closed loop of one law under one integration method.
+    """Compiled closed loop of one law under one integration method.
 
-    A run is a sequence of phases: nothing changes between two locks, so each phase is one loop over the states of all runs.
+    A run is a sequence of phases. Nothing changes between two locks, so each phase is one loop over the states of all runs.
 
     Attributes:
         cycles: True for discrete control cycles.
@@ -85,30 +85,30 @@ class ClosedLoopSimulator:
     @cached_property
     @cached_kernel
     def _start_kernel(self) -> Kernel:
-        """Kernel of the values at the start of a motion."""
+        """Kernel that computes the values at the start of a motion."""
         parts = self._start_columns.join_parts(configuration_state_parts(self._system.evaluate_state_rates(self._system.q)))
         return Kernel("start of a motion", [self._system.q, *self._system.inputs.values()], [parts])
 
     @cached_property
     @cached_kernel
     def _tool_kernel(self) -> Kernel:
-        """Kernel of the tool position in the directions that the task prescribes."""
+        """Kernel that computes the tool position in the directions of the task."""
         position = kinematics.kinematic_chain(self.law.arm, self._system.q).position
         return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ position])
 
     def run(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> Runs:
-        """Simulate runs from q0 (N, n) to target (N, 4, 4) or (N, m), with joints that lock at (N, n), s or cycles.
+        """Simulate runs from q0 (N, n) to target (N, 4, 4) or (N, m) with joints that lock at times (N, n), s or cycles.
 
-        Each thread takes a few thousand runs at a time, so that all of their data stay in the processor's cache.
+        Each thread simulates a few thousand runs at a time, so that their data stay in the processor's cache.
         """
         run_count, workers = len(q0), 1 if in_pool() else thread_count()
         with expect_row_count(run_count * LOOP_CALLS_PER_RUN):
-            _ = self._stepper.loop  # the first time it is made here: the threads do not know how many runs there are
+            _ = self._stepper.loop  # compile here, because the threads do not have the number of runs
         runs_per_worker = -(-run_count // max(workers, 1))
         block_size = max(-(-runs_per_worker // max(-(-runs_per_worker // MAX_BLOCK_RUNS), 1)), MIN_BLOCK_RUNS)
         blocks = [slice(first, min(first + block_size, run_count)) for first in range(0, max(run_count, 1), block_size)]
 
-        # The last runs of a block take longest: only of several blocks one after the other the pace is even.
+        # The last runs of a block take longest, so the pace is even only over several consecutive blocks.
         with ProgressCount("runs", run_count, whole=len(blocks) > 4 * workers) as progress:
 
             def run_rows(selection: slice) -> dict[str, NDArray[Any]]:
@@ -130,7 +130,7 @@ class ClosedLoopSimulator:
         is_finite = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
         finite_rows: slice | IndexArray = slice(None) if is_finite.all() else np.flatnonzero(is_finite)
         has_orientation, time_scale = target.ndim == 3 and self.law.task.angular, self._time_scale
-        # A run whose joints lock later ends at each lock, and goes on.
+        # The phase of a run whose joints lock later ends at each lock.
         locks_later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
         report_ended = ignore_count if locks_later else report
 
@@ -158,7 +158,7 @@ class ClosedLoopSimulator:
         code, reason, may_be_endless = self._classify_endings(scale_errors(self.law, error, tool, target), parts)
         code[~is_finite], reason[~is_finite], may_be_endless[~is_finite] = RunOutcome.UNDECIDED, Reason.BAD_INPUT, False
         if has_orientation:
-            # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
+            # Half a turn from the target, a tight tolerance shrinks the steps to zero, as at a singular configuration.
             rows = np.flatnonzero(np.isin(reason, (Reason.STEPS, Reason.SINGULAR)))
             is_half_turn = self._half_turns.find_half_turns(q[rows], target[rows, :3, 3], target[rows, :3, :3])
             reason[rows[is_half_turn]] = Reason.HALF_TURN
@@ -185,7 +185,7 @@ class ClosedLoopSimulator:
     def _classify_endings(
         self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
     ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], BoolArray]:
-        """Return outcomes and reasons, and the runs that are fast enough at the time limit to look for a limit cycle."""
+        """Return outcomes, reasons, and the runs that are fast enough at the time limit to search for a limit cycle."""
         codes = parts["code"][:, 0]
         slowest, early_speed, late_speed = (parts[name][:, 0] for name in ("slowest", "early", "late"))
         may_be_endless = (
@@ -211,7 +211,7 @@ class ClosedLoopSimulator:
     def _make_parameters(self, target: FloatArray, setting: RunSettings) -> FloatArray:
         """Return the parameters of runs to targets, poses (N, 4, 4) or task components (N, m).
 
-        The healthy joints and the end of the phase are still to be set.
+        The mask of healthy joints and the end of the phase are not set yet.
         """
         return self._stepper.parameters.make_rows(
             len(target),
@@ -225,8 +225,8 @@ class ClosedLoopSimulator:
     ) -> FloatArray:
         """Return the states at the end of runs from q0 (N, n) with joints that lock at (N, n), s or cycles.
 
-        The parameters are those of :meth:`_make_parameters`, in which the last phase of each run is left. The function
-        ``advance`` returns the states at the end of a phase, and which of them have got there.
+        The parameters are those of :meth:`_make_parameters`; afterwards they contain the last phase of each run. The function
+        ``advance`` returns the states at the end of a phase, and the flags of those that reached this end.
         """
         run_count, layout, time_scale = len(q0), self._stepper.layout, self._time_scale
         states = np.zeros((run_count, layout.size))
@@ -237,7 +237,7 @@ class ClosedLoopSimulator:
             parts["h"][:] = setting.step_size * time_scale if self._has_fixed_step else FIRST_STEP_SIZE
         parameter_parts, clock_limit = self._stepper.parameters.view_parts(parameters), setting.time_limit * time_scale
         healthy_mask, phase_ends = parameter_parts["mask"], parameter_parts["until"][:, 0]
-        # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
+        # Without a speed limit, time and clock are equal, so the last step ends at the limit exactly.
         final_time = LARGE_NUMBER if self._system.law.speed_limit is not None and not self.cycles else clock_limit
         scaled_lock_times = lock_time * time_scale
         current_times, active = np.zeros(run_count), np.arange(run_count)
@@ -255,7 +255,7 @@ class ClosedLoopSimulator:
         return states
 
     def _start_phase(self, states: FloatArray, rows: slice | IndexArray, parameters: FloatArray) -> None:
-        """Set the parts of the states that are known where a phase begins."""
+        """Set the parts of the states that are known at the beginning of a phase."""
         parts = self._stepper.layout.view_parts(states)
         values = self._evaluate_states(states[rows], parameters)
         is_finite = np.isfinite(values).all(axis=1)
@@ -281,7 +281,7 @@ class ClosedLoopSimulator:
         if not self._stepper.is_staged:
             inputs = self._stepper.parameters.split_inputs(parameters)
             return self._start_kernel.rows(layout.view_parts(states)["q"], *[inputs[name] for name in self._system.inputs])
-        # A stage before the first: the law is not compiled a second time.
+        # A stage before the first one avoids compiling the law a second time.
         entry_states = states.copy()
         parts = layout.view_parts(entry_states)
         parts["stage"][:], parts["code"][:], parts["rates"][:] = -1, STATE_RUNNING, 0.0
@@ -296,14 +296,14 @@ class ClosedLoopSimulator:
 
     def _call_step(self, states: FloatArray, parameters: FloatArray) -> FloatArray:
         loop = self._stepper.loop
-        # A loop that takes single steps has a compiled one.
+        # A loop of single steps already has a compiled step.
         single = loop.step if loop.times == 1 else self._stepper.single_step
         return single.rows(states, *self._stepper.parameters.split_inputs(parameters).values())[:, : self._stepper.layout.size]
 
     # ---- on demand -----------------------------------------------------------------------------------------------
 
     def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
-        """Find the least error (N,) that each arm can have, and a configuration (N, n) that has it; NaN for bad input."""
+        """Find the least error (N,) that each arm can have, and a configuration (N, n) with this error; NaN for bad input."""
         q, poses = np.atleast_2d(runs.q_final), self._target_poses(runs)
         healthy_mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
         rows = np.isfinite(q).all(axis=1)
@@ -341,7 +341,7 @@ class ClosedLoopSimulator:
     def compute_errors(self, runs: Runs, run: int | BoolArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Compute position errors (T,), m, and angle errors (T,), rad, of configurations (T, n) for the target of run k.
 
-        Where k is a mask of runs, the configurations are one for each of them.
+        If k is a mask of runs, there is one configuration for each of them.
         """
         target = np.broadcast_to(self._target_poses(runs)[run], (len(q), 4, 4))
         norms = self._error_search.compute_error_norms(q, target)
@@ -373,7 +373,7 @@ class ClosedLoopSimulator:
             return times, lambda time: np.stack([np.interp(time, times, column) for column in columns], axis=1)
 
         def interpolate(time: FloatArray) -> FloatArray:
-            # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
+            # A shorter step from the step's beginning is as accurate as the integrator's step.
             step_index = np.searchsorted(parts["time"][:, 0], time * time_scale, side="right") - 1
             step_parameters = parameters[step_index]
             parameter_parts = self._stepper.parameters.view_parts(step_parameters)
@@ -385,5 +385,5 @@ class ClosedLoopSimulator:
 
 @lru_cache(maxsize=16)
 def compiled_simulator(law: Law, method: str) -> ClosedLoopSimulator:
-    """Return the simulator of a law, compiled once."""
+    """Return the simulator of a law, which is compiled once and cached."""
     return ClosedLoopSimulator(law, method)

@@ -1,4 +1,4 @@
-"""The closed loop of a controller without fault information whose joints lock."""
+"""Simulation of the closed loop of a controller without fault information whose joints lock."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ Method = Literal["adaptive", "rk4"]
 
 @runtime_checkable
 class LockSchedule(Protocol):
-    """Faults that state when joints lock."""
+    """Faults that determine when joints lock."""
 
     def times_of(self, joints: Sequence[str]) -> FloatArray:
-        """Return (n,), or (N, n) of N runs, the times at which these joints lock, infinite for never."""
+        """Return the times (n,), or (N, n) for N runs, at which these joints lock, infinite for never."""
         ...
 
 
@@ -67,72 +67,71 @@ def simulate(
 ) -> Runs:
     """Simulate an arm whose joints lock while its controller has no fault information.
 
-    ``q' = mask G(q) Ke e(q)`` with mask 0 for locked joints, G the law's inverse at the true configuration with no column
-    removed, and e the error ``(p_d - p; log(R_d R'))`` of the task's rows in the world. Joint limits are not heeded, only
-    reported.
+    The motion is ``q' = mask G(q) Ke e(q)`` with mask 0 for locked joints, the law's inverse G at the true configuration with
+    all columns, and the error ``e = (p_d - p; log(R_d R'))`` of the task's rows in the world. Joint limits are not enforced,
+    only reported.
 
-    How a run ends (continuous time; speeds are norms of the healthy joints' rates as they would be without the speed limit,
-    which changes no path; times count likewise):
+    In continuous time a run ends as follows. Speeds are norms of the healthy joints' rates without the speed limit, which
+    changes no path, and times are counted without it, too.
 
-    * at rest, where the speed falls below 1e-8 Ke: *converged* if the error is below 1e-5, *stuck* if not (rad, and m for an
-      arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
-      and its copy in another size end alike);
-    * *moving*, if it was found to repeat its motion (a limit cycle, or joints that turn forever): at the time limit, or after
-      100,000 steps, the motion is followed for some thousand steps more, and returns to the same configuration, modulo whole
-      turns, so nearly that over 100,000/Ke it would drift by less than a hundredth of its extent. At the time limit this is
-      looked for only where the speed was never below 1e-3 Ke during the last 20 % of the time and did not decay, because its
-      greatest value in the last tenth is at least 0.99 of that in the tenth before;
-    * *undecided*, with the reason: *time_limit* (still moving then, and not found to repeat its motion; a longer limit may
-      decide it and contradicts no shorter one), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with
-      the end effector
-      half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
-      as soon as it would not finish at the pace of its last 2,000 steps), *bad input*.
+    * A run is at rest if its speed falls below 1e-8 Ke. It is *converged* if the error is below 1e-5, otherwise *stuck*. The
+      error is in rad, and in m for an arm of about 1 m; lengths are in the arm's own unit (its links end to end, rounded to a
+      power of two), so that an arm and its scaled copy end alike.
+    * A run is *moving* if it was found to repeat its motion (a limit cycle, or joints that rotate forever). At the time limit,
+      or after 100,000 steps, the motion is simulated for some thousand further steps. It must return to the same configuration,
+      modulo full turns, so accurately that over 100,000/Ke it would drift by less than a hundredth of its extent. At the time
+      limit this is checked only if the speed was never below 1e-3 Ke during the last 20 % of the time and did not decay, which
+      means that its greatest value in the last tenth is at least 0.99 of that in the tenth before.
+    * Otherwise a run is *undecided*, for one of these reasons: *time_limit* (it still moves and was not found to repeat its
+      motion; a longer limit may decide it and contradicts no shorter one), *singular* (the steps shrink to zero, or the law has
+      no answer), *steps* (100,000 steps, as close to a singularity), *half turn* (100,000 steps with the end effector half a
+      turn from its target, where the shortest rotation, and with it the command, is discontinuous; such a run is stopped as
+      soon as it would not finish at the pace of its last 2,000 steps), or *bad input*.
 
-    None of this looks at the steps that were taken, so that it does not depend on their size.
+    These rules do not depend on the size of the steps.
 
-    In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has *converged*
-    when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other the end
-    effector moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1 m); at the limit
+    In cycles the command is held for a cycle, and the arm follows the law in 10 explicit Euler sub-steps. A run is *converged*
+    if the error is at most ``radius`` at the beginning of a cycle. It is *stuck* if for 50 consecutive cycles the end effector
+    moved less than 2e-5 of the distance that the speed limit allows (without a limit: 1e-6 m for an arm of 1 m). At the limit
     it is *undecided*, because a motion in steps returns to no configuration exactly.
 
-    With a cell each run says what the arm touches on its way, when first and how deep (``contacts``); that changes nothing of
-    the run, unless it is to stop there. The distance is a lower bound, so a contact may come a little early, and none is
-    missed: the motion is looked at from instant to instant, at most 0.05 rad (and m) apart, and between them until half a
-    millimetre is all that could change. Of a run that repeats its motion the first 200/Ke are checked.
+    With a cell, ``contacts`` lists the contacts of each run, with the time of the first contact and its depth. They change no
+    run unless ``stop_at_contact`` is True. The distance is a lower bound, so a contact may be reported slightly early, and none
+    is missed. The motion is checked at instants at most 0.05 rad (and m) apart, and between them until the distance can change
+    by no more than half a millimetre. If a run repeats its motion, its first 200/Ke are checked.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit (per second, or per cycle).
-        q0: (n,) or (N, n) configurations at the start, rad and m.
-        target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
-            (4, 4) or (N, 4, 4) tool poses in the world.
-        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0; or
-            a :class:`holdfast.Degraded` of locks alone, where ``q0`` has them. Or for each run of its own, as an array: (N,)
-            the index of one joint, -1 for none; or (N, n) the time at which each joint locks, s or cycles, infinite for never.
-        cycles: Discrete control cycles in place of continuous time.
+        q0: (n,) configuration or (N, n) configurations at the start, rad and m.
+        target: (m,) or (N, m) task rows of the target's tool point, m, for tasks without angular rows. For any task, (4, 4) or
+            (N, 4, 4) tool poses in the world, m.
+        locked: Joints that lock at their current values in every run, as ``{joint: None}`` or the joints alone, by name or
+            index from 0; or a :class:`holdfast.Degraded` that contains only locks, at the values in ``q0``. For different locks
+            in each run, an array: (N,) index of one joint, -1 for none; or (N, n) lock times, s or cycles, infinite for never.
+        cycles: True for discrete control cycles in place of continuous time.
         method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
-        time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.
-        tolerance: Of the adaptive method: the local error of a step, rad (and m), 1e-13 to 1e-6.
-        step: Of ``rk4``, s; 0.1/Ke if not given.
-        radius: Of the target in cycles, m (and rad).
-        time: When the joints lock, s or cycles: one time, or one for each of them.
-        faults: In place of ``locked`` and ``time``: locks that were drawn, of an episode
-            (:class:`holdfast.response.faults.FaultEvents`) or, one for each run, of many
-            (:class:`holdfast.response.faults.FaultBatch`). Other faults need bodies and motors:
+        time_limit: Time limit of each run, s or cycles. Default: 3000/Ke, or 1000 cycles.
+        tolerance: Local error of a step of the adaptive method, rad (and m), 1e-13 to 1e-6.
+        step: Step of ``rk4``, s. Default: 0.1/Ke.
+        radius: Radius of the target in cycles, m (and rad).
+        time: Lock times, s or cycles: one time, or one for each joint in ``locked``.
+        faults: Sampled locks in place of ``locked`` and ``time``: those of one episode
+            (:class:`holdfast.response.faults.FaultEvents`), or of one episode for each run
+            (:class:`holdfast.response.faults.FaultBatch`). Other faults need the bodies and motors of
             :func:`holdfast.simulate_faults`.
-        clearance: The shape of the arm and what it may touch, maybe with a cell; True: also itself, by capsules of an assumed
-            radius. If not given it does not touch itself.
-        cell: Objects around the arm, or their file. Margins are not looked at.
-        stop_at_contact: A run ends where the arm first touches something: all joints are held there (in cycles: as the next
-            cycle begins). It has *converged* if it is at its target, else it is *stuck*, and its reason is *contact*.
+        clearance: Collision model of the arm, which may contain a cell; True also checks for self-contact with capsules of an
+            assumed radius. None: no self-contact.
+        cell: Objects around the arm, or their file. Safety margins are ignored.
+        stop_at_contact: True to stop a run at its first contact, where all joints are held (in cycles from the next cycle on).
+            The run is *converged* if it is at its target, otherwise *stuck*, and its reason is *contact*.
 
     Returns:
-        A :class:`holdfast.Runs`. A row with NaN is undecided; a single start with NaN raises.
+        A :class:`holdfast.Runs`. A row with NaN is undecided.
 
     Raises:
-        InputError: Wrong shapes, joints or options.
+        InputError: Wrong shapes, joints or options, or a single start with NaN.
 
-    Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
+    Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rules for the end are ours.
     """
     starts, is_single = as_configurations(law.arm, q0)
     poses, target_components = target_poses(law.task, target)
@@ -150,7 +149,7 @@ def simulate(
     if method not in ("adaptive", "rk4"):
         raise InputError(f"method '{method}' is not known; use adaptive or rk4")
     if cycles and (method != "adaptive" or step is not None):
-        raise InputError("cycles have a method of their own; leave out method and step")
+        raise InputError("method or step is given with cycles, which have a fixed method; leave out method and step")
     if step is not None and method != "rk4":
         raise InputError("step belongs to method='rk4'; the adaptive method takes a tolerance")
     run_limit = time_limit if time_limit is not None else CYCLE_LIMIT if cycles else TIME_LIMIT / law.gain
@@ -160,7 +159,7 @@ def simulate(
             raise InputError(f"{input_name} is {value:g}; it must be a finite number above 0")
     if not MIN_TOLERANCE <= tolerance <= MAX_TOLERANCE:
         raise InputError(
-            f"tolerance is {tolerance:g}; it must be between {MIN_TOLERANCE:g} and {MAX_TOLERANCE:g}, or rest cannot be seen"
+            f"tolerance is {tolerance:g}; it must be between {MIN_TOLERANCE:g} and {MAX_TOLERANCE:g} to detect rest"
         )
     if step_size * law.gain > CLASSIC_RK4.longest_step:
         raise InputError(
@@ -189,7 +188,7 @@ def simulate(
 
 
 def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, start: FloatArray) -> tuple[FloatArray, bool]:
-    """Return the time at which each joint locks (M, n), infinite for never, and whether all runs share it."""
+    """Return the time (M, n) at which each joint locks, infinite for never, and whether all runs share it."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
         if locked.ndim == 2:
@@ -231,9 +230,9 @@ def _read_lock_times(law: Law, locked: Locked | NDArray[Any], time: ArrayLike, s
 def _read_scheduled_lock_times(law: Law, faults: LockSchedule, locked: Any) -> tuple[FloatArray, bool]:
     """Return the lock times of sampled faults, and whether all runs share them."""
     if not hasattr(faults, "times_of"):
-        raise InputError(f"faults is {faults!r}; give those of an episode, by draw, or of many, by batch")
+        raise InputError(f"faults is {faults!r}; give sampled faults: those of one episode by draw, or of many by batch")
     if np.size(locked):
-        raise InputError("locked does not go with faults, which say what locks; leave one of them out")
+        raise InputError("locked is given with faults, which already determine the locks; leave one of them out")
     times = faults.times_of(law.arm.joint_names)
     return np.atleast_2d(times), times.ndim == 1
 
@@ -262,10 +261,10 @@ def _check_lock_times(law: Law, locked: NDArray[Any]) -> FloatArray:
 def _add_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
     """Return the runs with their contacts, stopped at the first contact if required, and otherwise unchanged.
 
-    Every run is simulated again, one after the other; of one that repeats its motion the first 200/Ke are checked.
+    The runs are simulated again, one at a time. If a run repeats its motion, its first 200/Ke are checked.
     """
     contacts: list[Contact] = []
-    for run in track("runs looked at for contacts", range(len(runs))):
+    for run in track("runs checked for contacts", range(len(runs))):
         if runs.reason[run] != Reason.BAD_INPUT:
             end_time = runs.checked_until(run)
             time, motion = runs._simulator.replay_run(runs, run, end_time)
@@ -276,7 +275,7 @@ def _add_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
 
 
 def _stop_at_contacts(runs: Runs, clearance: Clearance) -> Runs:
-    """Return runs that end at their first contact: all joints are locked from then on."""
+    """Return runs that end at their first contact, from which on all joints are locked."""
     stop_times = np.array([np.inf if contact is None else contact.time for contact in runs.first_contacts])
     stop_times = np.ceil(stop_times) if runs.cycles else stop_times
     runs = replace(runs, stopped=stop_times)

@@ -1,6 +1,6 @@
-"""The closed loop in discrete control cycles: the command is constant for a cycle while the arm follows the law.
+"""Closed loop in discrete control cycles, in which the command is constant while the arm follows the law.
 
-Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 4; the sub-steps and the rule that stops are ours.
+Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 4; the sub-steps and the stopping rule are ours.
 """
 
 from __future__ import annotations
@@ -31,24 +31,24 @@ from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
 
 SUBSTEPS_PER_CYCLE = 10
-REST_TRAVEL_FRACTION = 2e-5  # of a cycle's way at the speed limit
-REST_TRAVEL_LENGTHS = 1e-6  # of the arm's own unit of length where there is no limit
-REST_CYCLES = 50  # cycles one after the other in which the end effector moved less than that: at rest
+REST_TRAVEL_FRACTION = 2e-5  # fraction of the travel in a cycle at the speed limit, below which the end effector is still
+REST_TRAVEL_LENGTHS = 1e-6  # travel without a speed limit, in the arm's unit of length
+REST_CYCLES = 50  # consecutive cycles with a still end effector after which the arm is at rest
 
 
 class CycleStepper:
     """Sub-steps of control cycles of one system, as a loop over states.
 
-    A state holds the configuration ``q``; the number of the ``substep``, the ``command`` held and where the end effector was
-    (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector was ``still``; and, as for
-    :class:`holdfast.control.simulation.runge_kutta.RungeKuttaStepper`, path, closest approach, joint excursions, speeds and
-    code.
+    A state contains the configuration ``q``; the number of the ``substep``, the ``command`` of the cycle and the position of
+    the end effector (``place``) at its beginning; the ``time`` in cycles; the number of cycles for which the end effector was
+    ``still``; and path, closest approach, joint excursions, speeds and code as for
+    :class:`holdfast.control.simulation.runge_kutta.RungeKuttaStepper`.
 
-    Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``accuracy``, which is the radius of
-    the target.
+    The parameters of a row, after those of the system, are ``until`` and ``limit``, cycles, and the ``accuracy``, which is the
+    radius of the target.
     """
 
-    calls_per_step = 1  # of single in a step
+    calls_per_step = 1  # calls of single_step in a step
     is_staged = False
 
     def __init__(self, system: FailedArmSystem) -> None:
@@ -102,12 +102,12 @@ class CycleStepper:
             "clock": time,
         }
         moved_parts |= choose_parts(is_first, track_final_speeds(started, speed, parts["time"], self._limit), started)
-        # A singular configuration makes the rates NaN, and the comparison false: the arm stays where it was.
+        # A singular configuration makes the rates NaN and the comparison false, so the arm stays at its configuration.
         next_parts = choose_parts(ca.sumsqr(q) < 1e30, moved_parts, {**started, "code": ca.SX(STATE_COLLAPSED)})
         return choose_parts(started["code"] == STATE_RUNNING, next_parts, started)
 
     def _start_cycle(self, parts: dict[str, SX], task_error: SX, velocity: SX) -> dict[str, SX]:
-        """Return the parts that are recorded, and the code that is decided, where a cycle begins."""
+        """Return the parts that are recorded, and the code that is decided, at the beginning of a cycle."""
         position = kinematics.kinematic_chain(self.system.law.arm, parts["q"]).position
         travel = ca.if_else(parts["time"] > 0, ca.sqrt(ca.sumsqr(position - parts["place"])), 0.0)
         rest_cycles = ca.if_else(ca.logic_and(parts["time"] > 0, travel < self._rest_distance), parts["still"] + 1, 0.0)
@@ -125,7 +125,7 @@ class CycleStepper:
             "still": rest_cycles,
             "code": code,
         }
-        # The next phase begins this cycle again with another joint locked: nothing may be noted twice.
+        # The next phase begins this cycle again with another joint locked, so nothing may be recorded twice.
         is_phase_end = ca.logic_and(parts["time"] >= self._until, parts["time"] < self._limit)
         next_parts = choose_parts(is_phase_end, {**parts, "code": ca.SX(STATE_PHASE_END)}, started_parts)
         return choose_parts(parts["code"] == STATE_RUNNING, next_parts, parts)

@@ -1,4 +1,4 @@
-"""The errors of the end effector over one run: the largest after the lock, and those some time later."""
+"""Errors of the end effector over one run: the largest after the lock, and those some time later."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.typing import FloatArray
 
 REPORT_DELAYS = (1.0, 10.0, 60.0)  # s, or cycles, after the first lock
-_SAMPLES_PER_RUN = 20_000  # of a run, about: more where its integrator took more steps
+_SAMPLES_PER_RUN = 20_000  # approximate; more if the integrator took more steps
 
 
 class ErrorKind(NamedTuple):
-    """One of the two errors of the end effector, and its unit for people."""
+    """One of the two errors of the end effector, with its names and units."""
 
     name: Literal["position_error", "angle_error"]  # attribute of the results that have it, in m or rad
     key: str  # name with the unit, for files
-    text: str  # name for people
-    unit: str  # unit for people
+    text: str  # name in texts
+    unit: str  # unit in texts
     factor: float  # number of units in 1 m or 1 rad
     whole: str  # part of the target from which the error is measured
 
@@ -47,24 +47,24 @@ def display_errors(law: Law, q: FloatArray, error: FloatArray, target: FloatArra
 
 @dataclass(frozen=True)
 class ErrorAt:
-    """The error at one time."""
+    """Error of the end effector at one time."""
 
     time: float  # s, or cycles
     position: float  # m
-    angle: float  # rad; 0 where the task has no angular row
+    angle: float  # rad; 0 if the task has no angular row
 
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorHistory:
-    """The errors of one run."""
+    """Errors of one run at its end and at its extremes."""
 
-    lock_time: float  # time of the first lock, s or cycles; 0 where no joint locks
-    end: ErrorAt  # the last error
-    least_position: ErrorAt  # the error where the distance was least, over the whole run
-    least_angle: ErrorAt  # the error where the angle was least, over the whole run
-    largest_position: ErrorAt  # the error where the distance was largest, from the first lock on
-    largest_angle: ErrorAt  # the error where the angle was largest, from the first lock on
-    later: tuple[ErrorAt, ...]  # the errors 1, 10, and 60 s (or cycles) after the first lock, as far as the run is known then
+    lock_time: float  # time of the first lock, s or cycles; 0 if no joint locks
+    end: ErrorAt  # error at the end
+    least_position: ErrorAt  # error at the least distance, over the whole run
+    least_angle: ErrorAt  # error at the least angle, over the whole run
+    largest_position: ErrorAt  # error at the largest distance, from the first lock on
+    largest_angle: ErrorAt  # error at the largest angle, from the first lock on
+    later: tuple[ErrorAt, ...]  # errors 1, 10, and 60 s (or cycles) after the first lock, as far as the run lasts
 
 
 def error_history(runs: Runs, run: int = 0) -> ErrorHistory:
@@ -107,9 +107,9 @@ def error_history(runs: Runs, run: int = 0) -> ErrorHistory:
 
 
 def least_errors(runs: Runs, run: int = 0) -> tuple[float, float]:
-    """Find the position error, m, and the angle error, rad, where run k's failed arm is as near to its target as it can be.
+    """Find the position error, m, and the angle error, rad, of run k's failed arm at its least error.
 
-    Both are those of :meth:`Runs.least_error`, of the norm over metres and radians.
+    The least error is that of :meth:`Runs.least_error`, a norm over metres and radians.
     """
     _, nearest = runs._simulator.least_error(runs, 24, np.random.default_rng(0))
     position, angle = runs._simulator.compute_errors(runs, run, nearest[run : run + 1])

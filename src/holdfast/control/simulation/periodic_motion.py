@@ -1,8 +1,8 @@
-"""Evidence that a motion repeats itself forever: it returns to the same configuration with the same velocity.
+"""Detection of motions that repeat themselves forever, by a return to the same configuration with the same velocity.
 
-A motion under way at its time limit, or after its last step, may yet stop. It never stops if it is on a closed orbit. The
-rates of a kinematic arm follow from its configuration, so a return to the same configuration, modulo whole turns, is a
-return to the same velocity. The distance that remains between two passages measures how far the motion would drift later.
+A motion that has not stopped at its time limit, or after its last step, may still stop later. It never stops if it is on a
+closed orbit. The rates of a kinematic arm follow from its configuration, so a return to the same configuration, modulo full
+turns, is a return to the same velocity. The distance between two passages measures how far the motion would drift later.
 """
 
 from __future__ import annotations
@@ -13,30 +13,30 @@ from holdfast.control.simulation.runge_kutta import RungeKuttaStepper
 from holdfast.control.simulation.system import LARGE_NUMBER, STATE_RUNNING
 from holdfast.core.typing import BoolArray, FloatArray
 
-_STEPS_PER_ROUND = 1500  # of the integrator: a period is no longer
-_MAX_STRETCHES = 3  # stretches of so many steps, one after the other: the motion may still be approaching its orbit
+_STEPS_PER_ROUND = 1500  # steps of the integrator in a round, the longest period that can be found
+_MAX_STRETCHES = 3  # consecutive rounds, because the motion may still be approaching its orbit
 _RETURN_TIME_STEPS = 6  # corrections of the time of a return
-_MAX_CALLS = 400  # calls in each
-_GROUP_RUNS = 32  # at a time, whose ways are kept
-_RETURN_TOLERANCE = 0.1  # of the motion's extent: a return that misses by more is none
-_MAX_DRIFT = 1e-2  # of the motion's extent: the most that it may drift within the horizon
+_MAX_CALLS = 400  # calls in each correction
+_GROUP_RUNS = 32  # runs whose paths are kept at a time
+_RETURN_TOLERANCE = 0.1  # fraction of the motion's extent by which a return may miss
+_MAX_DRIFT = 1e-2  # fraction of the motion's extent by which it may drift within the horizon
 DRIFT_HORIZON = 1e5  # 1/Ke, after the end of the run
 
 
 def detect_periodic(
     stepper: RungeKuttaStepper, states: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
 ) -> BoolArray:
-    """Find the periodic motions: those that return to an earlier configuration, always faster than ``min_speed``.
+    """Find the motions that return to an earlier configuration and are always faster than ``min_speed``.
 
     Args:
         stepper: The compiled steps.
-        states: (N, s) of runs that are under way.
-        parameters: (N, p) of the steps.
-        is_revolute: (n,) joints of which the values count modulo whole turns.
-        min_speed: rad (and m) per 1/Ke; a motion that falls to it may stop.
+        states: (N, s) states of runs that still move.
+        parameters: (N, p) parameters of the steps.
+        is_revolute: (n,) True for joints whose values count modulo full turns.
+        min_speed: Speed below which a motion may stop, rad (and m) per 1/Ke.
 
     Returns:
-        (N,) True where the drift from period to period, over :data:`DRIFT_HORIZON` or until the run's own limit if that is
+        (N,) True if the drift from period to period, over :data:`DRIFT_HORIZON` or until the run's own limit if that is
         later, stays below a hundredth of the motion's extent.
     """
     groups = [slice(first, first + _GROUP_RUNS) for first in range(0, len(states), _GROUP_RUNS)]
@@ -79,7 +79,7 @@ def _record_steps(stepper: RungeKuttaStepper, states: FloatArray, parameters: Fl
 def _measure_drift(
     stepper: RungeKuttaStepper, trajectory: FloatArray, parameters: FloatArray, is_revolute: BoolArray, min_speed: float
 ) -> float:
-    """Return the drift per 1/Ke of a motion with states (T, s), in units of its extent; infinite where it does not return."""
+    """Return the drift per 1/Ke of a motion with states (T, s) in units of its extent; infinite if it does not return."""
     samples = stepper.layout.view_parts(trajectory)
     if (samples["code"] != STATE_RUNNING).any():
         return np.inf
@@ -105,7 +105,7 @@ def _find_return_time(
     layout, parameters = stepper.layout, parameters[None].copy()
     start_parts, earlier = layout.view_parts(start[None]), nearby[None].copy()
     if stepper.is_staged:
-        layout.view_parts(earlier)["stage"][:] = 0  # a step under way begins again, as its length will change
+        layout.view_parts(earlier)["stage"][:] = 0  # an unfinished step begins again, because its length will change
     direction, earlier_parts = start_parts["rates"][0], layout.view_parts(earlier)
     time = float(earlier_parts["time"][0, 0])
     earliest, current = time, earlier_parts

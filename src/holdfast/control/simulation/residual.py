@@ -1,4 +1,4 @@
-"""Damped least squares over the healthy joints of a failed arm: configurations that reach a target, and the least error."""
+"""Damped least squares over the healthy joints of a failed arm, for configurations at a target and for the least error."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _MAX_DAMPING = 1e8
 
 
 class ErrorMinimiser:
-    """The compiled search for the least error of one arm and task.
+    """Compiled search for the least error of one arm and task.
 
-    A step is tried with the damping of Levenberg and Marquardt and kept if it lowers the error, so that the search ends at a
-    least error also where the target is out of reach.
+    A Levenberg-Marquardt step is accepted if it reduces the error, so the search ends at a least error even if the target is
+    out of reach.
     """
 
     def __init__(self, system: FailedArmSystem) -> None:
@@ -46,7 +46,7 @@ class ErrorMinimiser:
         state = ca.SX.sym("state", n + 1)
         q, damping = state[:n], state[n]
         error, jacobian = system.error_and_jacobian(q)
-        # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
+        # The least sum of squares over metres and radians depends on the unit of length; that over lengths alone does not.
         length_unit = 1.0 if system.law.task.angular else self._arm.length_unit
         error, jacobian = error / length_unit, jacobian / length_unit
         healthy_jacobian = jacobian @ ca.diag(system.mask)
@@ -73,17 +73,16 @@ class ErrorMinimiser:
         )
 
     def compute_error_norms(self, q: FloatArray, poses: FloatArray) -> FloatArray:
-        """Return (N,) norms of the task's error, m and rad."""
+        """Return the norms (N,) of the task's error, m and rad."""
         return self._error_kernel.rows(q, poses[:, :3, 3], poses[:, :3, :3])[:, 0]
 
     def search(
         self, q: FloatArray, poses: FloatArray, healthy_mask: FloatArray, restarts: int, generator: np.random.Generator
     ) -> tuple[FloatArray, FloatArray]:
-        """Find the least norms of the error (N,) at poses (N, 4, 4) from q (N, n) and from random values of the healthy joints,
-        whose mask (N, n) is 1.
+        """Find the least errors at poses (N, 4, 4) from q (N, n) and from random values of the healthy joints.
 
         Returns:
-            The norms, and (N, n) configurations that have them.
+            Norms (N,) of the errors, m and rad, and configurations (N, n) with these errors.
         """
         run_count, n = q.shape
         parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), healthy_mask], axis=1)
@@ -104,7 +103,7 @@ class ErrorMinimiser:
 
 
 class SolutionSearch:
-    """The compiled search for configurations at a target, ``dq = J_H' (J_H J_H' + 1e-3 |e|^2 + 1e-14)^-1 e``."""
+    """Compiled search for configurations at a target by ``dq = J_H' (J_H J_H' + 1e-3 |e|^2 + 1e-14)^-1 e``."""
 
     def __init__(self, law: Law) -> None:
         self._system = FailedArmSystem(law)
@@ -128,5 +127,5 @@ class SolutionSearch:
 
 @lru_cache(maxsize=16)
 def solution_search(law: Law) -> SolutionSearch:
-    """Return the search for a law, compiled once."""
+    """Return the search for a law, which is compiled once and cached."""
     return SolutionSearch(law)

@@ -1,7 +1,7 @@
-"""Explicit Runge-Kutta steps with a step size for each row of a batch, each step a straight-line program.
+"""Explicit Runge-Kutta steps as straight-line programs, with a separate step size for each row of a batch.
 
-The step-size control is part of the program, so that a batch needs nothing but its repetition. A law of many operations is
-evaluated once per call instead of once per stage: compiling it a dozen times over would take minutes.
+The program includes the step-size control, so simulating a batch only repeats it. A law of many operations is evaluated once
+per call instead of once per stage, because compiling it a dozen times would take minutes.
 
 Source: Hairer, Norsett, Wanner 1993, section II.4 for the control, II.10 for the error estimate of DOP853.
 """
@@ -41,25 +41,25 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
-MIN_STEP_SIZE = 1e-12  # of 1/Ke: steps this short lead nowhere
-SPEED_TOLERANCE_RATIO = 1e-4  # 1/Ke: the tolerance is at most so much of the speed
-MIN_SPEED_TOLERANCE = 1e-12  # rad (and m): the finest such tolerance
-MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would see too little of the way
-FIRST_STEP_SIZE = 0.5  # of 1/Ke
-_STAGED_OPERATIONS = 1250  # operations of one evaluation: beyond, stages are taken one at a time
-_EVALUATIONS_PER_CALL = 32  # in one call, about
+MIN_STEP_SIZE = 1e-12  # 1/Ke: a motion with shorter steps makes no progress
+SPEED_TOLERANCE_RATIO = 1e-4  # 1/Ke: largest ratio of the tolerance to the speed
+MIN_SPEED_TOLERANCE = 1e-12  # rad (and m): smallest tolerance from this ratio
+MAX_STEP_TRAVEL_RAD = 0.5  # rad (and m): a longer step would sample the path too coarsely
+FIRST_STEP_SIZE = 0.5  # 1/Ke
+_STAGED_OPERATIONS = 1250  # operations of one evaluation above which a call computes a single stage
+_EVALUATIONS_PER_CALL = 32  # approximate number of evaluations in one call
 
 
 class RungeKuttaStepper:
     """Runge-Kutta steps of one system under one method, as a loop over states.
 
-    A state holds the configuration ``q`` and what is known there (``rates``, tool speed, ``share``, ``error`` squared
-    and its ``slope``); the next step ``h`` and the ``time``, both in 1/Ke; the ``clock``, which counts time as if no speed
-    limit slowed the motion; the ``path`` of the end effector, m; the ``closest`` squared error so far; the least and greatest
-    joint values ``low`` and ``high``; the speeds ``slowest``, ``early`` and ``late`` of the end; and its ``code``.
+    A state contains the configuration ``q`` with its ``rates``, tool speed, ``share`` (speed fraction), squared ``error`` and
+    its ``slope``; the next step ``h`` and the ``time``, both in 1/Ke; the ``clock``, which is the time without the speed limit;
+    the length ``path`` of the end effector's path, m; the ``closest`` squared error so far; the least and greatest joint
+    values ``low`` and ``high``; the speeds ``slowest``, ``early`` and ``late`` near the end; and the ``code``.
 
-    Parameters of a row, after those of the system: ``until``, the time at which the phase ends; the ``limit`` of the clock;
-    the ``accuracy`` of a step, rad (and m).
+    The parameters of a row, after those of the system, are ``until``, the time at which the phase ends; the ``limit`` of the
+    clock; and the ``accuracy`` of a step, rad (and m).
     """
 
     def __init__(self, system: FailedArmSystem, tableau: Tableau) -> None:
@@ -94,7 +94,7 @@ class RungeKuttaStepper:
 
     @property
     def is_staged(self) -> bool:
-        """True if the loop takes one stage at a time; before a motion a stage -1 then records the values at its start."""
+        """True if the loop computes one stage at a time; a stage -1 then records the values at the start of a motion."""
         return self.loop.size == self._layouts[1].size
 
     @property
@@ -104,13 +104,13 @@ class RungeKuttaStepper:
 
     @property
     def calls_per_step(self) -> int:
-        """Calls of :attr:`single_step` in a step."""
+        """Number of calls of :attr:`single_step` in a step."""
         return len(self.tableau.rows) if self.is_staged else 1
 
     @cached_property
     @cached_kernel
     def single_step(self) -> Kernel:
-        """Kernel of one step of a state, or of one stage of it, for callers that need every one."""
+        """Kernel of one step of a state, or of one of its stages, for callers that need every step."""
         symbol = ca.SX.sym("state", self.layout.size)
         next_parts = (self._build_stage if self.is_staged else self._build_step)(self.layout.split_symbol(symbol))
         return Kernel("one step", [symbol, *self.parameters.symbols], [self.layout.join_parts(next_parts)])
@@ -152,7 +152,7 @@ class RungeKuttaStepper:
             ("hands", stage_rates.tool_speed, 1),
             ("shares", stage_rates.speed_fraction, 1),
         ):
-            # A NaN in the state would stay there; a number this large has the step rejected.
+            # A NaN would stay in the state, whereas a number this large makes the step rejected.
             bounded_value = ca.if_else(is_finite, value, 1e30)
             old_value = parts[name]
             stored_parts[name] = ca.vertcat(
@@ -181,23 +181,23 @@ class RungeKuttaStepper:
         end_position: SX,
         end_rates: StateRates,
     ) -> dict[str, SX]:
-        """Return the state after a step, or the old state with a shorter step where the step was rejected."""
+        """Return the state after a step, or the old state with a shorter step if the step was rejected."""
         weights = self.tableau.rows[-1]
         is_running = parts["code"] == STATE_RUNNING
         joint_speed = ca.sqrt(ca.sumsqr(end_rates.rates))
         if self.tableau.errors:
-            # Beside a singularity a stationary point pulls so strongly that errors allowed elsewhere would keep the arm moving.
+            # Close to a singularity a stationary point attracts so strongly that usual errors would keep the arm moving.
             speed_tolerance = elementwise_max(SPEED_TOLERANCE_RATIO * ca.sqrt(ca.sumsqr(parts["rates"])), MIN_SPEED_TOLERANCE)
             relative_error = self._estimate_error(h, rates) / elementwise_min(self._tolerance, speed_tolerance) ** 2
-            # A stage that met a singularity makes the estimate NaN, and every comparison with it false. The estimate does not
-            # know the derivative at the end, with which the next step begins.
+            # A stage at a singularity makes the estimate NaN and every comparison with it false. The estimate does not include
+            # the derivative at the end, with which the next step begins.
             is_usable = ca.logic_and(relative_error < 1e20, ca.sumsqr(end_rates.rates) < LARGE_NUMBER)
             is_accepted = ca.logic_and(relative_error <= 1, is_usable)
             error_root = ca.if_else(is_usable, relative_error, 1.0) + 1e-20
-            for _ in range(4):  # of the squared error of a method of order 8
+            for _ in range(4):  # 16th root of the squared error, for a method of order 8
                 error_root = ca.sqrt(error_root)
             factor = ca.if_else(is_usable, elementwise_min(elementwise_max(0.9 / error_root, 0.2), 10.0), 0.2)
-            # A step cut short by the end of its phase says nothing against the step that was planned.
+            # A step that the end of its phase shortened is no reason to reduce the planned step.
             grown_step = ca.if_else(h < parts["h"], elementwise_max(h * factor, parts["h"]), h * factor)
             longest_step = MAX_STEP_TRAVEL_RAD / elementwise_max(joint_speed, MAX_STEP_TRAVEL_RAD / self.tableau.longest_step)
             next_step = ca.if_else(is_accepted, elementwise_min(grown_step, longest_step), h * factor)
@@ -228,14 +228,14 @@ class RungeKuttaStepper:
             **track_final_speeds(parts, speed, clock, self._limit),
             "code": code,
         }
-        # Everything else stays as it was, also where the run has ended.
+        # All other parts keep their values, also after the end of a run.
         code = ca.if_else(is_running, ca.if_else(next_step < MIN_STEP_SIZE, STATE_COLLAPSED, STATE_RUNNING), parts["code"])
         return choose_parts(ca.logic_and(is_running, is_accepted), moved_parts, {**parts, "h": next_step, "code": code})
 
     def _update_extremes(
         self, parts: dict[str, SX], h: SX, rates: list[SX], end_position: SX, end_rates: StateRates
     ) -> tuple[SX, SX, SX]:
-        """Return the least squared error and the least and greatest joint values so far, within steps and their halves too."""
+        """Return the least squared error and the least and greatest joint values so far, also within steps and half steps."""
         points = [(parts["q"], parts["rates"], parts["error"], parts["slope"])]
         if self.tableau.middle:
             middle_step, middle_rates = (_weighted_sum(weights, [*rates, end_rates.rates]) for weights in self.tableau.middle)
@@ -262,7 +262,7 @@ class RungeKuttaStepper:
 
 
 def _weighted_sum(weights: Sequence[SX | float], values: Sequence[SX]) -> SX:
-    """Return a weighted sum; weights that are the number 0 cost nothing."""
+    """Return a weighted sum, which omits weights that are the number 0."""
     total = ca.SX(0)
     for weight, value in zip(weights, values, strict=True):
         if not (isinstance(weight, float) and weight == 0):

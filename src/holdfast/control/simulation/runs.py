@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from holdfast.model.collision.contacts import Contact
 
 
-CHECKED_SPAN = 200.0  # 1/Ke: the part of a motion that repeats itself which is checked for contacts
+CHECKED_SPAN = 200.0  # 1/Ke: duration for which a motion that repeats itself is checked for contacts
 
 
 class RunOutcome(SentenceEnum):
@@ -39,20 +39,20 @@ class RunOutcome(SentenceEnum):
 
 
 class Reason(SentenceEnum):
-    """Reason for which a run is undecided, next to its :class:`RunOutcome`; ``NONE`` where it is decided. It is no status.
+    """Reason for which a run is undecided, in addition to its :class:`RunOutcome`; ``NONE`` if it is decided.
 
-    ``CONTACT`` is of runs that were stopped where they touched something.
+    ``CONTACT`` marks runs that were stopped at a contact. A reason is not a :class:`holdfast.Status`.
     """
 
     NONE = 0, "decided"
     SINGULAR = 1, "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing"
     TIME_LIMIT = 2, "still moving at the time limit, and not found to repeat the motion: give a longer time_limit"
-    STEPS = 3, "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()"
+    STEPS = 3, "the motion took 100,000 steps, as it does close to a singular configuration: inspect it with path()"
     BAD_INPUT = 4, "the start, the target or a lock held NaN or infinity: look at where it came from"
     HALF_TURN = (
         5,
-        "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
-        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
+        "the end effector was half a turn from its target, where the direction of the shortest rotation keeps changing and the "
+        "steps shrink to almost nothing: approach the orientation of the target by poses in between, or leave the "
         "orientation free",
     )
     CONTACT = 6, "the arm was stopped where it first touched something"
@@ -63,16 +63,16 @@ UNDECIDED_REASONS = tuple(reason for reason in Reason if reason not in (Reason.N
 
 @dataclass(frozen=True)
 class RunPath:
-    """One run over time.
+    """One run at T sampled times.
 
     Attributes:
-        time: (T,) s, or cycles.
-        q: (T, n) rad and m.
+        time: (T,) simulated time, s or cycles.
+        q: (T, n) configuration, rad and m.
         x: (T, 3) tool point in the world, m.
         error: (T,) norm of the task's error, m and rad.
         position_error: (T,) distance of the tool point from the target in the directions of the task, m.
         angle_error: (T,) angle of the end effector from the target in the directions of the task, rad.
-        locked: (T, n) True where the joint is locked.
+        locked: (T, n) True if the joint is locked.
     """
 
     time: FloatArray
@@ -87,7 +87,7 @@ class RunPath:
 
 @dataclass(frozen=True)
 class RunSettings:
-    """Settings with which runs were made."""
+    """Settings with which runs were simulated."""
 
     time_limit: float  # s, or cycles
     accuracy: float  # tolerance of a step, or radius of the target in cycles
@@ -107,29 +107,30 @@ class _Simulator(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Runs(Result):
-    """N runs of the closed loop, or one (then without the leading N).
+    """Result of N simulated runs of the closed loop; for a single run, arrays lack the axis N.
 
-    Norms of errors put metres and radians of the task's rows side by side, as the law's own command does.
+    Norms of errors combine metres and radians of the task's rows with equal weights, as in the command of the law.
 
     Attributes:
-        law: The law of the controller.
-        q0: (N, n) starts, rad and m.
-        target: (N, 4, 4), or (N, m) where it was given so.
-        lock_time: (N, n) when each joint locks, s or cycles; 0 from the start, infinite: never.
-        cycles: Time counts in control cycles.
-        code: (N,) :class:`holdfast.control.simulation.RunOutcome`.
-        reason: (N,) :class:`holdfast.control.simulation.Reason`.
-        q_final: (N, n) where the run ended, not wrapped.
-        x_final: Where the end effector ended, in the form of ``target``.
-        error: (N,) norm of the task's error at the end.
-        closest: (N,) least norm of the error on the way.
-        path_length: (N,) m, of the tool point.
-        q_low, q_high: (N, n) least and greatest value of each joint on the way.
-        limits_passed: (N, n) True where a joint left its limits; the motion does not heed them.
-        time: (N,) s, or cycles, when it ended.
-        clearance: What the arm was to keep clear of, or None: then nobody looked. It changes no run that is not stopped.
-        contacts: First of each pair that touches, of all runs, in order of run and time; None if nobody looked.
-        stopped: (N,) when a run was stopped at its first contact, infinite for never; None if none was to be.
+        law: The control law.
+        q0: (N, n) configurations at the start, rad and m.
+        target: (N, 4, 4) tool poses in the world, or (N, m) task components in m, as in the call.
+        lock_time: (N, n) time at which each joint locks, s or cycles; 0 from the start, infinite for never.
+        cycles: True if time is counted in control cycles.
+        code: (N,) :class:`holdfast.control.simulation.RunOutcome` of each run.
+        reason: (N,) :class:`holdfast.control.simulation.Reason` of each run.
+        q_final: (N, n) configuration at the end, rad and m, not wrapped.
+        x_final: Poses or task components of the end effector at the end, in the form of ``target``.
+        error: (N,) norm of the task's error at the end, m and rad.
+        closest: (N,) least norm of the error during the run, m and rad.
+        path_length: (N,) length of the path of the tool point, m.
+        q_low: (N, n) least value of each joint during the run, rad and m.
+        q_high: (N, n) greatest value of each joint during the run, rad and m.
+        limits_passed: (N, n) True if a joint left its limits, which the motion does not enforce.
+        time: (N,) simulated time at the end, s or cycles.
+        clearance: Collision model for the check of contacts; None if they were not checked. It only changes stopped runs.
+        contacts: First contact of each pair in all runs, in order of run and time; None if contacts were not checked.
+        stopped: (N,) time at which a run was stopped at its first contact, infinite for never; None without such stops.
     """
 
     law: Law
@@ -159,7 +160,7 @@ class Runs(Result):
 
     @property
     def outcome(self) -> NDArray[np.str_]:
-        """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
+        """(N,) outcome of each run as text: ``converged``, ``stuck``, ``moving`` or ``undecided``."""
         return np.asarray(_OUTCOME_NAMES[self.code])
 
     @property
@@ -182,18 +183,18 @@ class Runs(Result):
 
     @property
     def held_from(self) -> FloatArray:
-        """(N, n) when each joint stops for good, by its lock or because the run was stopped, s or cycles."""
+        """(N, n) time from which on each joint is held, by its lock or because the run was stopped, s or cycles."""
         lock_times = np.atleast_2d(self.lock_time)
         return lock_times if self.stopped is None else np.minimum(lock_times, np.atleast_1d(self.stopped)[:, None])
 
     @property
     def first_contacts(self) -> tuple[Contact | None, ...]:
-        """(N,) first contact of each run; None where it touches nothing, or contacts were not checked."""
-        contact_by_run = {contact.run: contact for contact in reversed(self.contacts or ())}  # of each run the first comes last
+        """(N,) first contact of each run; None for a run without contact, or if contacts were not checked."""
+        contact_by_run = {contact.run: contact for contact in reversed(self.contacts or ())}  # the first of a run remains
         return tuple(contact_by_run.get(run) for run in range(len(self)))
 
     def ending_sentence(self, k: int = 0) -> str:
-        """Return how run k ended, a phrase about the end effector that names the time limit where the limit ended the run."""
+        """Return a phrase on how run ``k`` ended, for the subject *end effector*; it names a time limit that ended the run."""
         reason = Reason(int(np.atleast_1d(self.reason)[k]))
         if reason == Reason.TIME_LIMIT:
             return f"is still moving at the limit of {self._settings.time_limit:.6g} {self.unit}"
@@ -202,11 +203,14 @@ class Runs(Result):
 
     @property
     def unit(self) -> str:
-        """Unit of time: ``s``, or ``cycles``."""
+        """Unit of time, which is ``s`` or ``cycles``."""
         return "cycles" if self.cycles else "s"
 
     def checked_until(self, k: int = 0) -> float:
-        """Return the time up to which run k is checked for contacts, s or cycles: its end, unless it repeats its motion."""
+        """Return the time up to which run ``k`` is checked for contacts, s or cycles.
+
+        This is its end, or at most 200/Ke if the run repeats its motion.
+        """
         end_time, is_periodic = float(np.atleast_1d(self.time)[k]), np.atleast_1d(self.code)[k] == RunOutcome.MOVING
         return min(end_time, CHECKED_SPAN / self.law.gain) if is_periodic else end_time
 
@@ -216,16 +220,19 @@ class Runs(Result):
         return {str(name): int(count) for name, count in zip(_OUTCOME_NAMES, run_counts, strict=True)}
 
     @check_arguments
-    @reports_progress("looking for the least errors")
+    @reports_progress("searching for the least errors")
     def least_error(self, restarts: int = 24, seed: int = 0) -> FloatArray:
-        """Return (N,) the least norm of the task's error that each arm can have with its joints locked where they were at the
-        end.
+        """Find the least norm (N,) of the task's error, m and rad, that each arm can have with the joints locked at the end.
 
-        Found by damped least squares over the healthy joints, starting where the run ended and from random configurations,
-        joint limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
+        Damped least squares over the healthy joints start at the end of the run and at random configurations. Joint limits are
+        ignored, as in the run. The result is an upper bound of the true least error, and never above the error of the run.
+
+        Args:
+            restarts: Number of random configurations from which the search starts, 0 or more.
+            seed: Seed of these configurations.
 
         Raises:
-            InputError: Fewer than 0 restarts.
+            InputError: There are fewer than 0 restarts.
         """
         if restarts < 0:
             raise InputError(f"restarts is {restarts}; it must be 0 or more")
@@ -234,23 +241,25 @@ class Runs(Result):
 
     @property
     def excess_error(self) -> FloatArray:
-        """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
+        """(N,) error at the end minus :meth:`least_error`, m and rad; 0 if the arm ends as close as it still can."""
         return np.asarray(self.error - self.least_error())
 
     @check_arguments
     def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> RunPath:
-        """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
+        """Simulate run k again, and sample it at equal times.
+
+        Each sample is as accurate as the run itself; in cycles it is interpolated linearly between the sub-steps.
 
         Args:
-            k: Which run, from 0.
-            samples: How many.
-            until: Up to this time, s or cycles; the whole run if not given.
+            k: Index of the run, from 0.
+            samples: Number of samples, 2 or more.
+            until: Time of the last sample, s or cycles. Default: the end of the run.
 
         Raises:
-            InputError: No such run, one that had bad input, or fewer than 2 samples.
+            InputError: There is no such run, it had bad input, or there are fewer than 2 samples.
         """
         if not 0 <= k < len(self):
-            raise InputError(f"there is no run {k}; runs are 0 to {len(self) - 1}")
+            raise InputError(f"there is no run {k}; give an index from 0 to {len(self) - 1}")
         if samples < 2:
             raise InputError(f"samples is {samples}; it must be 2 or more")
         if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
@@ -258,19 +267,19 @@ class Runs(Result):
         return self._simulator.path(self, k, samples, until)
 
     def to_csv(self, file: str | File, k: int = 0) -> File:
-        """Write run k as rows over time, from its start to its end: joint positions, tool point (m), position and angle error.
+        """Write run ``k`` to ``file`` as rows over time: joint positions, tool point (m), position and angle error.
 
         Raises:
-            InputError: No such run.
-            StoreError: It cannot be written.
+            InputError: There is no such run.
+            StoreError: The file cannot be written.
         """
         written: File = self._present("to_csv", File(file), k)
         return written
 
     def limits_sentence(self, k: int = 0) -> str:
-        """Return whether the joints of run k stayed within their limits, as a sentence; empty for an arm without limits.
+        """Return a sentence on whether the joints of run ``k`` stayed within their limits; empty for an arm without limits.
 
-        It goes with the outcome and does not follow from it: the motion does not heed limits.
+        The sentence supplements the outcome, because the motion does not enforce limits.
         """
         arm, lowest, highest = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
         if not np.isfinite([arm.lower, arm.upper]).any():
@@ -289,7 +298,7 @@ class Runs(Result):
         return f"On the way {' and '.join(violations)}: a real arm would stop there."
 
     def contact_sentence(self, k: int | None = None) -> str:
-        """Return the first contact of run k, or the number of runs in contact with each object; empty if none were checked."""
+        """Return a sentence on the first contact of run ``k``, or for None on all runs; empty if contacts were not checked."""
         if self.contacts is None:
             return ""
         if k is None and len(self) > 1:

@@ -1,9 +1,9 @@
-"""The failed arm as a system of differential equations, and the values that are recorded along a motion.
+"""Differential equations of a failed arm, and the values that are recorded along a motion.
 
-The controller knows of no failure: it commands ``G(q) Ke e``, and locked joints do not follow. With ``mask`` 0 for
-a locked joint and 1 for a healthy one, ``q' = mask G(q) Ke e(q)``.
+The controller has no fault information. It commands ``G(q) Ke e``, and locked joints do not follow. With ``mask`` 0 for a
+locked joint and 1 for a healthy one, ``q' = mask G(q) Ke e(q)``.
 
-Time is in units of ``1/Ke`` here, so that thresholds are free of units.
+Time is in units of ``1/Ke`` here, so that thresholds have no units.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (3), (6), (7).
 """
@@ -30,17 +30,17 @@ MAX_UNROLLED_OPERATIONS = 12_000  # operations in one call, about
 
 @dataclass(frozen=True)
 class StateRates:
-    """Rates at one configuration, in units of ``1/Ke``."""
+    """Rates at one configuration, with time in units of ``1/Ke``."""
 
     rates: SX  # (n,) joint rates, 0 for locked joints
     tool_speed: SX  # tool speed, m
-    speed_fraction: SX  # by how much the speed limit slows the command: 1 where it does not act
-    squared_error: SX  # of the task's rows, m and rad
-    squared_error_rate: SX  # its derivative by time
+    speed_fraction: SX  # fraction to which the speed limit reduces the command; 1 if it does not act
+    squared_error: SX  # squared error of the task's rows, m and rad
+    squared_error_rate: SX  # time derivative of the squared error
 
 
 class FailedArmSystem:
-    """The symbols of a law and its target, and the differential equation that they make."""
+    """Symbols of a law and its target, and the differential equation of the failed arm."""
 
     def __init__(self, law: Law) -> None:
         self.law = law
@@ -50,12 +50,12 @@ class FailedArmSystem:
         self.parameters = [self.target, self.rotation, self.mask]
         self._uses_orientation = law.task.angular or law.task.frame != "base"
         self.made_of = law
-        # What the motion needs to know: no orientation where no row of the task has one.
+        # The motion does not need an orientation if no row of the task has one.
         rotation = {"rotation": self.rotation} if self._uses_orientation else {}
         self.inputs = {"target": self.target, **rotation, "mask": self.mask}
 
     def target_input_values(self, target: FloatArray) -> dict[str, FloatArray]:
-        """Return targets, poses (N, 4, 4) or task components (N, m), as the values of ``inputs``, (N, ...), but the mask."""
+        """Return targets, poses (N, 4, 4) or task components (N, m), as values (N, ...) of ``inputs`` except the mask."""
         if target.ndim == 2:
             return {"target": np.asarray(target @ self.law.task.rows[:, :3])}
         rotation = {"rotation": target[:, :3, :3].reshape(-1, 9)} if self._uses_orientation else {}
@@ -87,12 +87,12 @@ class FailedArmSystem:
 
     @cached_property
     def rates_function(self) -> ca.Function:
-        """Function behind :meth:`evaluate_state_rates`, built once because a law takes a second to write down."""
+        """Function behind :meth:`evaluate_state_rates`, built once because the expressions of a law take a second."""
         q = self.q
         error, jacobian = self.error_and_jacobian(q)
         velocity, speed_fraction = self.compute_limited_velocity(error)
         rates = self.compute_rates(q, velocity)
-        # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
+        # Exact also for rotations: the norm of log R changes with the component of the angular velocity along it.
         squared_error_rate = -2 * ca.dot(error, jacobian @ rates)
         outputs = [rates, self.compute_tool_speed(q, rates), speed_fraction, ca.sumsqr(error), squared_error_rate]
         return ca.Function("at", [q, *self.inputs.values()], outputs, {"cse": True})
@@ -103,7 +103,7 @@ class FailedArmSystem:
 
 
 def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatArray:
-    """Return (N, 3) the offsets from tools to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
+    """Return the offsets (N, 3), m, from tools to targets, poses (N, 4, 4), in the directions that the task prescribes."""
     linear = law.task.rows[:, :3]
     projector = linear.T @ linear
     offset = target[:, :3, 3] - tool[:, :3, 3]
@@ -116,7 +116,7 @@ def prescribed_offset(law: Law, tool: FloatArray, target: FloatArray) -> FloatAr
 def split_error_norms(law: Law, error: FloatArray, tool: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Split norms (N,) of the task's error into position errors (N,), m, and angle errors (N,), rad.
 
-    Where the task has no angular row, the angle errors are 0, and the tools and targets (N, 4, 4) are not used.
+    If the task has no angular row, the angle errors are 0, and the tools and targets (N, 4, 4) are not used.
     """
     if not law.task.angular:
         return np.asarray(error), np.zeros(np.shape(error))
@@ -171,7 +171,7 @@ class ColumnLayout:
 
 
 class ParameterLayout(ColumnLayout):
-    """Layout of the parameters of a loop in rows; a matrix lies there row by row.
+    """Layout of the parameters of a loop in rows, in which a matrix is stored row by row.
 
     Attributes:
         symbols: Symbols of the parameters, in the order of their columns.
@@ -182,7 +182,7 @@ class ParameterLayout(ColumnLayout):
         self.symbols = list(symbols.values())
 
     def make_rows(self, count: int, **values: FloatArray | float) -> FloatArray:
-        """Return rows (count, p) with these values; the columns of all other parameters are still to be set."""
+        """Return rows (count, p) with these values; the columns of all other parameters are not set yet."""
         rows = np.empty((count, self.size))
         parts = self.view_parts(rows)
         for name, value in values.items():
@@ -209,9 +209,9 @@ def elementwise_max(a: SX, b: SX) -> SX:
 
 
 def value_at_turning_point(start: SX, end: SX, start_rate: SX, end_rate: SX) -> SX:
-    """Return the value where a derivative (per step) changes sign between two ends, or ``end`` where it does not.
+    """Return the value at which a derivative (per step) changes sign between two ends, or ``end`` if it does not.
 
-    The place is that of a parabola, the value that of the cubic; being flat there, it is as good as the cubic's own.
+    The position is that of a parabola, and the value that of the cubic. The cubic is flat there, so the value is accurate.
     """
     changes_sign = start_rate * end_rate < 0
     x = ca.if_else(changes_sign, start_rate / ca.if_else(changes_sign, start_rate - end_rate, 1.0), 1.0)
@@ -224,14 +224,14 @@ def choose_parts(condition: SX, if_true: dict[str, SX], if_false: dict[str, SX])
     return {name: ca.if_else(condition, value, if_false[name]) for name, value in if_true.items()}
 
 
-# Where a motion is: the code in the state of a loop.
+# Codes in the state of a loop, which tell whether and how a motion has ended.
 STATE_RUNNING = 0
 STATE_AT_REST = 1
 STATE_COLLAPSED = 2
 STATE_TIME_LIMIT = 3
 STATE_PHASE_END = 4
 STATE_ARRIVED = 5
-END_WINDOW_FRACTION = 0.8  # of the time limit: from then on the end of a motion is watched, in two halves
+END_WINDOW_FRACTION = 0.8  # fraction of the time limit from which the speeds near the end are recorded, in two halves
 LATE_WINDOW_FRACTION = 0.9
 
 
@@ -249,9 +249,9 @@ def track_final_speeds(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) ->
 def make_state_loop(
     name: str, step: Callable[[dict[str, SX]], dict[str, SX]], state: ColumnLayout, parameters: Sequence[SX], max_steps: int
 ) -> Loop:
-    """Return a loop that repeats a step until the state has a code; cheap steps are taken several at a time.
+    """Return a loop that repeats a step until the state has a code; a call combines several cheap steps.
 
-    A step leaves a state with a code as it is. One call takes at most ``max_steps``; ``times`` of the loop is their number.
+    A step does not change a state with a code. One call takes at most ``max_steps``; ``times`` of the loop is their number.
     """
     symbol = ca.SX.sym("state", state.size)
     next_state = state.join_parts(step(state.split_symbol(symbol)))

@@ -9,20 +9,19 @@ Weights = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Tableau:
-    """A method whose last stage is the new state, so that its derivative serves the next step too."""
+    """Runge-Kutta method whose last stage is the new state, so that its derivative also serves the next step."""
 
-    name: str  # for people
-    rows: tuple[Weights, ...]  # row i holds the weights of the derivatives before stage i + 1; the last row is the step itself
-    longest_step: float  # of a step, 1/Ke: well within what is stable for the rate Ke at which the error itself shrinks
-    # weights of the error estimates of fifth and third order that the method combines into one of seventh; none for a fixed
-    # step
+    name: str  # name in texts
+    rows: tuple[Weights, ...]  # row i contains the weights of the derivatives before stage i + 1; the last row is the step
+    longest_step: float  # longest step, 1/Ke, well within the stability limit for the decay rate Ke of the error
+    # Weights of the error estimates of orders 5 and 3, which the method combines into one of order 7; None for a fixed step.
     errors: tuple[Weights, Weights] | None = None
-    # weights of all derivatives, the last one too, for the way to the middle of a step and the derivative there
+    # Weights of all derivatives, including the last one, for the displacement and the derivative at the middle of a step.
     middle: tuple[Weights, Weights] | None = None
 
 
 # Hairer, Norsett, Wanner 1993, section II.5 and their program DOP853 (Prince and Dormand's order 8, 12 stages). The middle is
-# ours: the least weights that meet the conditions of order 6 (trees of up to six nodes) for half a step.
+# ours: the least weights that satisfy the conditions of order 6 (trees of up to six nodes) for half a step.
 DOP853 = Tableau(
     "DOP853",
     (

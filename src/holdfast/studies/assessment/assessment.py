@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
     from holdfast.certificates import ReachClaim
 
-MIN_INFORMATIVE_PROBABILITY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
-ZERO_INDEX = 1e-9  # values that a structural failure leaves behind are rounding noise
+MIN_INFORMATIVE_PROBABILITY = 0.01  # below this probability a report explains the reason and gives other results
+ZERO_INDEX = 1e-9  # values after a structural failure are rounding noise below this
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,19 +42,18 @@ class Assessment(Result):
     """Result of :func:`holdfast.assess`.
 
     Attributes:
-        plan: What was asked for.
-        distribution: Of the index over the region, at the configurations that inverse kinematics found.
-        worst_counts: (F,) how often each failure is the worst, over reached and non-singular poses; if poses have weights,
-            the sum of theirs.
-        optimised: The distribution at the best configurations, or None if they were not asked for.
-        optimised_worst_counts: As ``worst_counts``, at the best configurations.
-        survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
-            not asked for, None if none was.
-        collisions: Configurations that bring the arm into collision with itself or its cell, or None if that was not looked at.
-        clear: Poses of which a configuration clear of itself and the cell was found, or their weights; None without a cell.
-        store: The results folder, if one was written.
-        seconds: Time it took, or None if that is not known.
-        complete: False if the run was stopped before all poses were done.
+        plan: Plan of the run, which defines its rows.
+        distribution: Distribution of the index over the region at the configurations that inverse kinematics found.
+        worst_counts: (F,) number, or weight, of the reached and non-singular poses for which each failure is the worst.
+        optimised: Distribution of the index at the best configurations; None if they were not requested.
+        optimised_worst_counts: (F,) ``worst_counts`` at the best configurations.
+        survivors: (n,) number, or weight, of the poses that can still be reached after the joint has locked; 0 for joints that
+            were not requested, None if none was.
+        collisions: Configurations in which the arm collides with itself or its cell; None if this was not checked.
+        clear: Number, or weight, of the poses with a collision-free configuration; None without a cell.
+        store: Results folder; None if none was written.
+        seconds: Duration of the run, s; None if not known.
+        complete: False if the run was stopped before all poses were computed.
     """
 
     plan: AssessmentPlan
@@ -102,11 +101,11 @@ class Assessment(Result):
 
     @property
     def restarts(self) -> int:
-        """Random starts per pose before it counts as not found."""
+        """Number of random starts after which a pose counts as not found."""
         return self.plan.restarts
 
     def distribution_of(self, optimised: bool) -> Distribution:
-        """Return the distribution at the best configurations, or at those that inverse kinematics found.
+        """Return the distribution at the best configurations if ``optimised``, or at those that inverse kinematics found.
 
         Raises:
             InputError: The run was not optimised.
@@ -119,8 +118,12 @@ class Assessment(Result):
 
     @check_arguments
     def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> FloatArray:
-        """Return ``F(h)``: the fraction of poses whose index is below h; a pose without a configuration counts as 0 unless
-        ``reachable_only``.
+        """Return ``F(h)``, the fraction of poses whose index is below h.
+
+        Args:
+            h: Values of the index, of any shape.
+            optimised: True for the best configurations.
+            reachable_only: True to exclude poses without a configuration, which otherwise count as 0.
         """
         return self.distribution_of(optimised).cdf(h, reachable_only)
 
@@ -133,7 +136,14 @@ class Assessment(Result):
         *,
         reachable_only: bool = False,
     ) -> float:
-        """Return the probability that the index meets a threshold: ``1 - F(h)``."""
+        """Return the probability ``1 - F(h)`` that the index meets a threshold.
+
+        Args:
+            at_least: Threshold of an index that is better when larger, in the unit of the index.
+            at_most: Threshold of an index that is better when smaller.
+            optimised: True for the best configurations.
+            reachable_only: True to exclude poses without a configuration, which otherwise count as 0.
+        """
         return self.distribution_of(optimised).probability(at_least, at_most, reachable_only)
 
     @check_arguments
@@ -146,36 +156,39 @@ class Assessment(Result):
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """Return the probability that the index meets a threshold, with its Clopper-Pearson interval."""
+        """Return the probability that the index meets a threshold, with its Clopper-Pearson interval.
+
+        ``at_least``, ``at_most``, ``optimised`` and ``reachable_only`` are those of :meth:`probability`, and ``confidence`` is
+        the confidence level.
+        """
         return self.distribution_of(optimised).interval(at_least, at_most, reachable_only, confidence=confidence)
 
     @check_arguments
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
-        """Return the fraction of all poses of the region that are still reachable after a joint has locked, with its
-        Clopper-Pearson interval.
+        """Return the fraction of all poses that are reachable after a joint has locked, with its Clopper-Pearson interval.
 
-        The joint is locked at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
-        says which. A pose that the healthy arm does not reach counts as
-        lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds. With a cell
-        only configurations count that are clear of it and of the arm itself, locked or not; see :meth:`reached_clear`.
+        The joint is locked at its value in ``locked`` of the run, otherwise at its value for another pose of the region;
+        :attr:`locks` lists these values. A pose that the healthy arm does not reach counts as lost. So does a pose that was not
+        found again in a limited number of starts, so the fractions are lower bounds. With a cell, only collision-free
+        configurations count, before and after the lock; see :meth:`reached_clear`.
 
         Args:
-            joint: Name or index from 0; every joint that the run asked for if not given.
-            confidence: Of the interval.
+            joint: Name, or index from 0, of the joint. Default: every joint for which the run computed it.
+            confidence: Confidence level of the intervals.
 
         Raises:
-            InputError: The run did not ask; assess again with ``after_lock=True``.
+            InputError: The run did not compute it; assess again with ``after_lock=True``.
         """
         check_confidence(confidence)
         if self.survivors is None:
-            raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
+            raise InputError("this run did not compute reachability after a lock; assess again with after_lock=True")
         chosen = list(self.plan.locks) if joint is None else [self.arm.joint_index(joint)]
         names = self.arm.joint_names
         for lock in chosen:
             if lock not in self.plan.locks:
                 raise InputError(
-                    f"this run did not look at a lock of '{names[lock]}'; assess again with after_lock=True or with "
-                    f"it in locked"
+                    f"this run did not compute a lock of '{names[lock]}'; assess again with after_lock=True or with it in "
+                    f"locked"
                 )
         return {names[lock]: self._pose_fraction_interval(float(self.survivors[lock]), confidence) for lock in chosen}
 
@@ -188,11 +201,11 @@ class Assessment(Result):
 
     @check_arguments
     def reached_clear(self, confidence: float = 0.95) -> Interval:
-        """Return the fraction of all poses that the healthy arm reaches free of collisions with itself and its cell, with its
-        Clopper-Pearson interval.
+        """Return the fraction of all poses that the healthy arm reaches without collision, with its Clopper-Pearson interval.
 
-        A pose of which no such configuration was found in a limited number of starts counts as lost, and the spheres that
-        cover the arm reach a little beyond it, so the share is a lower bound.
+        Collisions are those with itself and its cell. A pose for which no collision-free configuration was found in a limited
+        number of starts counts as lost, and the bounding spheres extend slightly beyond the arm, so the fraction is a lower
+        bound. ``confidence`` is the confidence level.
 
         Raises:
             InputError: The run had no cell, or was over a region of joints.
@@ -212,17 +225,17 @@ class Assessment(Result):
         """Return the fraction of the region that remains after a failure, weighted by the failure rate of each joint.
 
         Args:
-            rates: Relative failure rates by joint name or index from 0; joints that are not named do not fail.
+            rates: Relative failure rates by joint name or index from 0; other joints do not fail.
 
         Raises:
-            InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
+            InputError: A rate is negative, none is above 0, or the run did not compute a lock of a joint with a rate above 0.
         """
         weights = check_failure_rates(self.arm, rates)
         failing = np.flatnonzero(weights)
         shares = np.array([self.survival(int(joint))[self.arm.joint_names[joint]].value for joint in failing])
         return float(shares @ weights[failing] / weights.sum())
 
-    # ---- what it means ---------------------------------------------------------------------------------------------
+    # ---- interpretation --------------------------------------------------------------------------------------------
 
     def default_threshold(self) -> float:
         """Return the default threshold of reports: half of the bound, or about the median, with two digits."""
@@ -235,10 +248,10 @@ class Assessment(Result):
         return 1.0
 
     def gap(self, optimised: bool = False) -> float | None:
-        """Return the distance of the median over the reached poses from the bound of every configuration; None if unknown.
+        """Return the distance of the median over the reached poses from the bound for every configuration; None if unknown.
 
-        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
-        the bound for several failures at a time, ``index.bound_note`` says.
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. ``index.bound_note`` explains the
+        bound for several simultaneous failures. ``optimised`` selects the best configurations.
         """
         distribution = self.distribution_of(optimised)
         if self.index.bound is None or not distribution.reached:
@@ -250,12 +263,12 @@ class Assessment(Result):
         """Compute the distribution if one joint could never fail: the worst case over the remaining failures.
 
         Args:
-            joint: Name or index from 0.
-            optimised: At configurations optimised again for the remaining failures, of at most the first 500 poses, instead
-                of those that inverse kinematics found.
+            joint: Name, or index from 0, of the joint.
+            optimised: True for configurations that are optimised again for the remaining failures, for at most the first 500
+                poses, instead of those that inverse kinematics found.
 
         Raises:
-            InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
+            InputError: There is no such joint, no failure remains, the rows were not kept, or the run was not optimised.
         """
         number, run_sample = self.arm.joint_index(joint), self._select_sample(optimised)
         return upgrade.make_sample_distribution(
@@ -267,10 +280,10 @@ class Assessment(Result):
         """Rank the joints by the gain from a redundant motor or brake, with which the joint could never fail.
 
         Args:
-            threshold: Value of the index that the task needs; :meth:`default_threshold` if not given.
-            optimised: At the best configurations, optimised again without each joint, of at most the first 500 poses, instead
-                of those that inverse kinematics found.
-            confidence: Of the intervals.
+            threshold: Value of the index that the task needs. Default: :meth:`default_threshold`.
+            optimised: True for the best configurations, which are optimised again without failures of each joint, for at most
+                the first 500 poses, instead of those that inverse kinematics found.
+            confidence: Confidence level of the intervals.
 
         Raises:
             InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
@@ -283,12 +296,12 @@ class Assessment(Result):
         )
 
     def _select_sample(self, optimised: bool) -> RunSample:
-        self.distribution_of(optimised)  # says so where the run was not optimised
+        self.distribution_of(optimised)  # raises InputError if the run was not optimised
         run_sample = make_run_sample(self.index, self.columns, optimised)
         return run_sample.first_poses if optimised else run_sample
 
     def _values_if_never_failing(self, joint: int, run_sample: RunSample, optimised: bool) -> FloatArray:
-        """Return the values (N,) of a sample if a joint, from 0, never failed; optimised values are computed once."""
+        """Return the values (N,) of a sample if a joint, given by its index, never failed; optimised values are cached."""
         cached: dict[int, FloatArray] = self.__dict__.setdefault("_optimised_without", {})
         if optimised and joint not in cached:
             cached[joint] = upgrade.optimise_index_excluding_joint(self.plan, self.columns, joint, run_sample)
@@ -303,7 +316,7 @@ class Assessment(Result):
 
     @property
     def columns(self) -> Mapping[str, Any]:
-        """Rows by column, (N, ...) each, read when they are sliced: :attr:`dataset` without names and units.
+        """Rows by column, (N, ...) each, which are read when they are sliced; :attr:`dataset` adds names and units.
 
         Raises:
             InputError: The rows were not kept; give ``store`` or ``keep=True``.
@@ -338,7 +351,7 @@ class Assessment(Result):
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 
     def claim(self) -> ReachClaim:
-        """Return the claim that every pose is reached, for a sample that missed none; :func:`holdfast.certify` proves it."""
+        """Return the claim, for :func:`holdfast.certify`, that every pose is reached, after a sample that missed none."""
         from holdfast.studies.assessment.suggested import make_region_claim
 
         return make_region_claim(self.arm, self.region, self.index.task, self.distribution.unreached)
@@ -349,12 +362,12 @@ class Assessment(Result):
         rates: Mapping[str | int, float] | None = None,
         report: Path | None = None,
     ) -> dict[str, Any]:
-        """See :meth:`holdfast.core.result.Result.to_dict`.
+        """Return the result as JSON data; see :meth:`holdfast.core.result.Result.to_dict`.
 
         Args:
-            thresholds: Values of the index to give the probability of; some over its range if not given.
-            rates: How often each joint fails, for :meth:`expected_survival`.
-            report: Where the report was written, to be named.
+            thresholds: Values of the index for which to give the probability. Default: some values over its range.
+            rates: Relative failure rates by joint name or index from 0, for :meth:`expected_survival`.
+            report: Path of the report, which the data then contain.
         """
         return super().to_dict(thresholds=thresholds, rates=rates, report=report)
 
@@ -363,14 +376,14 @@ class Assessment(Result):
         """Write the rows and the report into a results folder that :func:`holdfast.load` and ``holdfast report`` read.
 
         Args:
-            folder: The folder; the rows stay where they are if they are in it.
-            threshold: See :meth:`report`.
+            folder: Path of the folder; rows that are already in it stay there.
+            threshold: Value of the index that the task needs, for :meth:`report`.
 
         Returns:
-            ``run.json``, which says what the folder holds, and ``report.html``.
+            Paths of ``run.json``, which describes the contents of the folder, and ``report.html``.
 
         Raises:
-            StoreError: The folder exists with something else in it, or cannot be written.
+            StoreError: The folder contains other files, or cannot be written.
             InputError: The rows were not kept.
         """
         target = Path(folder)
@@ -393,8 +406,8 @@ class Assessment(Result):
         """Write a self-contained HTML report.
 
         Args:
-            path: The file, replaced in one step.
-            threshold: Value of the index that the task needs; half of the bound, or the median, if not given.
+            path: Path of the file, which is replaced in one step.
+            threshold: Value of the index that the task needs. Default: half of the bound, or the median.
 
         Raises:
             StoreError: The file cannot be written.

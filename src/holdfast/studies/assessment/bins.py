@@ -1,4 +1,4 @@
-"""Distribution as counts in bins that depend on the index alone, so that partial counts can be added."""
+"""Distribution of an index as counts in bins that depend only on the index, so that partial counts can be added."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.kinematics.indices.index import Index
 
 BOUNDED_BINS = 4096  # bins of equal width up to the bound of the index
-# _BINS_PER_OCTAVE and _OCTAVE_COUNT: without a bound: 1.1 % wide, from 2^-40 to 2^40
+# Without a bound, the bins are 1.1 % wide, from 2^-40 to 2^40.
 _BINS_PER_OCTAVE = 64
 _OCTAVE_COUNT = 40
 FACT_NAMES = ("unreached", "reached", "singular", "infinite", "total", "lowest", "highest")
@@ -35,8 +35,8 @@ class IndexCounts:
     """Counted values of an index.
 
     Attributes:
-        bins: (B,) values in each bin.
-        facts: (7,) as :data:`FACT_NAMES` names them.
+        bins: (B,) number of values in each bin.
+        facts: (7,) further numbers, with the names :data:`FACT_NAMES`.
     """
 
     def __init__(self, index: Index) -> None:
@@ -52,13 +52,13 @@ class IndexCounts:
         else:
             bin_numbers = np.searchsorted(self._edges, values, side="right") - 1
         is_finite = np.isfinite(values)
-        finite = values if is_finite.all() else values[is_finite]  # numpy picks rows, and counts them, with Python held
+        finite = values if is_finite.all() else values[is_finite]  # numpy would hold Python's lock to select rows
         lowest, highest = (float(finite.min()), float(finite.max())) if finite.size else (np.inf, -np.inf)
         facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), lowest, highest])
         self.merge_counts(np.bincount(bin_numbers.clip(0, last), minlength=last + 1), facts)
 
     def merge_counts(self, bins: NDArray[Any], facts: FloatArray) -> None:
-        """Add another part that was counted elsewhere."""
+        """Add the counts of another part."""
         self.bins += bins
         self.facts[:5] += facts[:5]
         self.facts[5:] = min(self.facts[5], facts[5]), max(self.facts[6], facts[6])
@@ -84,7 +84,7 @@ class IndexCounts:
 def merge_chunk_counts(
     index: Index, optimised: bool, chunks: Iterable[Mapping[str, NDArray[Any]]]
 ) -> list[tuple[IndexCounts, NDArray[np.int64]]]:
-    """Add up chunks of counts: values and worst failures as found and, if ``optimised``, at the best configurations."""
+    """Sum chunks of counts of values and worst failures, as found and, if ``optimised``, at the best configurations."""
     prefixes = ["", *["optimised_"] * optimised]
     parts = [(IndexCounts(index), np.zeros(len(index.failures), dtype=np.int64)) for _ in prefixes]
     for rows in chunks:

@@ -1,4 +1,4 @@
-"""Compute the rows of one block of a plan: its poses solved, evaluated, and tested again with joints locked."""
+"""Computation of the rows of one block of a plan: its poses are solved, evaluated, and tested with joints locked."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from holdfast.kinematics.solvers.inverse_kinematics import Accept, solver
 from holdfast.kinematics.solvers.optimum import Ascent, default_starts, get_cached_ascent
 from holdfast.studies.assessment.plan import CLEAR_RESTARTS, CLEAR_STEPS, LOCK_RESTARTS, AssessmentPlan
 
-POSE_TOLERANCE = 1e-6  # of the pose, m and rad
+POSE_TOLERANCE = 1e-6  # m and rad
 
 
 def compile_plan(plan: AssessmentPlan) -> None:
@@ -150,7 +150,7 @@ def _replace_colliding_configurations(
 
 
 def evaluate_worst_cases(plan: AssessmentPlan, configurations: FloatArray) -> Rows:
-    """Return those rows of :func:`evaluate_block` for a region of joints that are counted: only the worst failure."""
+    """Return the rows of :func:`evaluate_block` that are counted for a region of joints: only those of the worst failure."""
     worst = plan.index.worst_case(configurations)
     return {"status": worst.status, "index": worst.value, "worst": _find_worst_failures(worst)}
 
@@ -158,10 +158,9 @@ def evaluate_worst_cases(plan: AssessmentPlan, configurations: FloatArray) -> Ro
 def _test_reach_after_locks(
     plan: AssessmentPlan, poses: FloatArray, q: FloatArray, reached: NDArray[np.bool_], number: int
 ) -> tuple[NDArray[np.int8], FloatArray]:
-    """Return for each reached pose and each requested joint whether the pose is still reached after a lock, and the locked
-    value.
+    """Return whether each reached pose is still reached after a lock of each requested joint, and the locked values.
 
-    It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
+    A joint locks at its given value, or at its value for another, random reached pose of the block.
     """
     n = plan.arm.n
     result, lock_values = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
@@ -194,7 +193,7 @@ def _test_reach_after_locks(
 
 
 def _find_worst_failures(result: IndexEvaluation | WorstCase) -> NDArray[np.int16]:
-    """Return the worst failure; -1 at a singular configuration, where all are equally bad."""
+    """Return the worst failure; -1 at a singular configuration, where all failures are equally bad."""
     worst = result.worst.astype(np.int16)
     worst[result.status != Status.OK] = -1
     return worst

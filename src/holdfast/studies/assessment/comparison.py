@@ -1,4 +1,4 @@
-"""Compare assessments of one region: arms, tasks, or tool attachments."""
+"""Comparison of assessments of one region: arms, tasks, or tool attachments."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from holdfast.studies.assessment.run import load
 from holdfast.studies.assessment.single_points import structure
 from holdfast.studies.assessment.upgrade import Upgrade
 
-COMPARISON_FILE = "comparison.json"  # of a folder: which folders in it are compared
+COMPARISON_FILE = "comparison.json"  # lists the compared folders
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,11 +33,11 @@ class Comparison(Result):
     """Assessments of one region with one index and equal numbers of poses; see :func:`holdfast.compare_assessments`.
 
     Attributes:
-        assessments: The candidates.
-        names: Of the candidates.
+        assessments: Assessments of the candidates.
+        names: Names of the candidates.
         threshold: Value of the index that the task needs.
-        chosen: The threshold was given.
-        tools: What the tool attachments of the candidates are called; None for an arm's own.
+        chosen: True if the threshold was given.
+        tools: Names of the candidates' tool attachments; None for the tool of the arm.
     """
 
     assessments: tuple[Assessment, ...]
@@ -48,15 +48,15 @@ class Comparison(Result):
 
     @cached_property
     def table(self) -> list[dict[str, Any]]:
-        """One dictionary per candidate; fractions are of all poses, intervals have 95 % confidence, and joints appear by name.
+        """Table with one dictionary per candidate; fractions refer to all poses, and intervals have 95 % confidence.
 
-        ``name, arm, joints, task, redundancy`` (joints minus rows of the task), ``poses``, ``reached``, ``probability`` (of
-        an index that meets the threshold), ``median`` (over the reached poses), ``gap`` (of the median to the bound),
-        ``worst_joint`` (or set of joints) and ``worst_fraction`` of the reached, not singular poses; the same at the best
-        configurations with ``optimised_`` in front; ``expected_survival`` (share of the poses left after a lock, every joint
-        that was asked for equally likely to fail), ``single_points_of_failure`` by structure, ``upgrade`` and
-        ``upgrade_gain``: the joint that gains most if it never fails. ``_low`` and ``_high`` are ends of intervals. What a
-        run did not ask for is None.
+        The keys are ``name, arm, joints, task, redundancy`` (joints minus rows of the task), ``poses``, ``reached``,
+        ``probability`` (that the index meets the threshold), ``median`` (over the reached poses), ``gap`` (from the median to
+        the bound), ``worst_joint`` (or set of joints) and ``worst_fraction`` of the reached, non-singular poses; the same at
+        the best configurations with the prefix ``optimised_``; ``expected_survival`` (fraction of the poses that remain after a
+        lock, if each computed joint is equally likely to fail), ``single_points_of_failure`` by structure; ``upgrade``, the
+        joint that gains most if it never fails, and ``upgrade_gain``. ``_low`` and ``_high`` are ends of intervals. Joints
+        appear by name, and quantities that a run did not compute are None.
         """
         return [self._candidate_row(name, assessment) for name, assessment in zip(self.names, self.assessments, strict=True)]
 
@@ -93,42 +93,44 @@ class Comparison(Result):
         return row
 
     def interval(self, candidate: str | Assessment, optimised: bool = False) -> Interval:
-        """Return the probability that the index of a candidate meets the threshold, with its interval."""
+        """Return the probability that the index of ``candidate``, an assessment or its name, meets the threshold.
+
+        The result has a confidence interval. ``optimised`` selects the best configurations.
+        """
         assessment = self.assessment(candidate) if isinstance(candidate, str) else candidate
         condition = {"at_least" if assessment.index.better == "larger" else "at_most": self.threshold}
         return assessment.interval(optimised=optimised, **condition)  # type: ignore[arg-type]
 
     def assessment(self, name: str) -> Assessment:
-        """Return the assessment of a candidate.
+        """Return the assessment of the candidate ``name``.
 
         Raises:
-            InputError: No such candidate.
+            InputError: There is no candidate of this name.
         """
         if name not in self.names:
-            raise InputError(f"there is no candidate '{name}'; there are {', '.join(self.names)}")
+            raise InputError(f"candidate '{name}' is not known; use {', '.join(self.names)}")
         return self.assessments[self.names.index(name)]
 
     def best(self, task: str | None = None, optimised: bool = False) -> str:
-        """Return the name of the candidate with the largest probability of meeting the threshold; the median decides between
-        equals.
+        """Return the name of the candidate with the largest probability of meeting the threshold, then the largest median.
 
         Args:
-            task: Among the candidates of this task; among all if not given.
-            optimised: At the best configurations.
+            task: Name of the task of the candidates to consider. Default: all candidates.
+            optimised: True for the best configurations.
 
         Raises:
-            InputError: No candidate of that task, or runs that were not optimised.
+            InputError: No candidate has the task, or a run was not optimised.
         """
         return self.ranking(task, optimised)[0]
 
     def ranking(self, task: str | None = None, optimised: bool = False) -> list[str]:
-        """Return the names of the candidates, the best first; see :meth:`best`."""
+        """Return the names of the candidates, the best first, with ``task`` and ``optimised`` as in :meth:`best`."""
         candidates = [
             n for n, assessment in zip(self.names, self.assessments, strict=True) if task in (None, assessment.index.task.name)
         ]
         if not candidates:
             task_names = sorted({assessment.index.task.name for assessment in self.assessments})
-            raise InputError(f"no candidate has task '{task}'; there are {', '.join(task_names)}")
+            raise InputError(f"no candidate has task '{task}'; use {', '.join(task_names)}")
 
         def rank_key(name: str) -> tuple[float, float]:
             assessment = self.assessment(name)
@@ -143,7 +145,10 @@ class Comparison(Result):
         return sorted(candidates, key=rank_key, reverse=True)
 
     def upgrades(self, candidate: str, optimised: bool = False) -> list[Upgrade]:
-        """Return the gain of a candidate for each joint if it could never fail; see :meth:`Assessment.upgrades`."""
+        """Return the gain of the candidate of a name for each joint if it could never fail; see :meth:`Assessment.upgrades`.
+
+        ``candidate`` is the name, and ``optimised`` selects the best configurations.
+        """
         return self.assessment(candidate).upgrades(self.threshold, optimised)
 
     @cached_property
@@ -187,25 +192,25 @@ class Comparison(Result):
                 "The best configurations are not equally clear of the arm itself: the clearances asked for differ."
             )
         if len({None if run.plan.cell is None else run.plan.cell.digest for run in runs}) > 1:
-            sentences.append("The candidates do not stand in the same cell.")
+            sentences.append("The candidates are not in the same cell.")
         return sentences
 
     def save(self, folder: str | Path) -> list[Path]:
-        """Write a folder with a subfolder for each candidate, and a report; ``holdfast report`` reads it again.
+        """Write ``folder`` with a subfolder for each candidate, and a report.
 
-        :func:`holdfast.studies.assessment.load_comparison` does, too.
+        ``holdfast report`` and :func:`holdfast.studies.assessment.load_comparison` read the folder again.
 
         Returns:
-            ``comparison.json``, which names the candidates, and ``report.html``.
+            Paths of ``comparison.json``, which lists the candidates, and ``report.html``.
 
         Raises:
-            StoreError: A folder exists with something else in it, or cannot be written.
-            InputError: The rows of a candidate were not kept, or its name is that of no folder.
+            StoreError: A folder contains other files, or cannot be written.
+            InputError: The rows of a candidate were not kept, or its name is not a valid folder name.
         """
         target = Path(folder)
         for name in self.names:
             if not is_valid_folder_name(name):
-                raise InputError(f"candidate '{name}' is not the name of a folder; give names without / and \\")
+                raise InputError(f"candidate '{name}' is not a valid folder name; give names without / and \\")
         for name, run in zip(self.names, self.assessments, strict=True):
             run.save(target / name, self.threshold)
         candidates = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
@@ -224,21 +229,21 @@ def compare_assessments(
     """Compare assessments of one region: arms, tasks, or tool attachments.
 
     Args:
-        assessments: Two or more runs with one region, index and number of poses. With one seed they are of the same poses.
-        names: Of the candidates; the names of the arms, with those of the tasks where needed, if not given.
-        threshold: Value of the index that the task needs. If not given, half of the smallest bound, or about the middle of
-            the candidates' medians where an index has no bound.
-        tools: What the tool attachments are called; None for an arm's own.
+        assessments: Two or more runs with one region, index and number of poses. With one seed they have the same poses.
+        names: Names of the candidates. Default: the names of the arms, with those of the tasks if needed.
+        threshold: Value of the index that the task needs. Default: half of the smallest bound, or about the middle of the
+            candidates' medians for an index without bound.
+        tools: Names of the tool attachments; None for the tool of the arm.
 
     Raises:
-        InputError: Fewer than two runs, runs that cannot be compared, or names that are not unique; the message says which.
+        InputError: There are fewer than two runs, the runs cannot be compared, or the names are not unique.
     """
     runs = tuple(assessments)
     if len(runs) < 2:
         raise InputError(f"a comparison needs two assessments or more; there {'is 1' if runs else 'are none'}")
     labels = _make_default_names(runs) if names is None else tuple(names)
     if len(labels) != len(runs):
-        raise InputError(f"there are {len(labels)} names for {len(runs)} assessments; give one each")
+        raise InputError(f"there are {len(labels)} names for {len(runs)} assessments; give one for each")
     check_names(labels)
     first, first_label = runs[0], labels[0]
     for other, label in zip(runs[1:], labels[1:], strict=True):
@@ -259,7 +264,7 @@ def compare_assessments(
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
     attached = (None,) * len(runs) if tools is None else tuple(tools)
     if len(attached) != len(runs):
-        raise InputError(f"there are {len(attached)} tools for {len(runs)} assessments; give one each, or None")
+        raise InputError(f"there are {len(attached)} tools for {len(runs)} assessments; give one for each, or None")
     return Comparison(
         assessments=runs,
         names=labels,
@@ -273,9 +278,13 @@ def compare_assessments(
 def load_comparison(path: str | Path, threshold: float | None = None) -> Comparison:
     """Read the comparison in a folder that :meth:`Comparison.save` or ``holdfast assess A B --out`` wrote.
 
+    Args:
+        path: Path of the folder.
+        threshold: Value of the index that the task needs. Default: the stored threshold.
+
     Raises:
-        StoreError: It is damaged.
-        InputError: See :func:`holdfast.compare_assessments`.
+        StoreError: The folder is damaged.
+        InputError: The assessments cannot be compared; see :func:`holdfast.compare_assessments`.
     """
     folder = Path(path)
     damage_message = f"'{folder / COMPARISON_FILE}' is damaged; give the same command to 'holdfast assess' again"
@@ -299,9 +308,9 @@ def check_names(names: Sequence[str]) -> None:
     """
     for name in names:
         if not name:
-            raise InputError("a candidate has an empty name; give each a name")
+            raise InputError("a candidate has an empty name; give each candidate a name")
         if list(names).count(name) > 1:
-            raise InputError(f"two candidates are called '{name}'; give each its own name")
+            raise InputError(f"two candidates have the name '{name}'; give each a different name")
 
 
 def _make_default_names(runs: tuple[Assessment, ...]) -> tuple[str, ...]:

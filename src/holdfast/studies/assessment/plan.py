@@ -1,4 +1,4 @@
-"""Plan of an assessment: everything that defines its rows."""
+"""Plan of an assessment, which defines its rows."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance, decode_clearance, encode_clearance
 from holdfast.model.failure_modes import locks_at
 
-_DEFAULT_POSES = 2000  # unless asked otherwise
+_DEFAULT_POSES = 2000
 _CHUNK_BLOCKS = 8
-LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
-# CLEAR_RESTARTS and CLEAR_STEPS: the same to keep clear: every tenth start takes longer, and costs as much as two others
+LOCK_RESTARTS = 20  # starts after which a pose counts as lost after a lock
+# Starts and steps of the search for collision-free configurations; every tenth start takes as long as two others.
 CLEAR_RESTARTS = 30
 CLEAR_STEPS = 20
 
@@ -55,19 +55,18 @@ class AssessmentPlan:
     """Plan of a run; two runs with equal plans have equal rows.
 
     Attributes:
-        region: Which poses, or configurations.
-        index: An index; it holds the arm, the task and the failures.
+        region: Region of the poses, or of the configurations.
+        index: Index to evaluate, with the arm, the task and the failures.
         poses: Number of poses.
-        seed: Of everything random.
+        seed: Seed of all random numbers.
         sampling: ``random`` or ``sobol``.
-        restarts: Random starts per pose before it counts as not found.
-        optimise: Also look for the best configuration of each pose.
-        after_lock: Also ask for each pose and joint whether the pose can still be reached once the joint has locked.
-        clearance: Of the arm from itself and its cell: looked at in every configuration, and kept by the best ones; None: not
-            looked at.
-        margin: Smallest clearance of the best configurations, m; from an object beyond what the cell keeps from it.
-        lock_at: Joints, indices from 0, that lock at a given angle (rad or m) instead of one in use. They are asked for with
-            or without ``after_lock``.
+        restarts: Number of random starts after which a pose counts as not found.
+        optimise: True to search also for the best configuration of each pose.
+        after_lock: True to test for each pose and joint whether the pose can still be reached after the joint has locked.
+        clearance: Collision model of the arm and its cell, with which every configuration is checked; the best ones are
+            collision-free. None: no check.
+        margin: Smallest clearance of the best configurations, m; for an object, in addition to the margin of the cell.
+        lock_at: Indices from 0 of joints that lock at a given value, and this value, rad or m, with or without ``after_lock``.
     """
 
     region: Region
@@ -88,7 +87,7 @@ class AssessmentPlan:
         if self.sampling not in ("random", "sobol"):
             raise InputError(f"sampling '{self.sampling}' is not known; use 'random' or 'sobol'")
         if self.region.kind == "sampler" and self.sampling != "random":
-            raise InputError(f"region '{self.region.name}' draws its poses itself; use sampling 'random'")
+            raise InputError(f"sampling is '{self.sampling}'; for region '{self.region.name}' it must be 'random'")
         if self.clearance is not None and self.clearance.arm.fingerprint != self.arm.fingerprint:
             raise InputError(
                 f"the clearance belongs to '{self.clearance.arm.name}', not to '{self.arm.name}'; make it with the same arm"
@@ -112,7 +111,7 @@ class AssessmentPlan:
 
     @property
     def locks(self) -> dict[int, float | None]:
-        """Joints that lock individually, indices from 0, with the angle, or None for an angle used at another pose."""
+        """Locked value of each joint that locks individually, by index from 0; None for a value used at another pose."""
         requested = dict(self.lock_at)
         return {joint: requested.get(joint) for joint in range(self.arm.n) if self.after_lock or joint in requested}
 
@@ -163,23 +162,23 @@ class AssessmentPlan:
 
     @property
     def is_storable(self) -> bool:
-        """False for an index or a region that a folder cannot hold."""
+        """False for an index or a region that cannot be stored in a folder."""
         return INDEX_REGISTRY.is_storable(self.index) and self.region.storable
 
     def create_store(self, path: Path) -> Store:
         """Create a results folder for the rows of the plan, or open that of a stopped run.
 
         Raises:
-            InputError: It is not storable.
-            StoreError: The folder holds something else, or cannot be written.
+            InputError: The plan is not storable.
+            StoreError: The folder contains other files, or cannot be written.
         """
         reason = None
         if not self.region.storable:
-            reason = f"region '{self.region.name}' has a function of your own"
+            reason = f"region '{self.region.name}' has a custom function"
         elif not self.is_storable:
-            reason = f"index '{self.index.name}' is your own function outside a file"
+            reason = f"index '{self.index.name}' is a custom function outside a file"
         if reason is not None:
-            raise InputError(f"{reason}, which a folder cannot hold; assess without a store")
+            raise InputError(f"{reason}, which cannot be stored in a folder; assess without a store")
         return Store.create(path, self.to_dict(), self.columns(), rows=self.poses, chunk=_CHUNK_BLOCKS * self.region.block)
 
     @classmethod
@@ -209,11 +208,10 @@ class AssessmentPlan:
 
     @classmethod
     def from_store(cls, store: Store, poses: int, rows: bool = True) -> AssessmentPlan:
-        """Return the plan of a results folder of ``poses`` poses, with a row of all columns for each of them or without
-        ``rows``.
+        """Return the plan of a results folder with ``poses`` poses and, if ``rows``, check that it contains all columns.
 
         Raises:
-            StoreError: It is not the plan of an assessment.
+            StoreError: The folder does not contain the plan of an assessment, or is damaged.
         """
         try:
             plan = cls.from_dict(store.plan, poses)
@@ -292,7 +290,7 @@ def make_plan(
     margin: float = 0.0,
     cell: CellLike | None = None,
 ) -> AssessmentPlan:
-    """Return the plan of :func:`assess`, or raise the errors that it would raise before anything is computed."""
+    """Return the plan of :func:`assess`, or raise the errors that :func:`assess` raises before it computes anything."""
     if index.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
     if poses is None:
@@ -316,7 +314,7 @@ def _read_lock_angles(arm: Arm, locked: Mapping[Any, float]) -> tuple[tuple[int,
     """Return the locked values of joints as a plan stores them, in the order of the joints.
 
     Raises:
-        InputError: No such joint, one given twice, or a value that is not finite or beyond the joint's limits.
+        InputError: A joint is not known or given twice, or a value is not finite or exceeds the joint's limits.
     """
     locks = locks_at(arm, locked, np.full(arm.n, np.nan))
     for joint, value in locks.items():

@@ -1,4 +1,4 @@
-"""Run a plan: blocks in the pool of threads, chunks in a folder, and the counts over all rows."""
+"""Execution of a plan: blocks in the pool of threads, chunks in a folder, and the counts over all rows."""
 
 from __future__ import annotations
 
@@ -28,9 +28,7 @@ Progress = Callable[[int, int], None]
 
 
 def compute_blocks(plan: AssessmentPlan, first_block: int, end_row: int) -> Generator[tuple[int, Rows], None, None]:
-    """Yield blocks in order from number ``first_block`` up to row ``end_row``; a few ahead of the consumer are computed in the
-    pool.
-    """
+    """Yield blocks in order from number ``first_block`` up to row ``end_row``, with a few computed ahead in the pool."""
     block_size = plan.region.block
     source = plan.region.blocks(first_block, plan.seed, plan.sampling, count=plan.poses)
     numbers = iter(range(first_block, -(-end_row // block_size)))
@@ -59,7 +57,7 @@ def compute_chunks(store: Store, plan: AssessmentPlan, chunks: list[int]) -> Ite
     """Yield the rows of chunks of a folder, each with its number."""
     block_size = plan.region.block
     while chunks:
-        # Chunks that follow one another share one stream of blocks, so that the workers never wait for a chunk's end.
+        # Consecutive chunks share one stream of blocks, so that the workers never wait for the end of a chunk.
         length = next((offset for offset, chunk in enumerate(chunks) if chunk != chunks[0] + offset), len(chunks))
         span, chunks = chunks[:length], chunks[length:]
         stream = compute_blocks(plan, store.chunk_span(span[0])[0] // block_size, store.chunk_span(span[-1])[1])
@@ -71,7 +69,7 @@ def compute_chunks(store: Store, plan: AssessmentPlan, chunks: list[int]) -> Ite
 
 
 class IndexStatistics:
-    """Distribution of one index column, and how often each failure is the worst."""
+    """Distribution of one index column, and number of poses for which each failure is the worst."""
 
     def __init__(self, plan: AssessmentPlan, index: str, worst: str) -> None:
         self._collector = DistributionCollector(plan.index.better, plan.index.bound, heaviest=plan.region.heaviest)
@@ -95,17 +93,17 @@ class IndexStatistics:
 
 @dataclass(frozen=True)
 class Collisions:
-    """Counts, without weights, of configurations that bring the arm into collision with itself or its cell.
+    """Counts, without weights, of configurations in which the arm collides with itself or its cell.
 
     Attributes:
-        found: Of those that inverse kinematics found.
-        blocked: Poses whose best configuration, if one does not look, would; a clear one was taken instead where there is one.
-        hopeless: Of these, poses for which every configuration found does: they count as not reached when optimised.
-        reached: Poses with a configuration.
-        margin: Smallest clearance asked of the best configurations, m.
-        with_each: With a cell, how many of those in ``found`` are with the arm itself and with each object; else empty.
-            Distances from objects are lower bounds, so these are at most so many.
-        blocked_by: With a cell, by what those in ``blocked`` are barred: what is nearest there; else empty.
+        found: Number of colliding configurations among those that inverse kinematics found.
+        blocked: Number of poses whose best configuration collides; a collision-free one replaces it if there is one.
+        hopeless: Number of these poses without a collision-free configuration, which count as not reached when optimised.
+        reached: Number of poses with a configuration.
+        margin: Smallest clearance of the best configurations, m.
+        with_each: Number of configurations in ``found`` that collide with the arm itself and with each object of a cell; empty
+            without a cell. Distances from objects are lower bounds, so these numbers are upper bounds.
+        blocked_by: Number of poses in ``blocked`` by the nearest collision partner in a cell; empty without a cell.
     """
 
     found: int
@@ -121,11 +119,11 @@ class AssessmentTally:
     """Counts over all rows of a plan, added one block at a time.
 
     Attributes:
-        unoptimised: At the configurations that inverse kinematics found.
-        optimised: At the best configurations, if the plan asks for them.
-        collisions: Of the arm with itself and its cell, if the plan has a clearance.
-        clear: Poses of which a configuration clear of itself and the cell was found, or their weights, if there is a cell.
-        survivors: (n,) poses still reached once each joint has locked, or their weights, if the plan asks for them.
+        unoptimised: Statistics at the configurations that inverse kinematics found.
+        optimised: Statistics at the best configurations, if the plan requests them.
+        collisions: Collisions of the arm with itself and its cell, if the plan has a clearance.
+        clear: Number of poses, or their weight, with a collision-free configuration, if there is a cell.
+        survivors: (n,) number of poses, or their weight, still reached after each joint has locked, if the plan requests it.
     """
 
     def __init__(self, plan: AssessmentPlan) -> None:
@@ -167,7 +165,7 @@ class AssessmentTally:
 
     @property
     def collisions(self) -> Collisions | None:
-        """Counts of collisions, or None if the plan has no clearance."""
+        """Counts of collisions; None if the plan has no clearance."""
         if self._collisions is None:
             return None
         colliding, blocked, hopeless, reached = self._collisions.tolist()

@@ -1,4 +1,4 @@
-"""Sample poses in a region, solve, evaluate, and count, in memory or chunk by chunk into a folder."""
+"""Assessments: sample, solve, evaluate, and count poses of a region, in memory or chunk by chunk in a folder."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ from holdfast.studies.assessment.rows import (
     describe_provenance,
 )
 
-_MAX_ROWS_IN_MEMORY = 2_000_000  # rows held in memory unless asked otherwise
-_MAX_NAMED_CELLS = 4  # of a study, in a message
+_MAX_ROWS_IN_MEMORY = 2_000_000  # default limit of rows kept in memory
+_MAX_NAMED_CELLS = 4  # cells of a study that a message names
 
 
 @check_arguments
@@ -63,40 +63,40 @@ def assess(
 ) -> Assessment:
     """Compute the distribution of an index over a region.
 
-    Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
-    paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
-    A region of joints is evaluated directly.
+    Each pose is solved by inverse kinematics from random starts. The configuration that is found is evaluated (the paper's
+    non-optimised sample), and on request also the best configuration of the pose (the optimised sample). The configurations of
+    a region of joints are evaluated directly.
 
     Args:
         arm: The arm.
-        region: Which poses, or configurations. Default: that of the paper for its arm, else a box around the arm's home.
-        index: An index of that arm, or its name.
-        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
-        seed: The same seed gives the same result, whatever the number of threads or chunks.
-        sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
-        restarts: Random starts per pose before it counts as not reached.
-        store: Folder for the results, written chunk by chunk; an existing folder of the same run is continued.
-        keep: Hold every row in memory. Default: if there are no more than two million and there is no store.
-        progress: Called with (poses done, poses in all).
-        task: Of the index, ``pose`` if not given. An index that is given has its own, and this must be the same.
-        optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
-        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
-        locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
-            at another pose if ``after_lock``, and are left out if not.
-        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules of
-            an assumed radius along the links (:meth:`holdfast.Capsules.along_links`); False: the arm may collide with itself.
-            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
-        cell: Objects around the arm, or their file. Configurations that touch them are counted, the best ones keep clear of
-            them, and so do those that reach a pose after a lock. The arm's own links are then looked at as well, but for an
-            arm that moves in a plane and with ``clearance=False``.
-        margin: Smallest clearance of the best configurations, m; from an object beyond what the cell keeps from it.
+        region: Region of the poses or configurations. Default: that of the paper for its arm, else a box around the arm's home.
+        index: Index of the arm, or its name.
+        poses: Number of poses. Default: 2000, or all poses of a list once; see :meth:`Region.from_poses`.
+        seed: Seed of all random numbers. The result does not depend on the number of threads or chunks.
+        sampling: ``random``, or ``sobol`` (scrambled; best with a power of two of poses).
+        restarts: Number of random starts after which a pose counts as not reached.
+        store: Folder for the results, which are written chunk by chunk; an existing folder of the same run is continued.
+        keep: True to keep every row in memory. Default: True for at most two million rows without a store.
+        progress: Function that is called with (poses done, poses in all).
+        task: Task of the index. Default: ``pose``, or the task of the given index, which it must equal.
+        optimise: True to find also the best configuration of each pose; see :func:`holdfast.optimise`.
+        after_lock: True to find also the poses that are reached after each joint has locked; see :meth:`Assessment.survival`.
+        locked: Values at which joints lock, as ``{joint: value}``, rad or m, by name or index from 0. With ``after_lock`` the
+            other joints lock at their values for another pose; otherwise they are omitted.
+        clearance: Clearance of the arm from itself, which the best configurations keep; the number of violations is counted.
+            True: capsules of an assumed radius along the links (:meth:`holdfast.Capsules.along_links`). False: the arm may
+            collide with itself. Default: True when optimising, except for a planar arm, whose links lie next to each other.
+        cell: Objects around the arm, or their file. Configurations that touch them are counted; the best configurations and
+            those after a lock are collision-free. Self-collisions are then checked, too, except for a planar arm and with
+            ``clearance=False``.
+        margin: Smallest clearance of the best configurations, m; for an object, in addition to the margin of the cell.
 
     Raises:
-        InputError: Options out of range, or an index of another arm or task, or a clearance of another arm, or a cell that
-            cannot be read, does not fit the arm, or whose files changed while the run was under way.
+        InputError: Options are out of range, the index is of another arm or task, the clearance is of another arm, or the cell
+            cannot be read, does not fit the arm, or has files that changed during the run.
         TaskError: The arm is not redundant for the task, or the index cannot be optimised.
-        StoreError: The folder cannot be used; nothing committed is lost.
-        KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call resumes.
+        StoreError: The folder cannot be used; committed chunks are not lost.
+        KeyboardInterrupt: The run was interrupted; committed chunks remain, and the same call resumes.
 
     Source: Abdi et al. 2012, sections IV and V.
     """
@@ -106,8 +106,8 @@ def assess(
         index_task, requested_task = index.task, as_task(arm, task)
         if not index_task.same_rows(requested_task) or (isinstance(task, Task) and index_task.length != requested_task.length):
             raise InputError(
-                f"the index is for task {index_task.describe()}, asked for is {requested_task.describe()}; make it with the "
-                "task to assess, or leave task out"
+                f"the index is for task {index_task.describe()}, but task is {requested_task.describe()}; make the index with "
+                "the task to assess, or leave task out"
             )
     region = default_region(arm) if region is None else region
     plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin, cell)
@@ -147,14 +147,15 @@ def assess(
 def load(path: str | Path) -> Assessment:
     """Read the assessment in a results folder, or in the folder of a study or of one of its cells.
 
-    Of a run that was stopped it has what is there. A study that kept counts (``keep: counts``) has distributions in bins and no
-    rows. A study with several cells has several assessments, each in a folder of its own.
+    The assessment of a stopped run contains the committed poses. A study with ``keep: counts`` has distributions in bins and no
+    rows. A study with several cells has several assessments, each in a separate folder.
 
     Args:
-        path: What ``--out`` of ``holdfast assess`` or ``holdfast study run`` named, or a folder in ``cells`` of the latter.
+        path: Folder of ``--out`` of ``holdfast assess`` or ``holdfast study run``, or a folder in ``cells`` of a study.
 
     Raises:
-        StoreError: Not a results folder of an assessment, or damaged, or a study of several cells; the message names them.
+        StoreError: The folder is not the results folder of an assessment, is damaged, or is a study of several cells, which
+            the message names.
     """
     return read_assessment_store(Store.open(_find_cell_folder(Path(path))))
 
@@ -174,7 +175,7 @@ def read_assessment_store(store: Store) -> Assessment:
 
 
 def _find_cell_folder(folder: Path) -> Path:
-    """Return the folder of the only cell of a study; any other folder as it is."""
+    """Return the folder of the only cell of a study; return any other folder unchanged."""
     if not reading.path_exists(folder / STUDY_FILE):
         return folder
     study = Study.open(folder)
@@ -186,7 +187,7 @@ def _find_cell_folder(folder: Path) -> Path:
 
 
 def _read_counts(store: Store) -> Assessment:
-    """Build the assessment of a study's cell that kept counts instead of rows."""
+    """Return the assessment of a cell of a study that kept counts instead of rows."""
     parent = own_study_folder(store.path)
     rows_by_cell = {} if parent is None else {cell["name"]: cell["rows"] for cell in Study.open(parent).cells}
     one_pose_plan = AssessmentPlan.from_store(store, 1, rows=False)

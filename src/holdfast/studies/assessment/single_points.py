@@ -17,14 +17,14 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, plane_normal
 
 _SAMPLE_CONFIGURATIONS = 256
-# _MAX_SET_SIZE and _MAX_NAMED_SETS: joints of a set, and sets that are named
+# Largest number of joints in a set, and of sets that a text names.
 _MAX_SET_SIZE = 3
 _MAX_NAMED_SETS = 4
-_SQUARED_RHO_TOLERANCE = 1e-10  # rho^2 of several joints is rounding noise, or that of 1.5708 for pi/2 in a file
-_ZERO_RHO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
-WEAK_FRACTION = 0.03  # of the best manipulability: below it the lock of a joint all but ends a task
+_SQUARED_RHO_TOLERANCE = 1e-10  # a smaller rho^2 of several joints is due to rounding, also of 1.5708 for pi/2 in a file
+_ZERO_RHO = 1e-7  # a smaller rho is due to rounding, which is about 1e-15
+WEAK_FRACTION = 0.03  # fraction of the best manipulability below which the lock of a joint nearly ends a task
 _NEAR_POINT_M = 0.05  # axes that miss a common point by more do not nearly meet
-_NEARLY_ZERO_RHO = 0.01  # rho that is left where axes meet but for half a millimetre, or for the digits of pi/2 in a file
+_NEARLY_ZERO_RHO = 0.01  # rho that remains if axes miss each other by half a millimetre, or by the digits of pi/2 in a file
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,12 +33,12 @@ class WeakJoint:
 
     Attributes:
         joint: Index from 0.
-        manipulability_left: Largest manipulability found once the joint has locked, as a fraction of the largest one found
-            of the healthy arm.
-        best: Largest relative manipulability found after the worst single failure, which is compared with the bound.
-        bound: The value no configuration can exceed.
-        axis_distance: Distance in metres by which the three axes before or after the joint miss a common point, the larger
-            of both; None where they are not three, not revolute, or do not nearly meet.
+        manipulability_left: Largest manipulability found after the joint has locked, as a fraction of the largest one found
+            for the healthy arm.
+        best: Largest relative manipulability found after the worst single failure, for comparison with the bound.
+        bound: Value that no configuration can exceed.
+        axis_distance: Distance, m, by which the three axes before or after the joint miss a common point, the larger of both;
+            None if there are not three revolute axes, or if they do not nearly meet.
     """
 
     joint: int
@@ -54,15 +54,14 @@ class Structure:
 
     Attributes:
         task: Name of the task.
-        redundancy: Joints minus rows; 0 or less means that any lock ends the task.
-        fatal: Joints, indices from 0, without which the task is singular in every configuration.
-        never: The healthy arm itself is singular for the task in every configuration.
-        together: Sets of two and three joints that do so when they lock at once and no fewer of them do; of those alone that
-            leave as many joints as the task has rows.
-        nearly: Joints, indices from 0, whose lock leaves almost nothing, and the most of it that was found, above 0 and
-            at most 0.01: axes that would meet but for the rounding or the calibration in the arm's file.
-        weak: Joints whose lock leaves at most 3 % of the best manipulability; they are no single points of failure by
-            structure, but nearly.
+        redundancy: Number of joints minus rows of the task; if it is 0 or less, any lock ends the task.
+        fatal: Indices from 0 of the joints after whose lock the task is singular in every configuration.
+        never: True if the healthy arm is singular for the task in every configuration.
+        together: Minimal sets of two and three joints after whose simultaneous lock the task is singular in every
+            configuration, among the sets that leave as many joints as the task has rows.
+        nearly: Indices from 0 of joints whose lock leaves almost no relative manipulability, and its largest value found, above
+            0 and at most 0.01. Their axes miss each other only by the rounding or the calibration in the arm's file.
+        weak: Joints whose lock leaves at most 3 % of the best manipulability; they are nearly single points of failure.
     """
 
     task: str
@@ -80,17 +79,21 @@ class Structure:
 
 
 def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
-    """Find the joints whose lock makes a task singular everywhere.
+    """Find the joints whose lock makes a task singular in every configuration.
 
-    A joint is one if its relative manipulability vanishes at each of 256 random configurations (seeded): a function that
-    is analytic in q and zero there is zero everywhere, up to events of probability zero.
+    These are the joints whose relative manipulability vanishes at each of 256 random configurations (with a fixed seed). A
+    function that is analytic in q and zero at these configurations is zero everywhere, up to events of probability zero.
+
+    Args:
+        arm: The arm.
+        task: Task, or its name or components.
     """
     arm_task = as_task(arm, task)
     redundancy = arm.n - arm_task.m
     if redundancy <= 0:
         return Structure(task=arm_task.name, redundancy=redundancy, fatal=tuple(range(arm.n)), never=False)
     generator = np.random.default_rng(20120514)
-    # Not the joint limits: a narrow range could hide what another part of it shows.
+    # Joint limits are ignored, because a narrow range could hide the structure.
     q = generator.uniform(-np.pi, np.pi, (_SAMPLE_CONFIGURATIONS, arm.n))
     index = RelativeManipulability(arm, arm_task)
     result = index.evaluate(q)
@@ -126,7 +129,7 @@ def _find_weak_joints(arm: Arm, task: Task, q: FloatArray, by_failure: FloatArra
 
 
 def _measure_concurrency_error(arm: Arm, joint: int) -> float | None:
-    """Measure how far the three axes before and the three after a joint are from meeting in a point each, in metres."""
+    """Measure by how many metres the three axes before and the three after a joint miss a common point."""
     groups = [range(joint - 3, joint), range(joint + 1, joint + 4)]
     if joint < 3 or joint + 3 >= arm.n or arm.prismatic[[number for group in groups for number in group]].any():
         return None
@@ -157,9 +160,7 @@ def _find_nearest_points(p: FloatArray, u: FloatArray, r: FloatArray, v: FloatAr
 
 
 def _find_fatal_sets(jacobians: FloatArray, fatal: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
-    """Return the minimal sets of two and three joints whose minors of the null-space projector vanish for all Jacobians (N, m,
-    n).
-    """
+    """Return the minimal sets of two and three joints with vanishing minors of the null-space projector for all Jacobians."""
     m, n = jacobians.shape[1:]
     row_basis = np.linalg.svd(jacobians)[2][:, :m]
     projector = np.eye(n) - np.swapaxes(row_basis, 1, 2) @ row_basis
@@ -174,7 +175,7 @@ def _find_fatal_sets(jacobians: FloatArray, fatal: tuple[int, ...]) -> tuple[tup
 
 
 def structures(arm: Arm) -> list[Structure]:
-    """Return the structure of every task that the arm's kind of motion has, the most demanding first."""
+    """Return the structure for every task that ``arm`` can have, the most demanding task first."""
     is_planar = plane_normal(arm) is not None
     results = []
     for name in sorted(
@@ -188,7 +189,7 @@ def structures(arm: Arm) -> list[Structure]:
 
 
 def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
-    """Explain the structure of one task in one or two sentences, with the tasks that survive."""
+    """Return one or two sentences on the structure ``found`` of ``arm`` for a task, and on surviving tasks in ``others``."""
     survivors = [
         candidate.task for candidate in others if candidate.survives and not candidate.weak and candidate.task != found.task
     ]

@@ -1,4 +1,4 @@
-"""Rank joints for a redundant motor or brake by the fault tolerance of the arm if one joint could never fail."""
+"""Ranking of joints for a redundant motor or brake by the fault tolerance of the arm if one joint could never fail."""
 
 from __future__ import annotations
 
@@ -25,18 +25,19 @@ MAX_REOPTIMISED_POSES = 500  # poses; each is optimised once for each joint, whi
 
 @dataclass(frozen=True, kw_only=True)
 class Upgrade:
-    """Gain of a region if one joint could never fail, at the same poses.
+    """Gain in the probability of an index over a region if one joint could never fail, at the same poses.
 
-    Without optimisation the configurations are the same; with it they are optimised again for the failures that remain.
+    Without optimisation the configurations are the same; with it they are optimised again for the remaining failures.
 
     Attributes:
         joint: Name of the joint.
-        before: Probability that the index meets the threshold now.
-        after: The same if no failure of this joint could happen.
-        gain: ``after - before``: fraction of the poses that fail now and would not then.
-        low, high: Interval of the gain. It is paired, because both samples are of the same poses: a failure less never makes
-            a pose worse, so the gain is one fraction, with its exact interval.
-        confidence: Of the interval.
+        before: Probability that the index meets the threshold with all failures.
+        after: Probability that it meets the threshold without failures of this joint.
+        gain: ``after - before``, the fraction of the poses that fail with, but not without, failures of this joint.
+        low: Lower limit of the exact interval of the gain. The interval is paired because both samples have the same poses.
+            Excluding a failure never makes a pose worse, so the gain is a single fraction.
+        high: Upper limit of this interval.
+        confidence: Confidence level of the interval.
     """
 
     joint: str
@@ -53,13 +54,13 @@ class RunSample:
     """Computed poses of a run at one choice of configurations.
 
     Attributes:
-        number: (N,) which row of the dataset.
-        reached: (N,) has a configuration.
-        q: (N, n) configurations, NaN where there is none.
-        value: (N,) the index.
-        by_failure: (N, F) the index after each failure.
-        worst: (N,) position of the worst failure; -1 where there is none.
-        weight: (N,) how much each pose counts, or None if all count alike.
+        number: (N,) row of the dataset.
+        reached: (N,) True for poses with a configuration.
+        q: (N, n) configurations, rad and m; NaN for poses without one.
+        value: (N,) index.
+        by_failure: (N, F) index after each failure.
+        worst: (N,) position of the worst failure; -1 if there is none.
+        weight: (N,) weight of each pose; None if all poses have the same weight.
     """
 
     number: NDArray[np.int64]
@@ -80,14 +81,12 @@ class RunSample:
 def make_run_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> RunSample:
     """Return the sample of a run from its columns.
 
-    At the best configurations the values after each failure are not stored but computed again, which costs less than reading.
+    At the best configurations the values after each failure are not stored but computed again, which is faster than reading.
     """
     status = columns["status"][:]
     computed = np.flatnonzero(status != Status.NOT_COMPUTED)
     reached = np.isin(status[computed], (Status.OK, Status.SINGULAR))
-    if (
-        optimised and "optimised_status" in columns
-    ):  # where every configuration brings the arm into collision with itself there is no best one
+    if optimised and "optimised_status" in columns:  # without a collision-free configuration there is no best one
         reached &= columns["optimised_status"][:][computed] != Status.INFEASIBLE
     weight = columns["weight"][:][computed] if "weight" in columns else None
     prefix = "optimised_" if optimised else ""
@@ -102,16 +101,16 @@ def make_run_sample(index: Index, columns: Mapping[str, Any], optimised: bool) -
 
 
 def compute_index_excluding_joint(index: Index, joint: int, run_sample: RunSample) -> FloatArray:
-    """Compute the worst case (N,) over the failures that do not include a joint, from 0; NaN where no pose is reached.
+    """Compute the worst case (N,) over the failures without a joint, given by its index; NaN for poses that are not reached.
 
     Raises:
-        InputError: No such failure is left.
+        InputError: No failure remains.
     """
     remaining = _failures_excluding_joint(index, joint)
     if not remaining:
         raise InputError(
-            f"every failure considered is one of '{index.arm.joint_names[joint]}', so nothing could fail; assess with "
-            f"more failures"
+            f"every failure includes '{index.arm.joint_names[joint]}', so no failure remains without it; assess with more "
+            f"failures"
         )
     values = run_sample.by_failure[:, remaining]
     return np.asarray(values.min(axis=1) if index.better == "larger" else values.max(axis=1))
@@ -120,10 +119,9 @@ def compute_index_excluding_joint(index: Index, joint: int, run_sample: RunSampl
 def optimise_index_excluding_joint(
     plan: AssessmentPlan, columns: Mapping[str, Any], joint: int, run_sample: RunSample
 ) -> FloatArray:
-    """Compute the values of :func:`compute_index_excluding_joint`, at configurations optimised again for the remaining
-    failures.
+    """Compute the values of :func:`compute_index_excluding_joint` at configurations optimised for the remaining failures.
 
-    The configuration optimised for all failures is the first start, so the value is never worse than there.
+    The configuration optimised for all failures is the first start, so the value is never worse than at this configuration.
     """
     value = compute_index_excluding_joint(plan.index, joint, run_sample)
     remaining = _failures_excluding_joint(plan.index, joint)
@@ -168,7 +166,7 @@ def rank_upgrades(
     threshold: float,
     confidence: float,
 ) -> list[Upgrade]:
-    """Compute :meth:`Assessment.upgrades` from the values (N,) that remain without each joint."""
+    """Compute :meth:`Assessment.upgrades` from the values (N,) without failures of each joint."""
     if not np.isfinite(threshold):
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
     larger_is_better = index.better == "larger"
@@ -182,7 +180,7 @@ def rank_upgrades(
     for joint, name in enumerate(index.arm.joint_names):
         remaining = _failures_excluding_joint(index, joint)
         if not remaining or len(remaining) == len(index.failures):
-            continue  # nothing would be left to fail, or nothing would change
+            continue  # no failure would remain, or none would be excluded
         gained = ~meets_threshold(run_sample.value) & meets_threshold(values_excluding_joint(joint))
         if run_sample.weight is None:
             gain = Interval.from_counts(int(gained.sum()), distribution.samples, confidence)

@@ -1,4 +1,4 @@
-"""Compare arms as wholes: measures over a region, joint space, and the workspace in one table, with intervals."""
+"""Comparison of arms by measures over a region, joint space, and the workspace in one table, with intervals."""
 
 from __future__ import annotations
 
@@ -27,23 +27,23 @@ from holdfast.model.failure_modes import FailureSpec
 from holdfast.studies.designs.designs import HeldOutResult
 from holdfast.studies.designs.search import sample_poses
 
-_Cell = tuple[str, str, int, Interval]  # name and unit of a column, of how many samples, and what one arm has
+_Cell = tuple[str, str, int, Interval]  # name and unit of a column, number of samples, and value of one arm
 
 COMPARISON_MEASURES = ("quantile", "fraction-above", "self-motion-size", "tolerant-workspace")
-INTERVAL_CONFIDENCE = 0.95  # of all intervals
+INTERVAL_CONFIDENCE = 0.95  # confidence level of all intervals
 _CURVE_SPACING_RAD = 0.05  # rad
-_CURVE_STARTS = 32  # of self-motions
+_CURVE_STARTS = 32  # random starts of the search for self-motions
 
 
 @dataclass(frozen=True, kw_only=True)
 class ArmMeasures:
-    """Column of a comparison of arms: a measure of all arms.
+    """Column of a comparison of arms with a measure of all arms.
 
     Attributes:
-        measure: One of the measures.
-        name: For people.
-        unit: Of the values; ``1`` if they have none.
-        samples: That each value is of, poses, configurations or points; 0 where it is exact.
+        measure: Name of the measure.
+        name: Title of the column.
+        unit: Unit of the values; ``1`` if they have none.
+        samples: Number of poses, configurations or points of each value; 0 for an exact value.
     """
 
     measure: str
@@ -57,17 +57,18 @@ class ArmComparison(Result):
     """Result of :func:`compare_arms`.
 
     Attributes:
-        arms: The arms, a row each.
-        task: The rows of a pose that matter.
-        failures: How many joints lock at once, at most.
-        region: Whose poses were drawn.
-        columns: What was measured.
-        values: (A, C) of each arm; for all of them larger is better.
-        low, high: (A, C) ends of the 95 % intervals.
-        left_out: Measures that were not asked for by name and are not defined for all the arms, and why.
+        arms: The A arms, one for each row.
+        task: Task, with the rows of a pose that matter.
+        failures: Largest number of joints that lock simultaneously.
+        region: Region from which the poses were sampled.
+        columns: The C columns of the comparison.
+        values: (A, C) measures of each arm, all better when larger.
+        low: (A, C) lower ends of the 95 % intervals.
+        high: (A, C) upper ends of the 95 % intervals.
+        left_out: Default measures that are not defined for all arms, with the reason.
         level: Fraction of the poses that have at least a quantile.
-        seed: Of all draws.
-        seconds: What it took.
+        seed: Seed of all samples.
+        seconds: Duration of the computation, s.
     """
 
     arms: tuple[Arm, ...]
@@ -84,10 +85,10 @@ class ArmComparison(Result):
     seconds: float
 
     def front(self, *names: str) -> NDArray[np.int64]:
-        """Return the arms, from 0, that no other arm beats in some columns; values whose intervals overlap count as equal.
+        """Return the indices from 0 of the non-dominated arms; values whose intervals overlap count as equal.
 
         Args:
-            names: Of columns; all if none is given.
+            names: Names of the columns to compare. Default: all columns.
 
         Raises:
             InputError: There is no such column.
@@ -95,10 +96,10 @@ class ArmComparison(Result):
         column_names = [column.name for column in self.columns]
         for name in names:
             if name not in column_names:
-                raise InputError(f"there is no column '{name}'; there are {', '.join(column_names)}")
+                raise InputError(f"column '{name}' is not known; use {', '.join(column_names)}")
         selected = [column_names.index(name) for name in names or column_names]
         lower, upper = self.low[:, selected], self.high[:, selected]
-        # No column is worse, as far as can be told, and one is better for sure.
+        # No column is significantly worse, and one is significantly better.
         no_worse = (upper[:, None] >= lower[None]).all(axis=2)
         better = (lower[:, None] > upper[None]).any(axis=2)
         return np.flatnonzero(~(no_worse & better).any(axis=0))
@@ -121,43 +122,43 @@ def compare_arms(
     best_limits: bool = False,
     seed: int = 0,
 ) -> ArmComparison:
-    """Compare arms as wholes, because the value at one best configuration does not characterise the rest of an arm.
+    """Compare arms by measures of the whole arm, because the value at one best configuration does not characterise the rest.
 
-    - ``quantile``: relative manipulability, at the best configuration of each pose of the region, that the fraction ``level``
-      of the poses has at least; poses out of reach have 0.
-    - ``fraction-above``: of the joint space, within the limits or full circles, that keeps each threshold.
-    - ``self-motion-size``: whole turns of all joints on one curve of a pose: the median over the region, and what the fraction
-      ``level`` of the poses has at least; for one degree of redundancy.
-    - ``tolerant-workspace``: points that are reached before and after any one lock, of the disc or ball of the arm's length.
+    - ``quantile``: relative manipulability, at the best configuration of each pose of the region, that a fraction ``level`` of
+      the poses has at least; poses out of reach count as 0.
+    - ``fraction-above``: fraction of the joint space, within the limits or full circles, that has at least each threshold.
+    - ``self-motion-size``: full turns of all joints on one self-motion curve of a pose: the median over the region, and the
+      size that a fraction ``level`` of the poses has at least; for one degree of redundancy.
+    - ``tolerant-workspace``: fraction of the disc or ball of the arm's length that is reached before and after any one lock.
 
     Args:
-        arms: An arm, or several that are judged on the same poses.
-        region: Of poses. Default: around the home of the first arm.
-        task: Rows of the pose that matter; a tolerant workspace is that of positions, or of places in the plane of the arm.
-        failures: Joints that lock at once; a tolerant workspace is of single locks.
-        measures: Some of them. Default: all that are defined for the arms.
-        level: Fraction of the poses.
-        thresholds: Of relative manipulability.
-        poses: Drawn from the region.
-        samples: Configurations of each arm.
-        points: Of the workspace, where it is sampled.
-        best_limits: Look for the artificial limits with which the tolerant workspace is largest: takes long where it is
-            sampled. Default: the arm's own limits, which a joint may lock at.
-        seed: Of all draws.
+        arms: An arm, or several arms that are compared at the same poses.
+        region: Region of the poses. Default: around the home of the first arm.
+        task: Rows of the pose that matter; the tolerant workspace is that of positions in space, or in the plane of the arm.
+        failures: Joints that lock simultaneously; the tolerant workspace is for single locks.
+        measures: Names of the measures. Default: all that are defined for the arms.
+        level: Fraction of the poses that have at least a quantile.
+        thresholds: Thresholds of relative manipulability.
+        poses: Number of poses from the region.
+        samples: Number of configurations of each arm.
+        points: Number of points of a sampled workspace.
+        best_limits: True to search for the artificial limits with the largest tolerant workspace, which takes long if it is
+            sampled. False: the arm's limits, between which a joint may lock.
+        seed: Seed of all samples.
 
     Raises:
-        InputError: No arm, an unknown measure, thresholds or counts out of range.
-        TaskError: No redundancy; the size of self-motions is asked for and there is more than one degree of it.
+        InputError: There is no arm, a measure is unknown, or thresholds or counts are out of range.
+        TaskError: An arm has no redundancy, or more than one degree of it for the requested size of self-motions.
 
     Source: derived here.
     """
     start_time = time.monotonic()
     arm_list = (arms,) if isinstance(arms, Arm) else tuple(arms)
     if not arm_list:
-        raise InputError("there is no arm to judge")
+        raise InputError("there is no arm to compare; give one or more")
     unknown = [measure_name for measure_name in measures or () if measure_name not in COMPARISON_MEASURES]
     if unknown:
-        raise InputError(f"'{unknown[0]}' is no measure; there are {', '.join(COMPARISON_MEASURES)}")
+        raise InputError(f"measure '{unknown[0]}' is not known; use {', '.join(COMPARISON_MEASURES)}")
     if min(poses, samples, points) < 1 or not 0 < level < 1 or not thresholds:
         raise InputError("give at least 1 pose, sample, point and threshold, and a level between 0 and 1")
     tasks = [as_task(arm, task) for arm in arm_list]
@@ -221,7 +222,7 @@ def compare_arms(
 
 @dataclass(frozen=True)
 class _ComparisonSample:
-    """Poses and further sampled quantities, equal for all arms."""
+    """Poses and further settings of the samples, which are equal for all arms."""
 
     region: Region
     poses: FloatArray

@@ -1,4 +1,4 @@
-"""Search for the arm that most often reaches its targets after an unidentified lock."""
+"""Search for the arm that most often reaches its targets after an undetected lock."""
 
 from __future__ import annotations
 
@@ -33,32 +33,32 @@ Progress = Callable[[int, int], None]
 Aim = Literal["guaranteed", "converged"]
 
 RING_COUNT = 40
-DEFAULT_TARGETS = 12  # of a sampled search
-FAILURES_PER_JOINT = 2  # each failure is one of every joint
-_CHUNK_DESIGNS = 16  # designs that are looked at, and remembered, together
-_CHECK_TARGET_FACTOR = 8  # times as many targets in the check of a sampled search
+DEFAULT_TARGETS = 12  # targets of a sampled search
+FAILURES_PER_JOINT = 2  # failures of each joint for each target
+_CHUNK_DESIGNS = 16  # designs that are evaluated and stored together
+_CHECK_TARGET_FACTOR = 8  # ratio of the targets in the check to those in a sampled search
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceDesigns(Result):
-    """Designs of an arm by how often they converge after an unidentified lock; design 0 is the baseline arm.
+    """D designs of an arm with measures of their convergence after an undetected lock; design 0 is the baseline arm.
 
     Attributes:
-        law: The law, of the given arm.
-        space: What is varied.
-        values: (D, k) of all designs that were looked at, m and rad.
-        measures: By name, (D,) each. ``guaranteed``: share of the targets (of the area, for planar arms) that whatever lock
-            leaves within reach the arm converges to, as far as no sink and no singular trap holds it (exact only);
-            ``free``: share of the locks that leave the target within reach after which nothing can hold the arm (exact), or it
-            converged (sampled), every joint alike; ``converged``: share of all locks after which the target is in reach and
-            nothing can hold the arm (exact); mean over the targets of the share of failures after which it converged, 0 for
-            targets out of reach (sampled); ``reached``: share of the targets that the healthy arm reaches.
-        objective: What was maximised.
-        exact: From the stationary sets, not from simulations.
+        law: Control law of the baseline arm.
+        space: Design space.
+        values: (D, k) all evaluated designs, m and rad.
+        measures: Measures by name, (D,) each, as fractions. ``guaranteed``: targets (by area for planar arms) at which, for
+            every lock that leaves them within reach, no sink and no singular trap holds the arm (exact only). ``free``: locks,
+            among those that leave the target within reach, after which nothing can hold the arm (exact), or it converged
+            (sampled), with equal weights of the joints. ``converged``: locks after which the target is in reach and nothing
+            can hold the arm (exact); or mean over the targets of the fraction of failures after which it converged, 0 for
+            targets out of reach (sampled). ``reached``: targets that the healthy arm reaches.
+        objective: Name of the maximised measure.
+        exact: True if the measures come from the stationary sets, not from simulations.
         best: Index of the best design.
-        checked: Sampled only: shares of the given and of the best arm on targets and failures that the search did not see,
-            and their difference.
-        searched: How it was searched, by the names of the options.
+        checked: Fractions of the baseline arm and the best arm on held-out targets and failures, and their difference (sampled
+            only).
+        searched: Options of the search, by name.
     """
 
     law: Law
@@ -74,22 +74,22 @@ class ConvergenceDesigns(Result):
     _rings: FloatArray | None = field(repr=False, default=None)
 
     def arm(self, design: int | None = None) -> Arm:
-        """Return the arm of a design, by default the best one, without inertial data."""
+        """Return the arm of the ``design`` with an index, by default the best one, without inertial data."""
         return self.space.arm_of(self.values[self.best if design is None else design])
 
     def radial(self, design: int | None = None) -> Radial:
-        """Return the effect of locks on targets at every distance for a design, by default the best one (exact only).
+        """Return the effect of locks on targets at every distance for a ``design``, by default the best one (exact only).
 
         Raises:
             InputError: The search was by sampling.
         """
         if self._rest is None or self._rings is None:
-            raise InputError("only designs of planar arms with three joints are known by distance; these were sampled")
+            raise InputError("these designs were sampled; effects by distance are known only for exact planar searches")
         chosen = self.values[[self.best if design is None else design]]
         return self._rest.radial(_make_link_lengths(self._rest, self.space, chosen), self._rings)
 
     def arm_file(self) -> str:
-        """Return the best arm as a file that every command reads."""
+        """Return the best arm as the text of an arm file."""
         from holdfast.model.arms.dh_file import format_dh_file
 
         arm = self.arm()
@@ -113,43 +113,45 @@ def design_for_convergence(
     progress: Progress | None = None,
     store: str | Path | None = None,
 ) -> ConvergenceDesigns:
-    """Search for the arm that most often reaches its targets after a lock that its controller has not identified.
+    """Search for the arm that most often reaches its targets after a lock that its controller has not detected.
 
-    **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid of 1.5 deg in one angle.
-    Where the arm can stop away from the target is known for all targets at once, and so, for every distance of the
-    target, at which locked angles that leave it within reach there is a sink, or a singular configuration that draws the arm
-    in. No sink and no trap does not exclude limit cycles, of which one is known; see :func:`holdfast.control.equilibria.orbit`.
+    For **planar arms of three joints** (pseudoinverse, weighted by joint, damped) the search is exact, up to a grid of 1.5 deg
+    in one angle. The configurations at which the arm can stop away from the target are known for all targets at once. This
+    gives, for every distance of the target, the locked angles that leave it within reach and at which there is a sink, or a
+    singular configuration that attracts the arm. The absence of both does not exclude limit cycles, of which one is known; see
+    :func:`holdfast.control.equilibria.orbit`.
 
-    **Any other arm, task or law**: by simulation of the same random failures for all designs. A joint locks where it is in
-    some configuration at the target, so that the target stays within reach, and the arm starts anywhere.
+    For **any other arm, task or law** the search simulates the same random failures for all designs. A joint locks at its value
+    in some configuration at the target, so that the target stays within reach, and the arm starts anywhere.
 
     Neither measure is smooth in the design. A scrambled Sobol sequence screens the bounds, together with designs in which two
-    varied lengths are made equal, as coincidences matter here; the best are improved by pattern search. What is found is
-    good, and not proved to be best.
+    varied lengths are equal, because such coincidences matter here. Pattern search improves the best designs. The result is
+    good, but not proved to be the best.
 
     Args:
-        law: The law, with the given arm and the task; every design is driven by the same.
-        vary: What is varied, and between which bounds, m and rad: ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``, or whatever
-            else :func:`holdfast.studies.designs.design_space` takes; not joint limits.
-        targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
-            Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's tool; 12 if not given.
-        objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
-            ``converged``. ``converged``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``converged``.
-        designs: Of the screening.
-        local_searches: Of the best of them, so many are improved.
-        keep_reach: The varied link lengths keep their sum.
-        exact: False: simulate where the exact sets are known, too.
-        failures: Of each joint for each target (sampled).
-        seed: Of the designs, and of all random numbers of a sampled search.
-        progress: Called with (designs done, designs expected in all).
-        store: Folder from which a stopped sampled search resumes; an exact one takes seconds.
+        law: Control law for all designs, with the baseline arm and the task.
+        vary: Varied parameters with bounds, m and rad, for example ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``, or any other
+            form of :func:`holdfast.studies.designs.design_space`; not joint limits.
+        targets: Range of distances from the first joint, m, for an exact search. Default: from 0 to the reach of the baseline
+            arm. For a sampled search, (T, m) positions, m, (T, 4, 4) poses, or a number of random tool poses of the baseline
+            arm. Default: 12.
+        objective: ``guaranteed`` (exact) maximises the fraction of guaranteed targets, then that of locks, then ``converged``.
+            Sampled searches maximise ``converged``; see :class:`holdfast.ConvergenceDesigns`.
+        designs: Number of designs in the screening.
+        local_searches: Number of the best designs that are improved.
+        keep_reach: True to keep the sum of the varied link lengths.
+        exact: False to simulate even if the exact sets are known. None: exact if possible.
+        failures: Number of failures of each joint for each target (sampled).
+        seed: Seed of the designs and of all random numbers of a sampled search.
+        progress: Function that is called with (designs done, designs expected in all).
+        store: Folder from which a stopped sampled search can be resumed; an exact one takes seconds.
 
     Raises:
-        InputError: Names, bounds or options that do not fit; a law or an arm without exact sets, if ``exact`` is True.
-        StoreError: The folder holds something else, or cannot be written.
+        InputError: Names, bounds or options do not fit, or ``exact`` is True for a law or an arm without exact sets.
+        StoreError: The folder contains other files, or cannot be written.
 
-    Source: Goel, Maciejewski, Balakrishnan 2005, footnote 11, say that their analysis can be extended to design such arms, and
-    not how. Measures and search are ours.
+    Source: Goel, Maciejewski, Balakrishnan 2005, footnote 11, state that their analysis can be extended to design such arms,
+    but not how. Measures and search are ours.
     """
     if objective not in ("guaranteed", "converged"):
         raise InputError(f"objective '{objective}' is not known; use guaranteed or converged")
@@ -167,7 +169,7 @@ def design_for_convergence(
                 raise
     if planar_rest is not None:
         if space.lower.min() <= 0:
-            raise InputError("a link cannot have length 0 or less; give bounds above 0")
+            raise InputError("a link length can be 0 or less within the bounds; give bounds above 0")
         return _search_exactly(
             planar_rest, bounds, _make_ring_radii(planar_rest, targets), objective, designs, local_searches, seed, progress
         )
@@ -181,7 +183,7 @@ def _make_planar_rest(law: Law, space: DesignSpace) -> PlanarStationarySets:
     other_names = [name for name in space.names if name not in ("a1", "a2", "a3")]
     if other_names:
         raise InputError(
-            f"'{other_names[0]}' is not a link length; exact sets are known for a1, a2 and a3, or sample: exact=False"
+            f"'{other_names[0]}' is not a link length; vary a1, a2 or a3 for exact sets, or sample with exact=False"
         )
     return planar_rest
 
@@ -235,7 +237,7 @@ def _search_exactly(
 
 
 def planar_measures(radial: Radial) -> dict[str, FloatArray]:
-    """Return the measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, weighted by the areas of the rings."""
+    """Return the measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, for ``radial``, weighted by the rings' areas."""
     area = radial.area
     in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -249,7 +251,7 @@ def planar_measures(radial: Radial) -> dict[str, FloatArray]:
 
 
 def _choose_best(measures: dict[str, FloatArray], priorities: tuple[str, ...]) -> int:
-    # Of measures that differ by less than 0.1 % the next one decides.
+    # If measures differ by less than 0.1 %, the next measure decides.
     keys = [np.round(measures[name], 3) for name in priorities[:-1]] + [measures[priorities[-1]]]
     return int(np.lexsort([-key for key in reversed(keys)])[0])
 
@@ -266,7 +268,7 @@ def _search_by_sampling(
     store: str | Path | None,
 ) -> ConvergenceDesigns:
     if store is not None:
-        LAW_REGISTRY.label(law)  # says so where there is none
+        LAW_REGISTRY.label(law)  # raises InputError if the law has no label
     design_law = LawOfDesigns(law, DesignJoints.from_space(bounds.space))
     search_seed, check_seed = np.random.SeedSequence(seed).spawn(2)
     requested = DEFAULT_TARGETS if targets is None else targets
@@ -289,14 +291,14 @@ def _search_by_sampling(
         return {"free": free_fraction, "converged": outcomes.mean_fraction, "reached": outcomes.reached_fraction}
 
     def measure_designs(values: FloatArray) -> dict[str, FloatArray]:
-        # What a design is worth does not depend on its company, so that a stopped search loses little.
+        # The value of a design does not depend on the other designs, so a stopped search loses little.
         chunks = [values[start : start + _CHUNK_DESIGNS] for start in range(0, len(values), _CHUNK_DESIGNS)]
         results = [recall_part(f"designs {next(part_numbers)}", lambda c=c: evaluate_chunk(c)) for c in chunks]  # type: ignore[misc]
         return {name: np.concatenate([result[name] for result in results]) for name in results[0]}
 
     values, measures = search_patterns(bounds, measure_designs, ("converged",), designs, local_searches, seed, progress)
     best = _choose_best(measures, ("converged",))
-    # What was chosen for doing well on some failures is judged by others; targets that were given stay what they are.
+    # The best design was selected on some failures, so it is checked on others; given targets do not change.
     check_targets = _CHECK_TARGET_FACTOR * len(search_targets) if isinstance(requested, (int, np.integer)) else requested
     check_places = read_places(law.arm, law.task, check_targets, np.random.default_rng(check_seed))
     check_data = recall_part(

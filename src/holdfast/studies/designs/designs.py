@@ -1,4 +1,4 @@
-"""Result of a search of designs, and the choice of the best one."""
+"""Result of a search for designs, and the choice of the best one."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from holdfast.model.arm.model import Arm
 from holdfast.studies.designs.space import DesignSpace
 
 SAME_VALUE_TOLERANCE = (
-    1e-3  # of the greatest value: guarantees so near to one another print alike, and fresh poses hardly tell them apart
+    1e-3  # fraction of the greatest value: closer quantiles print alike, and held-out poses hardly distinguish them
 )
-_ZERO_INDEX = 1e-6  # of the index: rounding
-_ACCEPTABLE_LOSS = 0.05  # of the guarantee: what somebody might give up for reach
-_WORTHWHILE_GAIN = 0.02  # of the reach: what somebody might give it up for
+_ZERO_INDEX = 1e-6  # a smaller index is due to rounding
+_ACCEPTABLE_LOSS = 0.05  # fraction of the quantile that a user might give up for reach
+_WORTHWHILE_GAIN = 0.02  # fraction of the reach that is worth this loss
 
 
 @dataclass(frozen=True)
 class HeldOutResult:
-    """Index of an arm on held-out poses: an estimate from a sample, not a proof.
+    """Index of an arm on held-out poses, which is an estimate from a sample, not a proof.
 
     Attributes:
-        distribution: Of the index at the best configuration of every pose; one that is not reached counts as 0.
+        distribution: Distribution of the index at the best configuration of every pose; a pose out of reach counts as 0.
         guaranteed: Lower quantile of the index over the poses, with its 95 % confidence interval.
     """
 
@@ -44,13 +44,13 @@ class HeldOutResult:
     ) -> HeldOutResult:
         """Return the distribution on held-out poses, and its quantile with the order statistics that enclose it.
 
-        Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
+        With too few poses for one of them to be below the quantile with certainty (72 for a level of 0.95), the lower end is 0.
 
         Args:
-            value: (P,) index of each pose.
-            reached: (P,) whether it was reached.
-            weights: (P,) of the poses; empty if all count alike.
-            level: Share of the poses that have at least the quantile.
+            value: (P,) index at each pose.
+            reached: (P,) True for reached poses.
+            weights: (P,) weights of the poses; empty if all are equal.
+            level: Fraction of the poses that have at least the quantile.
             heaviest: Largest weight that a pose can have.
 
         Source: David and Nagaraja 2003, section 7.1, for the interval.
@@ -86,8 +86,9 @@ class HeldOutCheck:
     """Baseline arm and best design on the same held-out poses, on which no choice was based.
 
     Attributes:
-        given, best: Each on those poses.
-        optimism: By how much the best design looked better on the poses it was chosen on.
+        given: Result of the baseline arm on these poses.
+        best: Result of the best design on these poses.
+        optimism: Amount by which the quantile of the best design was larger on the poses on which it was selected.
     """
 
     given: HeldOutResult
@@ -97,26 +98,26 @@ class HeldOutCheck:
 
 @dataclass(frozen=True, kw_only=True)
 class Designs(Result):
-    """Result of :func:`holdfast.design`: D designs, the baseline arm first.
+    """Result of :func:`holdfast.design` with D designs, the baseline arm first.
 
     Attributes:
-        space: What was varied.
-        values: (D, k) rad and m.
-        guaranteed: (D,) index that a share ``level`` of the poses of the search has at least.
+        space: Design space.
+        values: (D, k) designs, rad and m.
+        guaranteed: (D,) index that a fraction ``level`` of the poses of the search has at least; an estimate from a sample.
         reach: (D,) largest distance of the tool point from the arm's base within the limits, m.
-        reached: (D,) share of the poses with a configuration.
-        front: Numbers of the designs that no other one beats in both reach and guaranteed value, by reach.
-        best: Number of the design with the greatest guaranteed value; of several within 0.1 % of it the farthest-reaching one.
-        checked: The given arm and the best design on fresh poses.
-        index: Of the given arm.
-        region: The poses; the same for all designs.
-        level: Share of the poses for which the value is guaranteed.
+        reached: (D,) fraction of the poses with a configuration.
+        front: Numbers of the designs on the Pareto front of reach and ``guaranteed``, by reach.
+        best: Number of the design with the greatest ``guaranteed``, or of the farthest-reaching one within 0.1 % of it.
+        checked: Results of the baseline arm and the best design on held-out poses.
+        index: Index of the baseline arm.
+        region: Region of the poses, which are the same for all designs.
+        level: Fraction of the poses that have at least the quantile.
         poses: Number of poses of the search.
-        screened: Designs spread over the space.
-        climbs: Climbs from the best of them.
-        seed: Of everything random.
-        seconds: Time this call took; less than the search where it went on from a folder. None if not known.
-        method: How it was computed, for reports: words and texts.
+        screened: Number of designs that were spread over the space.
+        climbs: Number of local searches from the best of them.
+        seed: Seed of all random numbers.
+        seconds: Duration of this call, s, which is shorter than the search if it was resumed; None if not known.
+        method: Description of the method for reports, as pairs of titles and texts.
     """
 
     space: DesignSpace
@@ -139,7 +140,7 @@ class Designs(Result):
 
     @property
     def start_guaranteed(self) -> float:
-        """Guaranteed index of the baseline arm, in the unit of the index."""
+        """Quantile ``guaranteed`` of the baseline arm, in the unit of the index."""
         return float(self.guaranteed[0])
 
     @property
@@ -153,7 +154,7 @@ class Designs(Result):
         return self.best == 0
 
     def arm(self, number: int | None = None) -> Arm:
-        """Return the arm of a design, by default the best one."""
+        """Return the arm of the design with a ``number``, by default the best one."""
         return self.space.arm_of(self.values[self.best if number is None else number])
 
 
@@ -171,10 +172,9 @@ def format_value_interval(interval: Interval) -> str:
 
 
 def choose_best_design(guaranteed: FloatArray, reach: FloatArray) -> int:
-    """Return the number of the design with the greatest guaranteed value (D,), or of the farthest-reaching one of several
-    within 0.1 % of it.
+    """Return the number of the design with the greatest value (D,), or of the farthest-reaching one within 0.1 % of it.
 
-    The first, which is the given arm, is what is there already: it stays the best unless another one has more of either.
+    The first design, the baseline arm, stays the best unless another design has a larger value or reach.
     """
     is_equal = guaranteed >= (1 - SAME_VALUE_TOLERANCE) * guaranteed.max() - _ZERO_INDEX
     if is_equal[0] and reach[is_equal].max() <= (1 + SAME_VALUE_TOLERANCE) * reach[0]:
@@ -184,9 +184,7 @@ def choose_best_design(guaranteed: FloatArray, reach: FloatArray) -> int:
 
 
 def describe_farther_design(guaranteed: FloatArray, reach: FloatArray, best: int) -> str:
-    """Describe the design that reaches farthest for a little less than the best guarantee; the text is empty if
-    there is none.
-    """
+    """Describe the design that reaches farthest for slightly less than the best quantile; the text is empty without one."""
     is_candidate = (guaranteed >= (1 - _ACCEPTABLE_LOSS) * guaranteed[best]) & (reach >= (1 + _WORTHWHILE_GAIN) * reach[best])
     if not guaranteed[best] > 0 or not is_candidate.any():
         return ""

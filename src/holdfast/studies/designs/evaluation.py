@@ -1,7 +1,7 @@
-"""Evaluate designs pose by pose: find the best configuration of every design and pose, in one batch.
+"""Evaluation of designs pose by pose, at the best configuration of every design and pose, in one batch.
 
-The search for configurations is that of :func:`holdfast.optimise` (same steps, compiled once for all designs), but most of its
-random starts are spared: a design begins where a design near it has ended.
+The search for configurations has the steps of :func:`holdfast.optimise`, compiled once for all designs. It needs few random
+starts, because a design starts from the results of neighbouring designs.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ from holdfast.kinematics.solvers.optimum import FIRST_STEPS, INITIAL_RADIUS, LAS
 from holdfast.model.arm.configurations import replace_infinite_limits
 from holdfast.studies.designs.family import Family
 
-POSE_TOLERANCE = 1e-6  # of the pose, m and rad; of an arm that is shorter than 1 m as much less
+POSE_TOLERANCE = 1e-6  # m and rad; proportionally less for an arm that is shorter than 1 m
 _IK_STEPS = 40
-_KEPT_CONFIGURATIONS = 2  # configurations of a design and pose that the next designs begin from
-_START_DIVISOR = 8  # of a design with neighbours: the given number of random starts by this, besides what the neighbours found
-_IK_RESTARTS = 24  # more starts of inverse kinematics where nothing was found
+_KEPT_CONFIGURATIONS = 2  # configurations of a design and pose from which the next designs start
+_START_DIVISOR = 8  # a design with neighbours has the number of random starts divided by this, plus those of the neighbours
+_IK_RESTARTS = 24  # more starts of inverse kinematics if nothing was found
 _POOL_SIZE = 1 << 12
-# _POSE_STRIDE and _START_STRIDE: odd: each pose walks through the whole pool of starts
+# Odd strides, with which each pose passes through the whole pool of starts.
 _POSE_STRIDE = 2654435761
 _START_STRIDE = 40503
-# _IK_ROWS and _ASCENT_ROWS: steps for each design and pose (measured: 519 and 113)
+# Steps for each design and pose (measured: 519 and 113).
 _IK_ROWS = 500
 _ASCENT_ROWS = 100
-_BATCH_ROWS = 1 << 16  # starts side by side; no result depends on it
+_BATCH_ROWS = 1 << 16  # starts that are computed together; no result depends on it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Evaluated:
-    """D designs evaluated at P poses.
+    """Result of evaluating D designs at P poses.
 
     Attributes:
-        values: (D, k) the designs.
-        q: (D, P, n) the best configuration found, rad and m; where the pose is not reached the one that comes nearest.
-        value: (D, P) the index there; 0 where the pose is not reached.
-        reached: (D, P) a configuration within the limits was found.
-        miss: (D, P) how near the end effector came where it was not: length of the task's error, m and rad; 0 where it was.
-        kept: (D, P, K, n) configurations to begin from nearby, best first; NaN where there are fewer.
+        values: (D, k) designs, rad and m.
+        q: (D, P, n) best configuration that was found, rad and m, or the nearest one for a pose that is not reached.
+        value: (D, P) index at this configuration; 0 for a pose that is not reached.
+        reached: (D, P) True if a configuration within the limits was found.
+        miss: (D, P) norm of the least task error, m and rad, for a pose that is not reached; 0 for a reached pose.
+        kept: (D, P, K, n) configurations from which neighbouring designs start, best first, filled up with NaN.
     """
 
     values: FloatArray
@@ -53,34 +53,34 @@ class Evaluated:
     kept: FloatArray
 
     def take(self, designs: Any) -> Evaluated:
-        """Return some of the designs."""
+        """Return the evaluation of the ``designs`` with these indices."""
         return Evaluated(**{name: getattr(self, name)[designs] for name in self.__dataclass_fields__})
 
     @staticmethod
     def concatenate(parts: list[Evaluated]) -> Evaluated:
-        """Concatenate several results."""
+        """Concatenate the evaluations in ``parts``."""
         return Evaluated(**{name: np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__})
 
     @property
     def signed_index(self) -> FloatArray:
-        """(D, P) index; where the pose is not reached, minus the pose error of the end effector, one per m and rad.
+        """(D, P) index, or for a pose that is not reached, minus the pose error of the end effector, one per m and rad.
 
-        So that a search is drawn towards poses that a design does not reach yet.
+        A negative value guides a search towards poses that a design does not reach yet.
         """
         return np.where(self.reached, self.value, -self.miss)
 
 
 class Evaluator:
-    """Evaluator of designs at fixed poses; equal designs give equal bits for any number of threads.
+    """Evaluator of designs at fixed poses; equal designs result in equal bits for any number of threads.
 
     Args:
-        family: The designs and what is asked of them.
-        poses: (P, 4, 4) in the world.
-        seed: Of the random starts.
+        family: Family of the designs, with the index and the task.
+        poses: (P, 4, 4) tool poses in the world, m.
+        seed: Seed of the random starts.
 
     Attributes:
-        family, poses: The same.
-        starts: Random starts of a design that has no neighbours, as :func:`holdfast.optimise` takes.
+        family, poses: Family and poses of the evaluator.
+        starts: Number of random starts of a design without neighbours, that of :func:`holdfast.optimise`.
     """
 
     def __init__(self, family: Family, poses: FloatArray, seed: int = 0) -> None:
@@ -94,11 +94,11 @@ class Evaluator:
         """Evaluate designs.
 
         Args:
-            values: (D, k).
-            near: Designs evaluated before: each new one begins from the configurations of the nearest two of them. If not
-                given, the first design is searched from many random starts, and the others grow from it, each round twice as
-                many as the one before.
-            fresh: Random starts of each design and pose besides; an eighth of ``starts`` if not given.
+            values: (D, k) designs, rad and m.
+            near: Evaluated designs, of which the nearest two provide configurations as starts for each new design. Default: the
+                first design is searched from many random starts, and the others start from its results, in rounds of twice as
+                many designs.
+            fresh: Number of additional random starts of each design and pose. Default: an eighth of ``starts``.
         """
         fresh = self.starts // _START_DIVISOR if fresh is None else fresh
         for steps, kernel in ((_IK_ROWS, "inverse"), (_ASCENT_ROWS, "ascent")):
@@ -147,7 +147,7 @@ class Evaluator:
     # ---- configurations ----------------------------------------------------------------------------------------------
 
     def _search_configurations(self, values: FloatArray, given_starts: FloatArray, random_count: int) -> Evaluated:
-        """Find the best configurations from given starts (D, P, S, n), NaN where there is none, and from some random starts."""
+        """Find the best configurations from given starts (D, P, S, n), filled up with NaN, and from some random starts."""
         design_count, pose_count, n = len(values), len(self.poses), self.family.arm.n
         all_rows = np.arange(design_count * pose_count)
         is_finite = np.isfinite(given_starts).all(axis=-1)  # (D, P, S)
@@ -179,7 +179,7 @@ class Evaluator:
         best_values = np.zeros(design_count * pose_count)
         best_values[rows[is_first]] = value[is_first]
         nearest[rows[is_first]] = q[is_first]
-        # A pose that is not reached hands on where the arm came nearest.
+        # For a pose that is not reached, the nearest configuration is kept.
         kept_q[~reached, 0] = nearest[~reached]
         pose_errors = np.where(reached, 0.0, pose_errors)
         shape = (design_count, pose_count)
@@ -193,24 +193,20 @@ class Evaluator:
         )
 
     def _sample_starts(self, values: FloatArray, owner: IndexArray, start_number: IndexArray) -> FloatArray:
-        """Return start ``start_number`` of each design and pose: a fraction of the joint ranges that depends on the
-        pose alone.
-        """
+        """Return start ``start_number`` of each design and pose; its fractions of the joint ranges depend only on the pose."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.finite_limits(values)
         fractions = self._pool[(pose * _POSE_STRIDE + start_number * _START_STRIDE) % _POOL_SIZE]
         return np.asarray(lower[design] + fractions * (upper - lower)[design])
 
     def finite_limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return limits (D, n) to sample between; see ``holdfast.model.arm.configurations.sampling_limits``."""
+        """Return the lower and upper limits (D, n), rad and m, between which to sample for designs ``values`` (D, k)."""
         return replace_infinite_limits(*self.family.limits(values), self.family.prismatic)
 
     def _solve_inverse_kinematics(
         self, values: FloatArray, owner: IndexArray, q: FloatArray, nearest: FloatArray, pose_errors: FloatArray
     ) -> tuple[IndexArray, FloatArray]:
-        """Solve inverse kinematics from starts q (R, n) and return the converged ones; the nearest end of the others is
-        recorded.
-        """
+        """Return the converged results of inverse kinematics from starts q (R, n), and record the nearest end of the others."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.family.limits(values)
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
@@ -224,9 +220,7 @@ class Evaluator:
     def _maximise_index(
         self, values: FloatArray, owner: IndexArray, q: FloatArray
     ) -> tuple[IndexArray, FloatArray, FloatArray]:
-        """Move q along the poses to the best configurations; return the owners, configurations, and values of those still on
-        their pose.
-        """
+        """Move q along the poses to the best configurations; return owners, configurations, and values of those on a pose."""
         if not owner.size:
             return owner, q, np.empty(0)
         q, radius = self._ascend_index(values, owner, q, FIRST_STEPS, np.full(len(q), INITIAL_RADIUS))
@@ -252,19 +246,22 @@ class Evaluator:
         for _ in range(steps):
             before = state
             state = self.family.ascent.rows(state[:, :n], state[:, n], state[:, n + 1 :], position, rotation, design_values)
-            is_invalid = ~np.isfinite(state).all(axis=1)  # a step that divided by zero (a singular configuration) is not taken
+            is_invalid = ~np.isfinite(state).all(axis=1)  # reject a step that divided by zero (a singular configuration)
             state[is_invalid] = before[is_invalid]
         return state[:, :n], state[:, n]
 
-    # ---- facts -------------------------------------------------------------------------------------------------------
+    # ---- properties of rows ------------------------------------------------------------------------------------------
 
     def value(self, values: FloatArray, owner: IndexArray, q: FloatArray) -> FloatArray:
-        """Return the index (R,) of rows ``owner`` (design times P plus pose) at q (R, n); 0 where the arm is singular."""
+        """Return the index (R,) of rows ``owner`` (R,), which is design times P plus pose, at ``q`` (R, n); 0 if singular.
+
+        ``values`` (D, k) are the designs.
+        """
         index_values = self.family.value.rows(q, values[owner // len(self.poses)])
         return np.asarray(np.nan_to_num(index_values.min(axis=1), nan=0.0, posinf=0.0, neginf=0.0))
 
     def on_pose(self, values: FloatArray, owner: IndexArray, q: FloatArray) -> BoolArray:
-        """Return (R,) True where q is on its pose and within the limits of its design."""
+        """Return a mask of rows ``owner`` (R,) of ``values`` (D, k) whose ``q`` (R, n) is on its pose within the limits."""
         design, pose = np.divmod(owner, len(self.poses))
         lower, upper = self.family.limits(values)
         position, rotation = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3)
@@ -273,6 +270,6 @@ class Evaluator:
         return np.asarray(inside & (errors <= self._tolerance).all(axis=1))
 
     def rows(self, owner: IndexArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return position (R, 3), rotation (R, 3, 3), and design (R, k) of rows."""
+        """Return position (R, 3), rotation (R, 3, 3), and design (R, k) of rows ``owner`` (R,) of designs ``values`` (D, k)."""
         design, pose = np.divmod(owner, len(self.poses))
         return self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3), values[design]

@@ -1,4 +1,4 @@
-"""Simulate how often failed arms of many designs reach their target: any arm, task, and law, all designs in one batch."""
+"""Simulation of how often failed arms of many designs reach their target, with all designs in one batch."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from holdfast.kinematics.solvers import joint_space
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.studies.designs.joints import LawOfDesigns
 
-# RUN_TIME_CONSTANTS and RUN_TOLERANCE: of a run, as in a convergence map
+# Time limit and tolerance of a run, as in a convergence map.
 RUN_TIME_CONSTANTS = 500.0
 RUN_TOLERANCE = 1e-8
-CONVERGED_DISTANCE = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has converged
-_STARTS_PER_CONFIGURATION = 40  # random starts of inverse kinematics for each configuration that is wanted
+CONVERGED_DISTANCE = 1e-3  # rad, and fraction of the arm's own length: an undecided run this close to its target has converged
+_STARTS_PER_CONFIGURATION = 40  # random starts of inverse kinematics for each requested configuration
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,10 +28,10 @@ class ConvergenceOutcomes:
     """Outcomes of D designs at T targets, after C failures of each joint.
 
     Attributes:
-        converged: (D, T, C, n) True where the target was reached.
-        known: (D, T, C) there was a configuration at the target to take the locked angles from.
-        ends: (D, 4) how the runs ended, by :class:`holdfast.control.simulation.RunOutcome`; undecided ones next to the target
-            have converged.
+        converged: (D, T, C, n) True if the target was reached.
+        known: (D, T, C) True if there was a configuration at the target, from which the locked values are taken.
+        ends: (D, 4) number of runs by :class:`holdfast.control.simulation.RunOutcome`; undecided runs next to the target count
+            as converged.
     """
 
     converged: NDArray[np.bool_]
@@ -45,7 +45,7 @@ class ConvergenceOutcomes:
 
     @property
     def fraction_by_target(self) -> FloatArray:
-        """(D, T) fraction of the failures of a target after which it is still reached; NaN where it is out of reach."""
+        """(D, T) fraction of the failures of a target after which it is still reached; NaN for a target out of reach."""
         count = self.known.sum(axis=2)
         with np.errstate(invalid="ignore"):
             fractions = self.converged.mean(axis=3).sum(axis=2) / np.where(count > 0, count, np.nan)
@@ -53,21 +53,21 @@ class ConvergenceOutcomes:
 
     @property
     def mean_fraction(self) -> FloatArray:
-        """(D,) mean over the targets; targets out of reach count as 0."""
+        """(D,) mean fraction over the targets; targets out of reach count as 0."""
         return np.asarray(np.nan_to_num(self.fraction_by_target).mean(axis=1))
 
 
 class FailureTrials:
-    """Equal failures for every design: targets, and random numbers for configurations and starts.
+    """Equal failures for every design, with targets and random numbers for configurations and starts.
 
-    A joint locks where it is in a configuration at the target, so that the target stays in reach; the arm starts from a
-    random configuration with that joint there.
+    A joint locks at its value in a configuration at the target, so that the target stays in reach. The arm starts from a random
+    configuration with this joint at the locked value.
 
     Args:
-        law: The law of all designs.
-        poses: (T, 4, 4) targets in the world.
-        count: C.
-        seed: Of the random numbers.
+        law: Control law of all designs.
+        poses: (T, 4, 4) tool poses of the targets in the world, m.
+        count: Number C of failures of each joint for each target.
+        seed: Seed of the random numbers.
     """
 
     def __init__(self, law: LawOfDesigns, poses: FloatArray, count: int, seed: int) -> None:
@@ -83,7 +83,7 @@ class FailureTrials:
         joints, poses = self.law.joints, self.poses
         n, shape = joints.arm.n, (len(values), len(poses), self.count)
         target_q, is_known = self._find_target_configurations(values)
-        # Each joint in turn is locked where it is at the target.
+        # Each joint in turn is locked at its value at the target.
         q0 = np.broadcast_to(self._starts, (*shape, n, n)).copy()
         joint_range = np.arange(n)
         q0[..., joint_range, joint_range] = target_q
@@ -119,7 +119,7 @@ class FailureTrials:
             q = joint_space.wrap_joints(arm, q[:, joints.moving])
             is_valid &= ((q >= arm.lower) & (q <= arm.upper)).all(axis=1)
             is_valid = is_valid.reshape(len(values), -1)
-            # The first ones that were found, in the order of the guesses.
+            # Take the first valid configurations in the order of the guesses.
             order = np.argsort(~is_valid, axis=1, kind="stable")[:, :count]
             configurations[:, target] = np.take_along_axis(q.reshape(*is_valid.shape, arm.n), order[..., None], axis=1)
             is_known[:, target] = np.take_along_axis(is_valid, order, axis=1)

@@ -1,8 +1,8 @@
-"""All designs of a space as one arm with symbols for the varied numbers, compiled once for every design.
+"""Family of all designs of a space as one arm with symbols for the varied numbers, compiled once for all designs.
 
-The symbols are the arm's constants themselves, so the equations of ``arm``, ``indices`` and ``solve`` are used as they are
-and what is not varied still vanishes from the code where it is 0. (The other way, a locked joint for every parameter in a
-longer chain, needs no symbols but makes every kernel longer, and has no place for joint limits.)
+The symbols replace constants of the arm, so the equations of ``arm``, ``indices`` and ``solve`` need no change, and constants
+that are 0 and not varied still vanish from the code. (The alternative, a locked joint for every parameter in a longer chain,
+needs no symbols, but makes every kernel longer and cannot vary joint limits.)
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from holdfast.studies.designs.space import TOOL_PARAMETERS, DesignSpace
 
 @dataclass(frozen=True, eq=False)
 class SymbolicJoint(Joint):
-    """Joint whose origin and limits may be symbols."""
+    """Joint whose origin and limits can be symbols."""
 
     def __post_init__(self) -> None:
         """Skip the checks, because the designs that provide the numbers are checked."""
@@ -43,7 +43,7 @@ class SymbolicJoint(Joint):
 
 @dataclass(frozen=True, eq=False)
 class SymbolicArm(Arm):
-    """Arm whose constants may be symbols; for equations only."""
+    """Arm whose constants can be symbols, for use in equations only."""
 
     limits: tuple[Sequence[SX], Sequence[SX]] = field(default=((), ()))
 
@@ -64,7 +64,7 @@ class SymbolicArm(Arm):
 def make_symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
     """Return the arm of the design x (k,), in which only the parameters are symbols.
 
-    The same table as :meth:`holdfast.DesignSpace.table_of`, built as ``from_dh`` does.
+    Its table is that of :meth:`holdfast.DesignSpace.table_of`, and its construction that of ``from_dh``.
     """
     table = space.table
     open_symbols: dict[tuple[int | None, str], SX] = {
@@ -93,7 +93,7 @@ def make_symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
 
 
 def _make_tool_transform(tool: FloatArray, open_symbols: dict[str, SX]) -> SX:
-    """Return the tool transform (4, 4) with symbols for the open ones of x, y, z, roll, pitch, and yaw."""
+    """Return the tool transform (4, 4) with symbols for the varied ones of x, y, z, roll, pitch, and yaw."""
     from scipy.spatial.transform import Rotation
 
     position = [open_symbols.get(kind, float(tool[i, 3])) for i, kind in enumerate(TOOL_PARAMETERS[:3])]
@@ -130,22 +130,23 @@ def _translation(x: float | SX, y: float | SX, z: float | SX) -> SX:
 class Family:
     """Equations of all designs of a space, compiled once each.
 
-    Rows of every kernel are (configuration, pose, design), each with its own.
+    Every row of a kernel has its own configuration, pose, and design.
 
     Args:
-        space: The designs.
-        objective: An index by name, larger is better.
-        task: What the end effector must do.
-        failures: Which joints fail.
+        space: Design space.
+        objective: Name of an index that is better when larger.
+        task: Task, or its name or components.
+        failures: ``"single"``, ``"pairs"``, the number of joints that fail together, or a list of joints or sets of joints.
         length: Characteristic length of the task, m.
 
     Attributes:
-        space, task, index: The same; the index is of the arm with symbols, to write equations with.
+        space, task: Design space and task.
+        index: Index of the arm with symbols, for use in equations.
         x: Symbols of a design (k,).
 
     Raises:
-        TaskError: An index that is better when smaller or that is not one symbolic program, a task for which the arm is not
-            redundant, or a planar task where the parameters take the arm out of its plane.
+        TaskError: The index is better when smaller or not a single symbolic program, the arm is not redundant for the task, or
+            the parameters move the arm out of the plane of a planar task.
     """
 
     def __init__(
@@ -173,13 +174,13 @@ class Family:
 
     @cached_property
     def numeric_index(self) -> Index:
-        """Index of the baseline arm in numbers, for facts such as its bound."""
+        """Index of the baseline arm in numbers, for properties such as its bound."""
         return by_name(self.index.label, self.space.arm, self.task, failures=self.index.failures)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 
     def limits(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return lower and upper limits (D, n) of designs (D, k); infinite where there is none."""
+        """Return lower and upper limits (D, n), rad and m, of designs ``values`` (D, k); infinite for joints without limits."""
         sides = []
         for kind, default in (("lower", -np.inf), ("upper", np.inf)):
             own_limits = [getattr(row, kind) for row in self.space.table.rows]
@@ -219,7 +220,7 @@ class Family:
     @cached_property
     @cached_kernel
     def errors(self) -> Kernel:
-        """(q, p, r, x) to position error, m, and rotation error, rad."""
+        """Kernel from (q, p, r, x) to position error, m, and rotation error, rad."""
         q, position, rotation = self._pose_symbols
         error, _ = task_error_and_jacobian(self.arm, self.task, q, position, rotation)
         full_error = ca.SX(ca.DM(self.task.rows)).T @ error
@@ -232,7 +233,7 @@ class Family:
     @cached_property
     @cached_kernel
     def misses(self) -> Kernel:
-        """(q, p, r, x) to the error e (m,), ``J' e`` (n,) and ``d (e' e) / 2 / dx`` (k,): for poses out of reach."""
+        """Kernel from (q, p, r, x) to the error e (m,), ``J' e`` (n,) and ``d (e' e) / 2 / dx`` (k,), for unreached poses."""
         q, position, rotation = self._pose_symbols
         error, jacobian = task_error_and_jacobian(self.arm, self.task, q, position, rotation)
         by_design = ca.gradient(ca.sumsqr(error) / 2, self.x)
@@ -241,13 +242,13 @@ class Family:
     @cached_property
     @cached_kernel
     def ascent(self) -> Kernel:
-        """(q, radius, last, p, r, x) to the next (q, radius, last): :func:`holdfast.kinematics.solvers.optimum.ascent_step`."""
+        """Kernel from (q, radius, last, p, r, x) to the next (q, radius, last), by ``solvers.optimum.ascent_step``."""
         inputs, step = ascent_step(self.index, self.task)
         return Kernel("ascent of designs", [*inputs, self.x], [step])
 
     @cached_property
     def _score_expressions(self) -> tuple[SX, list[SX], list[list[SX]]]:
-        """Configuration, scores of the failures, and their gradients by the joints."""
+        """Symbols of the configuration, scores of the failures, and gradients of the scores by the joints."""
         q = self._pose_symbols[0]
         jacobian = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
         units = [ca.SX(ca.DM(e)) for e in np.eye(self.arm.n)]
@@ -256,16 +257,16 @@ class Family:
     @cached_property
     @cached_kernel
     def value(self) -> Kernel:
-        """(q, x) to the index."""
+        """Kernel from (q, x) to the index."""
         q, scores, _ = self._score_expressions
         return Kernel("value of designs", [q, self.x], [ca.vertcat(*[self.index.value_of_score(s) for s in scores])])
 
     @cached_property
     @cached_kernel
     def conditions(self) -> Kernel:
-        """(q, p, r, x) to the terms of the optimality conditions.
+        """Kernel from (q, p, r, x) to the terms of the optimality conditions.
 
-        Scores (F,), their slopes (F, n), a smooth error of the pose (m,) and its Jacobian (m, n).
+        The terms are scores (F,), their slopes (F, n), a smooth error of the pose (m,) and its Jacobian (m, n).
         """
         q, position, rotation = self._pose_symbols
         _, scores, gradients = self._score_expressions
@@ -280,7 +281,7 @@ class Family:
     @cached_property
     @cached_kernel
     def by_design(self) -> Kernel:
-        """(q, p, r, x, u, w) to the index, its derivative by the score, and ``d (u' scores - w' error) / dx``."""
+        """Kernel from (q, p, r, x, u, w) to index, its derivative by the score, and ``d (u' scores - w' error) / dx``."""
         q, position, rotation = self._pose_symbols
         _, scores, _ = self._score_expressions
         u, w = ca.SX.sym("u", len(scores)), ca.SX.sym("w", self.task.m)
@@ -299,12 +300,12 @@ class Family:
 
 
 def _require_planar_designs(space: DesignSpace) -> None:
-    """Reject parameters that take an arm out of the plane of its task."""
+    """Reject parameters that move an arm out of the plane of its task."""
     normal = plane_normal(space.arm)
     for values in (space.lower, space.upper, *space.draw(4)):
         design_normal = plane_normal(space.arm_of(values))
         if normal is None or design_normal is None or np.linalg.norm(design_normal - normal) > 1e-9:
             raise TaskError(
-                f"a planar task needs designs that move in the plane of '{space.arm.name}'; {', '.join(space.names)} take it "
-                "out of it: leave the twists as they are, or use the task position or pose"
+                f"{', '.join(space.names)} would move '{space.arm.name}' out of the plane of its task; keep the twists fixed, "
+                "or use the task position or pose"
             )

@@ -1,14 +1,14 @@
-r"""Compute the exact gradient of the index of a design at a pose, at the best configuration, from its Lagrange multipliers.
+r"""Exact gradient of the index of a design at a pose, at the best configuration, from its Lagrange multipliers.
 
 With scores s of the failures, the pose error c and the limits, the best configuration solves ``max t`` subject to
-``s_k(q, x) >= t``, ``c(q, x) = 0`` and ``lower(x) <= q <= upper(x)``. At a strict optimum the value changes with the design as
-the Lagrangian does with q and the multipliers held still (envelope theorem):
+``s_k(q, x) >= t``, ``c(q, x) = 0`` and ``lower(x) <= q <= upper(x)``. At a strict optimum the derivative of the value by the
+design is that of the Lagrangian with constant q and multipliers (envelope theorem):
 
 .. math:: \mathrm{d}t/\mathrm{d}x = \partial_x(\lambda^\top s - \mu^\top c) + \sigma^\top \partial_x(\text{active limits}).
 
 So no derivative of the best configuration is needed, but the multipliers must be exact. They come from a quadratic program at
-the configuration that the search ended with, and then from Newton's method on the conditions of the optimum, which at the same
-time brings the configuration from the 1e-4 rad or so of the search to rounding error.
+the final configuration of the search, and then from Newton's method on the optimality conditions. This also improves the
+configuration from the accuracy of the search, about 1e-4 rad, to rounding error.
 
 Source: Fiacco 1983, section 3.4, for the derivative; Lawson and Hanson 1974, chapter 23, for the quadratic program.
 """
@@ -23,10 +23,10 @@ from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.studies.designs.evaluation import Evaluated, Evaluator
 
 _DESIGN_NEWTON_STEPS = 10
-_DIFFERENCE_STEP = 1e-5  # rad or m: for second derivatives, which only say how fast Newton's method converges, not where to
+_DIFFERENCE_STEP = 1e-5  # rad or m: for second derivatives, which affect only the speed of Newton's method, not its result
 _MAX_DESIGN_JOINT_STEP = 0.1  # rad or m: largest change of a joint in one step
-_PROGRAM_CURVATURE = 1e-2  # of the quadratic program: steps of this size are worth a change of the score by their slope
-_CONDITION_TOLERANCE = 1e-8  # what counts as 0 of the conditions
+_PROGRAM_CURVATURE = 1e-2  # step size at which the curvature of the quadratic program equals the slope of the score
+_CONDITION_TOLERANCE = 1e-8  # smaller residuals of the conditions count as 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,11 +34,11 @@ class Sensitivity:
     """Values and gradients of R pairs of a design and a pose.
 
     Attributes:
-        q: (R, n) the configuration, more exactly the best than the one given.
-        value: (R,) the index there; where the pose is not reached minus the miss.
-        gradient: (R, k) by the design.
-        exact: (R,) the conditions of an optimum hold to 1e-8, so that the gradient is that of the value; if not it comes from
-            the configuration as it was given.
+        q: (R, n) best configuration, more accurate than the given one, rad and m.
+        value: (R,) index at this configuration; minus the pose error for a pose that is not reached.
+        gradient: (R, k) gradient of the value by the design, per rad or m.
+        exact: (R,) True if the optimality conditions hold to 1e-8, so that the gradient is that of the value; otherwise it is
+            computed at the given configuration.
     """
 
     q: FloatArray
@@ -51,9 +51,9 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: IndexArray) -> S
     """Return values and gradients of some rows of an evaluation.
 
     Args:
-        evaluator: That evaluated.
-        found: D designs at P poses.
-        chosen: (R,) rows: design times P plus pose.
+        evaluator: Evaluator of the designs.
+        found: Evaluation of D designs at P poses.
+        chosen: (R,) rows, each of which is design times P plus pose.
     """
     row_count, parameter_count = len(chosen), len(evaluator.family.space.parameters)
     q = found.q.reshape(-1, evaluator.family.arm.n)[chosen].copy()
@@ -110,7 +110,7 @@ def _differentiate_missed_poses(
         curvature = (curvature + curvature.swapaxes(1, 2)) / 2
         curvature = np.where(is_blocked[:, :, None] | is_blocked[:, None, :], -np.eye(n), curvature)
         curvatures, axes = np.linalg.eigh(curvature)
-        # Away from the optimum the error may be curved the wrong way: then along the slope.
+        # Away from the optimum the error may have negative curvature; the step then follows the slope.
         axis_steps = np.einsum("rij,ri->rj", axes, np.where(is_blocked, 0.0, pull)) / np.maximum(np.abs(curvatures), 1e-4)
         move = np.einsum("rij,rj->ri", axes, axis_steps)
         move *= np.minimum(1.0, trust / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
@@ -121,7 +121,7 @@ def _differentiate_missed_poses(
         by_design = np.where(better, trial_by_design, by_design)
         trust = np.where(better[:, 0], trust, trust / 4)
     error_size = np.linalg.norm(error, axis=1)
-    # Moved by dq the error falls by J dq: a joint that is pulled against its limit would follow that limit.
+    # A motion dq reduces the error by J dq, so a joint that is pulled against its limit follows the limit.
     is_blocked = ((q <= lower) & (pull < 0)) | ((q >= upper) & (pull > 0))
     gradient = (_compute_limit_gradient(evaluator, np.where(is_blocked, pull, 0.0)) - by_design) / np.maximum(
         error_size, 1e-12
@@ -177,7 +177,7 @@ class _OptimumPoint:
 
 
 class _OptimumConditions:
-    """Optimality conditions of R rows, side by side."""
+    """Optimality conditions of R rows, which are solved together."""
 
     def __init__(
         self,
@@ -206,9 +206,7 @@ class _OptimumConditions:
         return np.asarray(self.evaluate_derivatives(point)[:, 0])
 
     def evaluate_derivatives(self, point: _OptimumPoint) -> FloatArray:
-        """Return (R, 2 + k): the index, its derivative by the score, and that of the Lagrangian by the design
-        without limits.
-        """
+        """Return (R, 2 + k) index, its derivative by the score, and that of the Lagrangian by the design without limits."""
         family = self._family
         return np.asarray(
             family.by_design.rows(point.q, self._position, self._rotation, self._design_values, point.failures, point.pose)
@@ -240,9 +238,7 @@ class _OptimumConditions:
         return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
     def solve_newton(self, start: _OptimumPoint) -> tuple[_OptimumPoint, BoolArray]:
-        """Solve the conditions by Newton's method from a nearby point, updating the active set; return the end point and (R,)
-        whether it is exact.
-        """
+        """Solve the conditions by Newton's method with an active set, and return the end point and whether it is exact (R,)."""
         q, n = start.q.copy(), self._n
         failures, force = start.failures, start.force
         active = failures > 1e-3
@@ -275,7 +271,7 @@ class _OptimumConditions:
                 break
             curvature = self._compute_curvature(q, null_space, failures, pose)
             correction = -np.einsum("rim,rm->ri", np.linalg.pinv(jacobian), error)
-            # Unknown: step along the null space, level, multipliers of failures and limits.
+            # The unknowns are the step along the null space, the level, and the multipliers of failures and limits.
             a = np.zeros((len(q), r + 1 + f + n, r + 1 + f + n))
             b = np.zeros((len(q), r + 1 + f + n))
             a[:, :r, :r] = curvature - 1e-9 * np.eye(r)
@@ -304,7 +300,7 @@ class _OptimumConditions:
             force = np.where(is_open, step[:, r + 1 + f :], force)
             next_scores = scores + np.einsum("rfi,ri->rf", gradients, move)
             least_score = np.where(active, next_scores, np.inf).min(axis=1)
-            # What is no longer active leaves the set, what would be crossed joins it.
+            # Inactive constraints leave the set, and constraints that would be violated join it.
             active = np.where(is_open, np.where(active, failures >= -1e-9, next_scores < least_score[:, None] - 1e-9), active)
             failures = np.where(active, failures, 0.0)
             next_q = q + move
@@ -323,9 +319,7 @@ class _OptimumConditions:
         return _OptimumPoint(q, failures, self._solve_pose_multipliers(gradients, jacobian, failures, force), force), exact
 
     def _compute_curvature(self, q: FloatArray, null_space: FloatArray, failures: FloatArray, pose: FloatArray) -> FloatArray:
-        """Return the second derivative (R, r, r) of the Lagrangian along the null space, by differences of its
-        exact gradient.
-        """
+        """Return second derivatives (R, r, r) of the Lagrangian along the null space, by differences of its exact gradient."""
         columns = []
         for column in range(null_space.shape[2]):
             side_gradients = []
@@ -351,17 +345,17 @@ def solve_multiplier_program(
     """Return the multipliers of ``max t - |z|^2 / (2 c)`` subject to ``gap_k + along_k z >= t`` and ``-below <= null_space z <=
     above``.
 
-    A least-distance program, solved as non-negative least squares.
+    This least-distance program is solved as non-negative least squares.
 
     Args:
-        gap: (F,) scores less the lowest one.
-        along: (F, r) their slopes.
-        null_space: (n, r) how the joints move.
-        above: (n,) room to the upper limits.
-        below: (n,) room to the lower limits.
+        gap: (F,) scores minus the lowest score.
+        along: (F, r) slopes of the scores.
+        null_space: (n, r) motions of the joints.
+        above: (n,) distance of the joints to the upper limits.
+        below: (n,) distance of the joints to the lower limits.
 
     Returns:
-        Multipliers of the scores (F,), which sum to 1, and of the limits (n,), above 0 at an upper one.
+        Multipliers of the scores (F,), which sum to 1, and of the limits (n,), above 0 at an upper limit.
 
     Source: Lawson and Hanson 1974, chapter 23, problem LDP.
     """
@@ -370,7 +364,7 @@ def solve_multiplier_program(
     f, r = along.shape
     near_upper, near_lower = np.flatnonzero(above < 0.1), np.flatnonzero(below < 0.1)
     step_scale, level_scale = np.sqrt(_PROGRAM_CURVATURE), 0.1
-    # In y = (z / root, flat (t - 1 / flat^2)) the objective is the length of y.
+    # In y = (z / root, flat (t - 1 / flat^2)) the objective is the norm of y.
     g = np.concatenate(
         [
             np.concatenate([step_scale * along, np.full((f, 1), -1 / level_scale)], axis=1),

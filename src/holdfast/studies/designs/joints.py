@@ -1,7 +1,7 @@
 """Arm in which every varied number is a separate joint that never moves, so that one compiled law serves all designs.
 
-A link length is a slide along the link, a twist or a tool angle a turn about it. Simulation, inverse kinematics and
-linearisation then take designs as they take configurations, each row its own, and nothing is compiled again.
+A link length becomes a prismatic joint along the link, a twist or a tool angle a revolute joint. Simulation, inverse kinematics
+and linearisation then take designs in the same way as configurations, one for each row, and nothing is compiled again.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ class DesignJoints:
     """Arm with additional joints for the varied parameters.
 
     Attributes:
-        space: What is varied; not joint limits.
-        whole: The arm with n + k joints.
-        moving: (n,) The arm's own joints, as indices of the whole.
-        varied: (k,) Those of the design.
+        space: Design space, without joint limits.
+        whole: Whole arm with n + k joints.
+        moving: (n,) indices of the arm's joints in the whole arm.
+        varied: (k,) indices of the joints of the design in the whole arm.
     """
 
     space: DesignSpace
@@ -44,14 +44,14 @@ class DesignJoints:
 
     @classmethod
     def from_space(cls, space: DesignSpace) -> DesignJoints:
-        """Insert a joint for each parameter.
+        """Insert a joint for each parameter of ``space``.
 
         Raises:
-            InputError: A limit is varied.
+            InputError: A joint limit is varied.
         """
         limits = [parameter.name for parameter in space.parameters if parameter.kind in ("lower", "upper")]
         if limits:
-            raise InputError(f"{limits[0]} is a joint limit, which no control law heeds; vary lengths, twists or the tool")
+            raise InputError(f"{limits[0]} is a joint limit, which no control law enforces; vary lengths, twists or the tool")
         joints: list[Joint] = []
         pending = space.table.base
         for name, axis, is_prismatic, value, own_joint in _iterate_steps(space):
@@ -77,9 +77,7 @@ class DesignJoints:
         return self.space.arm
 
     def configurations(self, values: FloatArray, q: FloatArray) -> FloatArray:
-        """Return configurations (N, n + k) of the whole arm, for designs (k,) or (N, k) and configurations (n,) or (N, n) of
-        the baseline arm.
-        """
+        """Return configurations (N, n + k) of the whole arm, rad and m, for ``values`` (k,) or (N, k), ``q`` (n,) or (N, n)."""
         row_count = max(len(np.atleast_2d(values)), len(np.atleast_2d(q)))
         combined = np.empty((row_count, self.whole.n))
         combined[:, self.varied], combined[:, self.moving] = values, q
@@ -87,7 +85,7 @@ class DesignJoints:
 
     @cached_property
     def mask(self) -> FloatArray:
-        """(n + k,) 1 for the arm's own joints, 0 for those of the design."""
+        """(n + k,) mask that is 1 for the arm's joints and 0 for the joints of the design."""
         values = np.zeros(self.whole.n)
         values[self.moving] = 1.0
         return values
@@ -97,8 +95,8 @@ class LawOfDesigns(Law):
     """Control law on any design, which moves no joint of the design.
 
     Args:
-        law: The law of the given arm.
-        joints: Its design joints.
+        law: Control law of the baseline arm.
+        joints: Baseline arm with the joints of the designs.
     """
 
     slug = "designs"
@@ -109,15 +107,13 @@ class LawOfDesigns(Law):
         self.law, self.joints = law, joints
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """Return the inverse of the original law with the columns of the moving joints."""
+        """Return the rates (n + k,) of the original law for the moving joints' columns of ``j`` (m, n + k), and ``v`` (m,)."""
         rates = self.law.inverse(j[:, self.joints.moving.tolist()], v)
         return ca.SX(ca.DM(np.eye(self.arm.n)[:, self.joints.moving])) @ rates
 
 
 def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, FloatArray, bool, float, Joint | None]]:
-    """Yield name, axis, whether it is prismatic, value, and the arm's own joint if it is one, of every step from the base to
-    the tool.
-    """
+    """Yield name, axis, prismatic flag, value, and joint of the arm (or None) for every step from the base to the tool."""
     from scipy.spatial.transform import Rotation
 
     for number, (row, joint) in enumerate(zip(space.table.rows, space.arm.joints, strict=True), 1):

@@ -1,4 +1,4 @@
-"""Search for a design with a measure that is not smooth: Sobol screening, designs with equal lengths, and pattern search."""
+"""Search for a design by a measure that is not smooth, with Sobol screening, designs of equal lengths, and pattern search."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from holdfast.studies.designs.space import DesignSpace
 
 MeasureFunction = Callable[[FloatArray], dict[str, FloatArray]]
 
-# _FIRST_STEP and _LAST_STEP: steps of the pattern search, of the width of the bounds
+# First and last step of the pattern search, as fractions of the width of the bounds.
 _FIRST_STEP = 1 / 8
 _LAST_STEP = 1 / 128
 _BOUND_TOLERANCE = 1e-9
-_MAX_DRAW_FACTOR = 64  # times as many drawn as wanted, at most, where the sum is kept
+_MAX_DRAW_FACTOR = 64  # largest ratio of sampled to requested designs with a fixed sum
 
 
 @dataclass(frozen=True, eq=False)
 class DesignBounds:
-    """Admissible designs: bounds of the parameters and, optionally, a fixed sum of the lengths.
+    """Bounds of the admissible designs and, optionally, a fixed sum of the lengths.
 
     Attributes:
         space: Parameters and their bounds.
-        length_sum: Sum that lengths keep; None: none.
+        length_sum: Fixed sum of the lengths, m; None without one.
     """
 
     space: DesignSpace
@@ -39,7 +39,7 @@ class DesignBounds:
         """Return the bounds of a space, with the sum of the lengths of the baseline arm if ``keep_reach`` is true.
 
         Raises:
-            InputError: A sum that cannot be kept.
+            InputError: The sum cannot be kept.
         """
         bounds = cls(space, float(space.start.sum()) if keep_reach else None)
         if keep_reach and (bounds.is_length.sum() < 2 or not bounds.is_length.all()):
@@ -57,7 +57,7 @@ class DesignBounds:
         return np.array([parameter.kind == "a" for parameter in self.space.parameters])
 
     def contains(self, values: FloatArray) -> NDArray[np.bool_]:
-        """Return (N,) whether designs (N, k) are within the bounds."""
+        """Return a mask (N,) of the designs (N, k) within the bounds."""
         return np.asarray(
             ((values >= self.space.lower - _BOUND_TOLERANCE) & (values <= self.space.upper + _BOUND_TOLERANCE)).all(axis=1)
         )
@@ -80,9 +80,7 @@ class DesignBounds:
         return designs
 
     def equalise_lengths(self, values: FloatArray) -> FloatArray:
-        """Return designs (M, k) with two lengths of designs (N, k) replaced by their mean, for every pair, if within the
-        bounds.
-        """
+        """Return the designs (M, k) within the bounds in which two lengths of designs (N, k) are replaced by their mean."""
         equalised = [np.empty((0, self.size))]
         for i, j in combinations(np.flatnonzero(self.is_length).tolist(), 2):
             changed = values.copy()
@@ -92,7 +90,7 @@ class DesignBounds:
         return designs[self.contains(designs)]
 
     def list_directions(self) -> FloatArray:
-        """Return the directions (M, k) of the pattern search: one number up or down, or two together or against each other."""
+        """Return the directions (M, k) of the pattern search: one number up or down, or two in equal or opposite directions."""
         dimension = self.size
         directions = [] if self.length_sum is not None else [sign * unit for unit in np.eye(dimension) for sign in (1, -1)]
         for i, j in combinations(range(dimension), 2):
@@ -101,7 +99,7 @@ class DesignBounds:
                 direction[i], direction[j] = a, b
                 directions.append(direction)
         if self.length_sum is not None:
-            # Two equal ones stay equal while the third gives way.
+            # Two equal lengths stay equal, and the third compensates.
             for i, j in combinations(range(dimension), 2):
                 for third in set(range(dimension)) - {i, j}:
                     direction = np.zeros(dimension)
@@ -122,16 +120,16 @@ def search_patterns(
     """Screen designs, then improve the best of them by pattern search.
 
     Args:
-        bounds: The designs.
-        measure: From designs (N, k) to measures (N,) by name, the greater the better.
-        priorities: Names of measures, the first decides, the next of equals.
-        designs: Of the screening.
-        local_searches: Designs to improve.
-        seed: Of the screening.
-        progress: Called with (designs done, designs expected in all).
+        bounds: Bounds of the designs.
+        measure: Function from designs (N, k) to measures (N,) by name, which are better when larger.
+        priorities: Names of measures; the first decides, the next ones decide between equals.
+        designs: Number of designs in the screening.
+        local_searches: Number of designs to improve.
+        seed: Seed of the screening.
+        progress: Function that is called with (designs done, designs expected in all).
 
     Returns:
-        All designs that were looked at, the given one first, and their measures.
+        All evaluated designs, the baseline arm first, and their measures.
     """
     sampled = bounds.sample_designs(designs, seed)
     values = np.concatenate([bounds.space.start[None], sampled, bounds.equalise_lengths(sampled)])
@@ -147,7 +145,7 @@ def search_patterns(
     for leader in leaders:
         current, step_size = leader, _FIRST_STEP
         while step_size >= _LAST_STEP:
-            # Lengths are moved alike, so that a sum is kept; other numbers by their own width.
+            # Lengths have equal steps, so that their sum is kept; other numbers have steps in proportion to their bounds.
             width = bounds.space.upper - bounds.space.lower
             width = np.where(bounds.is_length, width[bounds.is_length].min(initial=np.inf), width)
             trials = values[current] + step_size * width * bounds.list_directions()

@@ -1,18 +1,18 @@
-"""Find the sinks of planar arms of three joints with one joint locked, for all targets and any link lengths at once.
+"""Sinks of planar arms of three joints with one joint locked, for all targets and any link lengths at once.
 
-The reverse of :func:`holdfast.stationary_points`: not the stationary points of one target, but the targets of every stationary
-point. With joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve
-of shapes (two of the three angles) that no target enters. On it the error must be along one direction b, so that the targets
-of a shape lie on a line ``x + lambda b``, and the linearised motion is ``M0 + lambda M1`` there: where it is a sink is a
-question of a quadratic (the determinant) and a linear (the trace) function of lambda. Turning the arm turns everything,
-so that a target is its distance r from the first joint.
+This reverses :func:`holdfast.stationary_points`: it finds the targets of every stationary point instead of the stationary
+points of one target. With joint i locked the arm can rest only where the columns of the two healthy joints are parallel,
+``rank(iJ) = 1``. These shapes (two of the three angles) form a curve that does not depend on the target. On it the error must
+be along one direction b, so the targets of a shape lie on a line ``x + lambda b``, and the linearised motion is ``M0 + lambda
+M1``. Whether it is a sink depends on a quadratic (the determinant) and a linear (the trace) function of lambda. Rotating the
+arm about its first joint rotates everything, so only the distance r of a target from the first joint matters.
 
-With joint 1 locked the Jacobian loses rank where all links line up, and without damping the law has no bounds there. Such a
-point can draw the arm in, in a finite time: a *singular trap*. With the end effector at X along link 1, the other joints 2 and
-3 at small angles d, and u the direction of the links, the motion near it is ``d' = (u e) M d / (d' Q d)``: a linear one but for
-its clock, and M decides.
+With joint 1 locked the Jacobian loses rank where all links are aligned, and the rates of a law without damping are unbounded
+there. Such a point can attract the arm in a finite time, which is a *singular trap*. With the end effector at X along link 1,
+joints 2 and 3 at small angles d, and the direction u of the links, the motion near it is ``d' = (u e) M d / (d' Q d)``. This is
+a linear motion except for its time scale, so M decides.
 
-Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (22). Turned round and for singular traps, ours.
+Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (22). The reversal and the singular traps are ours.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ from holdfast.studies.designs.joints import DesignJoints
 from holdfast.studies.designs.space import design_space
 
 FULL_TURN_RAD = 2 * np.pi
-_MIN_INTERVAL_FRACTION = 1e-7  # of the reach: intervals of radii shorter than this are rounding
-ANGLE_COUNT = 120  # values of the angle that is run through, in half a turn
+_MIN_INTERVAL_FRACTION = 1e-7  # fraction of the reach: shorter intervals of radii are due to rounding
+ANGLE_COUNT = 120  # values of the swept angle in half a turn
 _CHUNK_DESIGNS = 16  # designs analysed together
-# Of each locked joint: the angle that is run through and the one that is solved for, as joints from 0.
+# For each locked joint, the swept angle and the angle that is solved for, as joint indices from 0.
 _SWEPT_JOINTS = (1, 1, 2)
 _SOLVED_JOINTS = (2, 2, 1)
 
@@ -51,12 +51,11 @@ class Radial:
 
     Attributes:
         radii: (K + 1,) borders of the rings of targets, m.
-        in_reach: (D, 3, K) share of the angles at which a joint may lock that leave the target within reach, in the middle of
-            the ring.
-        stuck: (D, 3, K) share of them at which it is within reach and the arm can stop away from it: there is a sink or a
-            singular trap. Angles at which a whole line of stationary points lies have no width and are not in it.
-        clear: (D, 3, K) no target of the ring has such an angle.
-        reached: (D, K) the healthy arm reaches the ring.
+        in_reach: (D, 3, K) fraction of the locked angles of a joint that leave a target in the middle of the ring within reach.
+        stuck: (D, 3, K) fraction of the locked angles at which the target is within reach but the arm can stop away from it, at
+            a sink or a singular trap. Angles with a whole line of stationary points have no width and do not count.
+        clear: (D, 3, K) True if no target of the ring has such an angle.
+        reached: (D, K) True if the healthy arm reaches the ring.
     """
 
     radii: FloatArray
@@ -67,9 +66,7 @@ class Radial:
 
     @property
     def guaranteed(self) -> BoolArray:
-        """(D, K) True where the healthy arm reaches the ring and, for any locked joint, nothing stops the arm short of a
-        reachable target.
-        """
+        """(D, K) True if the healthy arm reaches the ring, and after any lock nothing holds it away from a reachable target."""
         return np.asarray(self.reached & self.clear.all(axis=1))
 
     @property
@@ -80,28 +77,28 @@ class Radial:
 
 
 class PlanarStationarySets:
-    """Stuck sets of one law on planar arms of three links.
+    """Stationary sets of one law on planar arms of three links.
 
     Args:
-        law: A pseudoinverse, a weighted inverse with weights for each joint, or a damped inverse, of an arm with three revolute
-            joints that turn all the way, for the position in its plane.
+        law: A pseudoinverse, a weighted inverse with one weight for each joint, or a damped inverse, for the position in the
+            plane of an arm with three unlimited revolute joints.
 
     Raises:
-        InputError: Another law or arm.
+        InputError: The law or the arm is another one.
     """
 
     def __init__(self, law: Law) -> None:
         quadratic = law.quadratic()
         if quadratic is None or not np.array_equal(quadratic[0], np.diag(np.diag(quadratic[0]))):
             raise InputError(
-                f"where the {law.name} rests is not known in closed form; use the pseudoinverse, the damped inverse, or the "
-                "weighted inverse with a weight for each joint, or sample: exact=False"
+                f"the stationary sets of the {law.name} are not known in closed form; use the pseudoinverse, the damped "
+                "inverse, or the weighted inverse with a weight for each joint, or sample with exact=False"
             )
         arm_links = ThreeLinks.from_task(law.arm, law.task)
         if arm_links is None:
             raise InputError(
-                f"'{law.arm.name}' is not a planar arm of three revolute joints that turn all the way, with its position as "
-                "the task; sample: exact=False"
+                f"'{law.arm.name}' is not a planar arm of three unlimited revolute joints with its position as the task; "
+                "sample with exact=False"
             )
         self.law, self.lengths = law, arm_links.lengths
         self._joint_weights, self._damping = np.diag(quadratic[0]), quadratic[1]
@@ -112,10 +109,10 @@ class PlanarStationarySets:
 
     @cached_property
     def _shape_and_slope_kernels(self) -> tuple[Kernel, Kernel]:
-        """Jacobian and tool of (q, lengths), and the linearisation by q and by the error, for an error along a direction."""
+        """Kernels of Jacobian and tool for (q, lengths), and of the linearisation by q and by an error along a direction."""
         arm, moving = self._design_joints.whole, self._design_joints.moving.tolist()
         q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", 2)
-        # As the law sees it: in units of the task's characteristic length.
+        # The law uses the unit of the task's characteristic length.
         jacobian = kinematics.world_jacobian(arm, q)[:2, moving] / self.law.task.length
         rates = self.law.inverse(jacobian, v / self.law.task.length)
         tool = kinematics.tool_pose(arm, q)[:2, 3]
@@ -129,9 +126,9 @@ class PlanarStationarySets:
         """Compute the effect of locks on targets in rings.
 
         Args:
-            lengths: (D, 3) of the links, above 0, m.
+            lengths: (D, 3) link lengths above 0, m.
             radii: (K + 1,) ascending borders of the rings, m.
-            angles: At how many values in half a turn the angle that is run through is looked at.
+            angles: Number of values of the swept angle in half a turn.
         """
         chunks = [
             self._analyse_chunk(lengths[start : start + _CHUNK_DESIGNS], radii, angles)
@@ -165,9 +162,7 @@ class PlanarStationarySets:
         return in_reach, stuck, clear.astype(float)
 
     def _classify_lock_angles(self, shapes: _RestShapes, r: float, angles: int) -> tuple[FloatArray, BoolArray, BoolArray]:
-        """Return the locked angles (A,), and (D, A) where targets at distance r are in reach, and where the arm can also get
-        stuck.
-        """
+        """Return locked angles (A,), and flags (D, A) of those with targets at distance r in reach, and with a stuck arm."""
         if shapes.joint:
             in_reach = shapes.are_in_reach(r)
             return shapes.angle, in_reach, shapes.have_sinks(r).any(axis=(1, 2)) & in_reach
@@ -183,14 +178,14 @@ class PlanarStationarySets:
         """Return the effect of locks at every angle on the targets at one distance, for one design.
 
         Args:
-            lengths: (3,) of the links, above 0, m.
+            lengths: (3,) link lengths above 0, m.
             r: Distance of the targets from the first joint, m.
-            angles: As for :meth:`radial`.
+            angles: Number of values of the swept angle in half a turn.
 
         Returns:
-            For each joint the angles (A,) at which it locks, rad (of joint 1 from the direction to the target, of joints 2 and
-            3 in half a turn, as the other half is the mirror image); (A,) where the target is in reach; (A,) where it is, and
-            the arm can get stuck.
+            For each joint, its locked angles (A,), rad (for joint 1 from the direction to the target, for joints 2 and 3 in
+            half a turn, because the other half is the mirror image); (A,) True if the target is in reach; (A,) True if it is
+            in reach and the arm can get stuck.
         """
         results = [
             self._classify_lock_angles(_RestShapes.build(self, lengths[None], joint, angles), r, angles) for joint in range(3)
@@ -198,9 +193,7 @@ class PlanarStationarySets:
         return [(angle, in_reach[0], is_stuck[0]) for angle, in_reach, is_stuck in results]
 
     def _has_singular_trap(self, lengths: FloatArray, r: float, locked: FloatArray) -> BoolArray:
-        """Return (D, A) whether a singular trap attracts the arm, with joint 1 at angles (A,) from the direction to
-        the target.
-        """
+        """Return a mask (D, A) of the angles (A,) of joint 1 from the target's direction with an attracting singular trap."""
         first, second, third = lengths.T
         a1, a2, a3 = self._joint_weights
         trapped = np.zeros((len(lengths), locked.size), dtype=bool)
@@ -209,14 +202,14 @@ class PlanarStationarySets:
                 c2, c3 = sign2 * second + sign3 * third, sign3 * third
                 c1 = first + c2  # the end effector, along link 1
                 norm = np.maximum(a1 * c1**2 + a2 * c2**2 + a3 * c3**2, 1e-300)
-                # Sideways the joints move the end effector by c; along the links by -B d, less what goes with c.
+                # Sideways the joints move the end effector by c; along the links by -B d, minus the part that goes with c.
                 b = -np.array([[c2, c3], [c3, c3]])
                 projection = np.array([[1 - c2 * (a1 * c1 + a2 * c2) / norm, -c2 * a3 * c3 / norm]])
                 projection = np.concatenate([projection, [[-c3 * (a1 * c1 + a2 * c2) / norm, 1 - c3 * a3 * c3 / norm]]])
                 m = np.einsum("i,ijd,jkd->ikd", np.array([a2, a3]), projection, b)
                 trace, det = m[0, 0] + m[1, 1], m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
                 pull = r * np.cos(locked) - c1[:, None]
-                # With the end effector on the first joint the determinant is 0, and such points were seen to trap too.
+                # With the end effector on the first joint the determinant is 0; simulations show that such points trap, too.
                 trapped |= (det > -ZERO_BAND * trace**2)[:, None] & (pull * trace[:, None] < 0)
         return trapped
 
@@ -226,15 +219,15 @@ class _RestShapes:
     """Rest shapes of D designs with one joint locked, at S values of the swept angle, on 2 branches.
 
     Attributes:
-        lengths: (D, 3).
-        joint: The locked one, from 0.
-        angle: (S,) the angle run through; for joints 2 and 3 it is the locked one.
-        tool, direction: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
-        trace: Two (D, 2, S): of M0 and of M1.
-        det: Three (D, 2, S): of 1, lambda and lambda^2.
-        reach_terms: Two (D, 2, S): from the end effector to the middle about which the two links turn that are left, its
-            product with b and its square.
-        lower, upper: (D, 2, S) between which distances from the middle they reach.
+        lengths: (D, 3) link lengths, m.
+        joint: Index from 0 of the locked joint.
+        angle: (S,) swept angle, rad; for joints 2 and 3 it is the locked angle.
+        tool, direction: (D, 2, S, 2) tool point and direction b, with link 1 along x.
+        trace: Traces (D, 2, S) of M0 and of M1.
+        det: Coefficients (D, 2, S) of the determinant for 1, lambda and lambda^2.
+        reach_terms: (D, 2, S) product with b, and square, of the vector from the end effector to the centre about which the two
+            remaining links rotate.
+        lower, upper: (D, 2, S) least and greatest distance from this centre that they reach, m.
     """
 
     lengths: FloatArray
@@ -267,7 +260,7 @@ class _RestShapes:
             j, _ = shape_kernel(make_configurations(solved))
             return np.asarray(np.linalg.det(j[:, :, healthy]).reshape(count, angles))
 
-        # The determinant of the healthy columns is a sine of the angle that is solved for: two values tell its zeros.
+        # The determinant of the healthy columns is a sine of the angle that is solved for, so two values determine its zeros.
         root_angle = np.arctan2(-healthy_determinant(0.0), healthy_determinant(np.pi / 2))
         branches = []
         for half_turn in (0.0, np.pi):
@@ -305,9 +298,7 @@ class _RestShapes:
         return cls(lengths, joint, angle, tool, direction, (t0, t1), (d0, d1, d2), reach_terms, lower, upper)
 
     def are_sinks(self, offsets: FloatArray) -> BoolArray:
-        """Return (D, 2, S) whether the stationary point is a sink whose target is ``offsets`` (D, 2, S) along b, and is in
-        reach.
-        """
+        """Return a mask (D, 2, S) of sinks with their target in reach, at ``offsets`` (D, 2, S) along b."""
         with np.errstate(invalid="ignore"):
             trace = self.trace[0] + offsets * self.trace[1]
             det = self.det[0] + offsets * (self.det[1] + offsets * self.det[2])
@@ -322,33 +313,31 @@ class _RestShapes:
         return projection, projection**2 - (self.tool**2).sum(-1)
 
     def _find_target_offsets(self, r: float) -> FloatArray:
-        """Return both distances (D, 2, 2, S) along b to a target at distance r; NaN where there is none."""
+        """Return both distances (D, 2, 2, S) along b to a target at distance r; NaN if there is none."""
         projection, root_offset = self._line_terms
         with np.errstate(invalid="ignore"):
             half_chord = np.sqrt(root_offset + r * r)
         return np.stack([-projection - half_chord, -projection + half_chord], axis=2)
 
     def have_sinks(self, r: float) -> BoolArray:
-        """Return (D, 2, 2, S) whether there is a sink for targets at distance r, on each branch and in both directions."""
+        """Return a mask (D, 2, 2, S) of sinks for targets at distance r, on each branch and in both directions."""
         offsets = self._find_target_offsets(r)
         return np.stack([self.are_sinks(offsets[:, :, side]) for side in range(2)], axis=2)
 
     def are_in_reach(self, r: float) -> BoolArray:
-        """Return (D, S) whether targets at distance r are in reach with joint 2 or 3 locked at the swept angles."""
+        """Return a mask (D, S) of swept angles of locked joint 2 or 3 at which targets at distance r are in reach."""
         return np.asarray((self.lower[:, 0] <= r) & (r <= self.upper[:, 0]))
 
     def are_reachable_joint1_locked(self, r: float, locked: FloatArray) -> BoolArray:
-        """Return (D, A) whether targets at distance r are in reach with joint 1 locked at angles (A,) from the direction to the
-        target.
-        """
+        """Return a mask (D, A) of angles (A,) of joint 1 from the target's direction with targets at distance r in reach."""
         distance = np.abs(r * np.exp(1j * locked) - self.lengths[:, :1])
         return np.asarray((self.lower[:, 0, :1] <= distance) & (distance <= self.upper[:, 0, :1]))
 
     def have_sinks_joint1_locked(self, r: float, cells: int) -> BoolArray:
-        """Return (D, cells) whether there is a sink, by the angle of joint 1 from the direction to a target at distance r."""
+        """Return a mask (D, cells) of sinks by the angle of joint 1 from the direction to a target at distance r."""
         offsets, has_sink = self._find_target_offsets(r), self.have_sinks(r)
         position = self.tool[:, :, None] + offsets[..., None] * self.direction[:, :, None]
-        # Where along the circle the curve is, in cells; from one point to the next it covers what lies between.
+        # Position of the curve along the circle, in cells; it covers the cells between successive points.
         cell_position = (np.arctan2(-position[..., 1], position[..., 0]) % FULL_TURN_RAD) / FULL_TURN_RAD * cells
         step = (np.diff(cell_position, axis=-1) + cells / 2) % cells - cells / 2
         both = has_sink[..., :-1] & has_sink[..., 1:] & (np.abs(step) < cells / 8)
@@ -363,9 +352,7 @@ class _RestShapes:
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
     def have_ring_sinks(self, radii: FloatArray) -> BoolArray:
-        """Return (D, K) whether any target in a ring has a sink within its reach, by intervals of lambda, exact at
-        each shape.
-        """
+        """Return a mask (D, K) of rings with a sink for a target in reach, by intervals of lambda, exact at each shape."""
         xb, xx = (self.tool * self.direction).sum(-1), (self.tool**2).sum(-1)
         yb, yy = self.reach_terms
         ones = np.ones_like(xb)
@@ -379,7 +366,7 @@ class _RestShapes:
         distance = np.sqrt(np.maximum(xx[..., None] + cuts * (2 * xb[..., None] + cuts), 0.0))
         nearest, farthest = np.minimum(distance[..., 1:], distance[..., :-1]), np.maximum(distance[..., 1:], distance[..., :-1])
         has_sink &= farthest - nearest > _MIN_INTERVAL_FRACTION * self.lengths.sum(axis=1)[:, None, None, None]
-        # Between two neighbouring shapes the interval moves: what both have covers what lies between.
+        # Between two neighbouring shapes the interval moves, so sinks at both shapes cover the radii between them.
         both_sinks = has_sink[:, :, 1:] & has_sink[:, :, :-1]
         pairs = [
             (nearest, farthest, has_sink),
@@ -398,13 +385,11 @@ class _RestShapes:
 
 
 def _make_lock_angles(angles: int) -> FloatArray:
-    """Return the angles at which joint 1 locks, over a full turn; the grid is fine because the target angle can change quickly
-    along a curve.
-    """
+    """Return the locked angles of joint 1 over a full turn, on a fine grid, because the target angle can change quickly."""
     return np.asarray((np.arange(6 * angles) + 0.5) / (6 * angles) * FULL_TURN_RAD)
 
 
 def _solve_quadratic(a: FloatArray, b: FloatArray, c: FloatArray) -> list[FloatArray]:
-    """Return the two roots of ``a x^2 + b x + c``; NaN where there are none."""
+    """Return the two roots of ``a x^2 + b x + c``; NaN if there are none."""
     q = -0.5 * (b + np.where(b >= 0, 1.0, -1.0) * np.sqrt(b * b - 4 * a * c))
     return [q / a, c / q]

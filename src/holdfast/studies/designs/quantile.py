@@ -8,15 +8,16 @@ from holdfast.core.typing import FloatArray
 
 
 def compute_lower_quantile(value: FloatArray, level: float, weights: FloatArray | None = None) -> FloatArray:
-    """Return the value that at least a fraction ``level`` of the poses has: the ``1 - level`` quantile of each design.
+    """Return the value that at least a fraction ``level`` of the poses has, the ``1 - level`` quantile of each design.
 
     Args:
-        value: (D, P) index; 0 where a pose is not reached.
-        level: Share of the poses, such as 0.95.
-        weights: (P,) of the poses; all alike if not given.
+        value: (D, P) index; 0 for poses that are not reached.
+        level: Fraction of the poses, such as 0.95.
+        weights: (P,) weights of the poses. Default: equal weights.
 
     Returns:
-        (D,) as :meth:`holdfast.core.probability.Distribution.quantile`: the smallest v with ``share(value <= v) >= 1 - level``.
+        (D,) quantiles as of :meth:`holdfast.core.probability.Distribution.quantile`: the smallest v such that the fraction of
+        values up to v is at least ``1 - level``.
     """
     pose_count = value.shape[1]
     if weights is None:
@@ -31,10 +32,10 @@ def compute_lower_quantile(value: FloatArray, level: float, weights: FloatArray 
 def compute_quantile_weights(value: FloatArray, level: float, weights: FloatArray | None = None) -> FloatArray:
     """Return the weights (D, P), which sum to 1, of the values in a smooth estimate of the lower quantile.
 
-    Each is the derivative of the estimate by its value. Where the sample quantile is one value, and jumps from pose to pose as
-    a design changes, this is the mean of the values near it, about as many as the sample leaves in doubt.
+    Each weight is the derivative of the estimate by its value. The sample quantile is a single value, which jumps from pose to
+    pose as a design changes. The estimate is a mean of the values near it, about as many as its uncertainty includes.
 
-    Source: Harrell and Davis 1982; with weights by their cumulative shares and the effective sample size of Kish 1965.
+    Source: Harrell and Davis 1982; with weights by their cumulative fractions and the effective sample size of Kish 1965.
     """
     from scipy.special import betainc
 

@@ -1,6 +1,4 @@
-"""Compute the reach of designs, the largest distance of the tool point from the arm's base within the joint limits, and its
-gradient.
-"""
+"""Reach of designs, the largest distance of the tool point from the arm's base within the joint limits, with its gradient."""
 
 from __future__ import annotations
 
@@ -19,18 +17,18 @@ from holdfast.studies.designs.family import Family
 
 _START_COUNT = 16
 _MAX_SWEEPS = 400
-_CONVERGED_CHANGE = 1e-22  # squared change of the joints, rad or m, at which a row is done
+_CONVERGED_CHANGE = 1e-22  # squared change of the joints, rad or m, at which a row has converged
 
 
 class ReachEvaluator:
     """Evaluator of the reach of all designs of a family, compiled once.
 
-    Joint by joint the squared distance is a cosine of a revolute joint and a parabola of a sliding one, so the best value of a
-    joint with the others held still has a closed form, within limits too. Sweeps over the joints only ever raise the distance.
+    As a function of one joint, the squared distance is a cosine (revolute) or a parabola (prismatic), so the best value of a
+    joint with fixed other joints has a closed form, also within limits. Sweeps over the joints never decrease the distance.
 
     Args:
-        family: The designs.
-        seed: Of the random starts.
+        family: Family of the designs.
+        seed: Seed of the random starts.
     """
 
     def __init__(self, family: Family, seed: int = 0) -> None:
@@ -41,8 +39,8 @@ class ReachEvaluator:
         """Return the reach (D,), m, and its gradient (D, k) by the designs.
 
         Args:
-            values: (D, k).
-            limits: Finite limits (D, n) to begin between, :meth:`holdfast.studies.designs.Evaluator.finite_limits`.
+            values: (D, k) designs, rad and m.
+            limits: Finite limits (D, n) of the starts, from :meth:`holdfast.studies.designs.Evaluator.finite_limits`.
         """
         design_count, n = len(values), self._family.arm.n
         lower, upper = limits
@@ -77,7 +75,7 @@ class ReachEvaluator:
     @cached_property
     @cached_kernel
     def _distance_kernel(self) -> Kernel:
-        """(q, x) to the distance, its gradient by the design, and its gradient by the joints."""
+        """Kernel from (q, x) to the distance, its gradient by the design, and its gradient by the joints."""
         q = kinematics.joint_symbols(self._family.arm)
         distance = ca.norm_2(self._trace_from_base(q)[0])
         gradients = [ca.gradient(distance, self._family.x), ca.gradient(distance, q)]
@@ -100,7 +98,7 @@ class ReachEvaluator:
             lower, upper = arm.lower[index], arm.upper[index]
             axis, point = axes[index], points[index]
             if joint.prismatic:
-                # A parabola that opens upwards: the farther end is best; without limits there is no farthest point.
+                # The parabola opens upwards, so the farther end is best; without limits there is no farthest point.
                 end_steps = [(x - q[index]) for x in (lower, upper)]
                 gains = [2 * change * ca.dot(axis, tool) + change * change for change in end_steps]
                 q[index] = ca.if_else(gains[0] > gains[1], lower, upper)

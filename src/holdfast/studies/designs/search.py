@@ -1,4 +1,4 @@
-"""Search of designs: designs spread over the space, local searches with exact gradients, and a check on held-out poses."""
+"""Search for designs: designs spread over the space, local searches with exact gradients, and a check on held-out poses."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from holdfast.studies.designs.space import DesignSpace, Vary, design_space
 
 Progress = Callable[[int, int], None]
 
-_FIRST_DESIGNS = 64  # designs that grow from one another; all later ones begin from the nearest of these
+_FIRST_DESIGNS = 64  # designs that start from one another; all later ones start from the nearest of these
 _CHUNK_DESIGNS = 128
-_NEGLIGIBLE_WEIGHT = 1e-7  # share of a pose in the smooth quantile below which its gradient is not asked for
-_MAX_ITERATIONS = 30  # of a climb
-_TRAIL_DESIGNS = 12  # designs of a climb that the next ones may begin from
-_RANDOM_STARTS_PER_STEP = 2  # random starts of each pose in every step of a climb
-_DESIGNS_PER_LOCAL_SEARCH = 32  # designs that a climb counts as, for the progress
+_NEGLIGIBLE_WEIGHT = 1e-7  # weight of a pose in the smooth quantile below which its gradient is not computed
+_MAX_ITERATIONS = 30  # iterations of a local search
+_TRAIL_DESIGNS = 12  # designs of a local search from which the next ones can start
+_RANDOM_STARTS_PER_STEP = 2  # random starts of each pose in every step of a local search
+_DESIGNS_PER_LOCAL_SEARCH = 32  # number of designs that a local search counts in the progress
 
 
 @check_arguments
@@ -62,38 +62,38 @@ def design(
 ) -> Designs:
     """Search for the arm with the largest index quantile over a region after the worst failure.
 
-    What a design is worth is the ``1 - level`` quantile, over the poses of the region, of the index at the best configuration
-    of every pose (:func:`holdfast.optimise`); a pose that is not reached counts as 0. Designs spread over the bounds are
-    compared first, all of them rows of the same kernels. From the best ones, and from those along the front against reach,
-    sequential quadratic programs climb with exact gradients. Links may run through one another; that is not looked at.
+    The value of a design is the ``1 - level`` quantile, over the poses of the region, of the index at the best configuration
+    of every pose (:func:`holdfast.optimise`); a pose that is not reached counts as 0. The search first compares designs that
+    are spread over the bounds, as rows of the same kernels. Sequential quadratic programs with exact gradients then improve
+    the best designs and designs along the Pareto front of value and reach. Self-collisions are not checked.
 
     Args:
-        arm: The given arm; its values must lie within the bounds.
-        vary: What is open and its bounds: ``{"a3": (0.2, 0.6)}``, rad and m, or what
-            :func:`holdfast.studies.designs.design_space` reads.
-        objective: An index by name, larger is better.
-        region: The poses, the same for all designs. Default: that of the given arm, as for :func:`holdfast.assess`.
-        task: Rows of the pose to keep.
-        level: Share of the poses for which the value is guaranteed.
-        failures: Which joints fail.
+        arm: The baseline arm; its values must lie within the bounds.
+        vary: Varied parameters with bounds, rad and m, for example ``{"a3": (0.2, 0.6)}``, or any other form of
+            :func:`holdfast.studies.designs.design_space`.
+        objective: Name of an index that is better when larger.
+        region: Region of the poses, which are the same for all designs. Default: that of :func:`holdfast.assess`.
+        task: Rows of the pose that the configurations must reach.
+        level: Fraction of the poses that have at least the quantile.
+        failures: ``"single"``, ``"pairs"``, the number of joints that fail together, or a list of joints or sets of joints.
         length: Characteristic length of the task, m.
-        poses: Poses on which designs are compared.
-        designs: Designs spread over the bounds.
-        local_searches: Climbs; the first half for the greatest value, the others for a given reach each, along the front.
-        check_poses: Poses of the final check.
-        seed: The same seed gives the same result, whatever the number of threads.
-        store: Folder from which a stopped search resumes.
-        progress: Called with (done, in all), in designs.
+        poses: Number of poses on which designs are compared.
+        designs: Number of designs that are spread over the bounds.
+        local_searches: Number of local searches; the first half maximise the value, each of the others at a given reach.
+        check_poses: Number of held-out poses of the final check.
+        seed: Seed of all random numbers. The result does not depend on the number of threads.
+        store: Folder from which a stopped search can be resumed.
+        progress: Function that is called with (designs done, designs in all).
 
     Returns:
         A :class:`holdfast.Designs`.
 
     Raises:
-        InputError: Options out of range, or bounds and names that do not fit the arm.
-        TaskError: The index cannot be searched by, or the arm is not redundant for the task.
-        StoreError: The folder holds something else.
+        InputError: Options are out of range, or bounds and names do not fit the arm.
+        TaskError: The index cannot be maximised, or the arm is not redundant for the task.
+        StoreError: The folder contains other files.
 
-    Source: Abdi et al. 2012, section IV, for the distribution; Harrell and Davis 1982 for the smooth quantile of the climbs.
+    Source: Abdi et al. 2012, section IV, for the distribution; Harrell and Davis 1982 for the smooth quantile.
     """
     start_time = time.monotonic()
     if not 0 < level < 1:
@@ -127,7 +127,7 @@ def design(
     }
     if store is not None and not region.storable:
         raise InputError(
-            f"region '{region.name}' has a function of your own, which a folder cannot hold; search without a store"
+            f"region '{region.name}' has a custom function, which cannot be stored in a folder; search without a store"
         )
     memory = None if store is None else SearchMemory(store, plan)
 
@@ -164,7 +164,7 @@ def design(
         advance(_DESIGNS_PER_LOCAL_SEARCH)
     deepened_values = np.array([space.start, *local_optima])
     deepened = recall_part("deep", lambda: search.evaluate_thoroughly(deepened_values))
-    # The given arm takes the place it had, looked at as closely as the ends of the climbs.
+    # The baseline arm keeps its position, and is evaluated as thoroughly as the results of the local searches.
     merged = {name: np.concatenate([deepened[name][:1], screened[name][1:], deepened[name][1:]]) for name in screened}
     all_values = np.concatenate([values, deepened_values[1:]])
     best = choose_best_design(merged["guaranteed"], merged["reach"])
@@ -197,8 +197,8 @@ def design(
 
 
 def find_pareto_front(reach: FloatArray, value: FloatArray) -> NDArray[np.intp]:
-    """Return the numbers of the designs that no other beats in both reach and value, from the shortest reach."""
-    order = np.lexsort((-value, -reach))  # from the farthest reach; of equal reach the best value first
+    """Return the numbers of the designs that are non-dominated in reach and value, from the shortest reach."""
+    order = np.lexsort((-value, -reach))  # from the farthest reach; for equal reach the best value first
     front, best_value = [], -np.inf
     for number in order:
         if value[number] > best_value:
@@ -208,18 +208,18 @@ def find_pareto_front(reach: FloatArray, value: FloatArray) -> NDArray[np.intp]:
 
 
 def sample_comparison_poses(region: Region, count: int, seed: int) -> tuple[FloatArray, FloatArray | None]:
-    """Return the poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
+    """Return the poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all are equal.
 
-    Low-discrepancy points where the region is a box, else random ones.
+    The poses are low-discrepancy points for a box region, otherwise random.
 
     Raises:
-        InputError: A region of joints.
+        InputError: The region is one of joints.
     """
     return sample_poses(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
 def sample_poses(region: Region, count: int, seed: int, sampling: Any = "random") -> tuple[FloatArray, FloatArray | None]:
-    """Return poses (P, 4, 4) of a region and their weights (P,), or None if all count alike."""
+    """Return poses (P, 4, 4) of a region and their weights (P,), or None if all are equal."""
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
     samples: list[FloatArray] = []
@@ -233,13 +233,11 @@ def sample_poses(region: Region, count: int, seed: int, sampling: Any = "random"
 def _choose_local_starts(
     smooth: FloatArray, reach: FloatArray, values: FloatArray, space: DesignSpace, local_searches: int
 ) -> list[tuple[int, float]]:
-    """Return the starts of the local searches, each with the least reach to keep: the best distinct designs, then the best
-    beyond each reach.
-    """
+    """Return the starts of the local searches, each with its least reach: the best distinct designs, and those for a reach."""
     fractions = (values - space.lower) / (space.upper - space.lower)
     order = np.argsort(-smooth, kind="stable")
     distinct: list[int] = []
-    for distance in (0.5, 0.0):  # of a side of the unit cube, in the mean square
+    for distance in (0.5, 0.0):  # root mean square distance, as a fraction of a side of the unit cube
         for number in order:
             if len(distinct) == -(-local_searches // 2):
                 break
@@ -269,12 +267,12 @@ class _DesignSearch:
         self._first_evaluated: Evaluated | None = None
 
     def set_neighbours(self, values: FloatArray) -> None:
-        """Let later designs begin from the configurations of these designs."""
+        """Set the designs from whose configurations later designs start."""
         self._first_values = values
 
     @property
     def _neighbour_results(self) -> Evaluated | None:
-        """Designs from which others begin; computed again after resuming from a folder, which stores no configurations."""
+        """Designs from which others start, computed again after resuming from a folder, which stores no configurations."""
         if self._first_evaluated is None and self._first_values is not None:
             self._first_evaluated = self.evaluator(self._first_values)
         return None if self._first_values is None else self._first_evaluated
@@ -297,7 +295,7 @@ class _DesignSearch:
         }
 
     def search_locally(self, start: FloatArray, least_reach: float) -> FloatArray:
-        """Return the best design (k,) near a start whose reach is at least ``least_reach``."""
+        """Return the best design (k,) near a start with a reach of at least ``least_reach``, m."""
         from scipy.optimize import minimize
 
         space = self.family.space
@@ -349,14 +347,12 @@ class _DesignSearch:
         return float(weights @ extended), weights[rows] @ sensitivities.gradient
 
     def evaluate_thoroughly(self, values: FloatArray) -> Parts:
-        """Return the measures of designs, each searched from as many random starts as :func:`holdfast.optimise` uses."""
+        """Return the measures of designs, each searched from the number of random starts of :func:`holdfast.optimise`."""
         neighbours = self.evaluator(values, self._neighbour_results)
         return self._compute_measures(self.evaluator(values, neighbours, self.evaluator.starts))
 
     def evaluate_held_out(self, values: FloatArray, count: int) -> Parts:
-        """Evaluate designs on held-out poses, from random starts alone: index (D, P), reached (D, P), and weights
-        (P,) if any.
-        """
+        """Return index (D, P), reached (D, P), and weights (P,) if any, of designs on held-out poses, from random starts."""
         seed = int(np.random.SeedSequence(self.seed, spawn_key=(6,)).generate_state(1)[0])
         poses, weights = sample_poses(self.region, count, seed, "random")
         evaluator = Evaluator(self.family, poses, seed)
@@ -368,23 +364,23 @@ class _DesignSearch:
         }
 
     def describe_method(self, designs: int, local_searches: int, check_poses: int) -> list[tuple[str, str]]:
-        """Return the method of the computation, for reports."""
+        """Return the description of the method for reports, as pairs of titles and texts."""
         return [
-            ("Designs", f"the given arm and {designs:,} scrambled Sobol points within the bounds, one compiled kernel for all"),
+            ("Designs", f"the baseline arm and {designs:,} scrambled Sobol points within the bounds, in one compiled kernel"),
             (
                 "Configurations",
                 "the best found for each design and pose, from the configurations of the two nearest designs and a few random "
-                "starts; those of the given arm and of the climbs' ends from many",
+                "starts; for the baseline arm and the results of the local searches from many random starts",
             ),
             (
-                "Climbs",
-                f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
-                "exact gradients; half of them for the greatest value, half for the greatest beyond a given reach",
+                "Local searches",
+                f"{local_searches} sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
+                "exact gradients; half of them maximise the value, half the value beyond a given reach",
             ),
             (
                 "Poses that are not reached",
-                "count as 0; in the climbs as less than 0, by 1 per metre and radian of the nearest miss",
+                "count as 0; in the local searches as less than 0, by 1 per metre and radian of the pose error",
             ),
-            ("Check", f"{check_poses:,} fresh random poses; interval of the quantile by order statistics"),
-            ("Not looked at", "whether links run through one another, and what they weigh"),
+            ("Check", f"{check_poses:,} held-out random poses; interval of the quantile by order statistics"),
+            ("Not checked", "self-collisions, and the masses of the links"),
         ]

@@ -1,4 +1,4 @@
-"""Space of a search: the numbers of an arm that vary, and their bounds."""
+"""Design space of a search: the varied parameters of an arm, and their bounds."""
 
 from __future__ import annotations
 
@@ -27,14 +27,15 @@ _UNIT_FACTORS = {"m": (1.0, "m"), "mm": (1e-3, "m"), "rad": (1.0, "rad"), "deg":
 
 @dataclass(frozen=True)
 class DesignParameter:
-    """Number of an arm that a search may change.
+    """Parameter of an arm that a search may change.
 
     Attributes:
         name: ``a3``, ``alpha3``, ``d3``, ``theta3`` (row 3 of the arm's standard Denavit-Hartenberg table, rows counted from
             1), ``lower3``, ``upper3`` (limits of joint 3), or ``tool.x``, ``tool.y``, ``tool.z``, ``tool.roll``,
-            ``tool.pitch``, ``tool.yaw`` (tool in the last row's frame, roll, pitch and yaw as URDF).
-        lower, upper: Bounds, rad or m.
-        unit: ``rad`` or ``m``; if not given that of the name, rad for limits.
+            ``tool.pitch``, ``tool.yaw`` (tool in the frame of the last row, with roll, pitch and yaw as in URDF).
+        lower: Lower bound, rad or m.
+        upper: Upper bound, rad or m.
+        unit: ``rad`` or ``m``. Default: the unit of the name, for limits rad.
     """
 
     name: str
@@ -54,16 +55,14 @@ class DesignParameter:
             raise InputError(f"bounds of {self.name} are reversed: {self.text(lower)} is above {self.text(upper)}; swap them")
         if lower == upper:
             raise InputError(
-                f"both bounds of {self.name} are {self.text(lower)}; give it room, or leave it out: then it stays as it is"
+                f"both bounds of {self.name} are {self.text(lower)}; give different bounds, or leave it out to keep its value"
             )
         object.__setattr__(self, "lower", lower)
         object.__setattr__(self, "upper", upper)
 
     @property
     def kind(self) -> str:
-        """Kind of the number in a row or in the tool: ``a``, ``alpha``, ``d``, ``theta``, ``lower``, ``upper``, ``x``, ...,
-        ``yaw``.
-        """
+        """Kind of the parameter: ``a``, ``alpha``, ``d``, ``theta``, ``lower``, ``upper``, ``x``, ..., or ``yaw``."""
         return _parse_parameter_name(self.name)[0]
 
     @property
@@ -73,32 +72,32 @@ class DesignParameter:
 
     @property
     def display_unit(self) -> tuple[float, str]:
-        """Factor and unit for display: (1, "m") or (180/pi, "deg")."""
+        """Factor and unit for display, which are (1, "m") or (180/pi, "deg")."""
         return (1.0, "m") if self.unit == "m" else (180 / np.pi, "deg")
 
     def text(self, value: float) -> str:
-        """Return a value for display, such as ``0.45 m`` or ``-90 deg``."""
+        """Return ``value``, rad or m, as text for display, such as ``0.45 m`` or ``-90 deg``."""
         factor, unit = self.display_unit
         return f"{value * factor:.6g} {unit}"
 
     @property
     def option_text(self) -> str:
-        """Text that ``--vary`` reads, such as ``alpha4=-90..90deg``."""
+        """Text for ``--vary``, such as ``alpha4=-90..90deg``."""
         factor, unit = self.display_unit
         return f"{self.name}={self.lower * factor:.10g}..{self.upper * factor:.10g}{unit}"
 
 
 @dataclass(frozen=True, eq=False)
 class DesignSpace:
-    """Arm and its varied numbers. A design is a vector (k,), one value per parameter, rad or m.
+    """Arm and its k varied parameters; a design is a vector (k,) with one value per parameter, rad or m.
 
     Attributes:
-        arm: The given arm. Its own values must lie within the bounds, so that before and after can be compared.
-        parameters: What is open; at least one.
+        arm: The baseline arm. Its values must lie within the bounds, so that it can be compared with the results.
+        parameters: Varied parameters, at least one.
 
     Raises:
-        InputError: No parameter, one given twice, a row or limit that the arm has not, an own value outside the bounds, or
-            bounds within which the lower limit of a joint can pass its upper one.
+        InputError: There is no parameter, one is given twice, the arm does not have a row or limit, a value of the baseline arm
+            lies outside the bounds, or the limits of a joint can cross within the bounds.
     """
 
     arm: Arm
@@ -106,18 +105,18 @@ class DesignSpace:
 
     def __post_init__(self) -> None:
         if not self.parameters:
-            raise InputError(f"nothing of '{self.arm.name}' is to be varied; give at least one of {_PARAMETER_EXAMPLES}")
+            raise InputError(f"no parameter of '{self.arm.name}' is varied; give at least one of {_PARAMETER_EXAMPLES}")
         names = [parameter.name for parameter in self.parameters]
         for name in names:
             if names.count(name) > 1:
-                raise InputError(f"{name} is to be varied twice; give its bounds once")
+                raise InputError(f"{name} is varied twice; give its bounds once")
         object.__setattr__(self, "parameters", tuple(self._add_unit(parameter) for parameter in self.parameters))
         for parameter, value in zip(self.parameters, self.start, strict=True):
             if not parameter.lower <= value <= parameter.upper:
                 raise InputError(
                     f"{parameter.name} of '{self.arm.name}' is {parameter.text(value)}, outside the bounds "
                     f"{parameter.text(parameter.lower)} to "
-                    f"{parameter.text(parameter.upper)}; widen them, so that the arm can be compared with what is found"
+                    f"{parameter.text(parameter.upper)}; widen them, so that the arm can be compared with the results"
                 )
         self._check_limits_cannot_cross()
 
@@ -205,10 +204,10 @@ class DesignSpace:
         return np.array(values)
 
     def check(self, values: ArrayLike) -> FloatArray:
-        """Return designs as float64, (k,) or (D, k).
+        """Return the designs ``values``, (k,) or (D, k), rad and m, as float64 after checking them.
 
         Raises:
-            InputError: Wrong number of values, not numbers, or a value outside its bounds.
+            InputError: The number of values is wrong, or a value is not a number or outside its bounds.
         """
         try:
             designs = np.asarray(values, dtype=np.float64)
@@ -217,7 +216,7 @@ class DesignSpace:
         if designs.ndim not in (1, 2) or designs.shape[-1] != len(self.parameters):
             value_count = designs.shape[-1] if designs.ndim else 0
             raise InputError(f"a design has {value_count} values; it must have {len(self.parameters)}, {', '.join(self.names)}")
-        # Bounds that went through degrees may differ in the last digit.
+        # Bounds that were converted from degrees may differ in the last digit.
         slack = 1e-12 * np.maximum(1.0, np.abs(designs))
         inside = (designs >= self.lower - slack) & (designs <= self.upper + slack)
         if not inside.all():
@@ -230,14 +229,14 @@ class DesignSpace:
         return designs
 
     def table_of(self, values: ArrayLike) -> DHTable:
-        """Return the Denavit-Hartenberg table of a design (k,).
+        """Return the Denavit-Hartenberg table of the design ``values`` (k,), rad and m.
 
         Raises:
-            InputError: As :meth:`check`.
+            InputError: The design is not valid; see :meth:`check`.
         """
         design = self.check(values)
         if design.ndim != 1:
-            raise InputError(f"one design is ({len(self.parameters)},) numbers; this is an array of shape {design.shape}")
+            raise InputError(f"the design has shape {design.shape}; one design has the shape ({len(self.parameters)},)")
         rows, tool = list(self.table.rows), self.table.tool.copy()
         rpy = dict(zip(TOOL_PARAMETERS[3:], _compute_roll_pitch_yaw(tool[:3, :3]), strict=True))
         is_rotated = False
@@ -254,17 +253,17 @@ class DesignSpace:
         return DHTable(tuple(rows), self.table.base, tool)
 
     def arm_of(self, values: ArrayLike, name: str | None = None) -> Arm:
-        """Return the arm of a design (k,): geometry, limits, gravity, and the known masses.
+        """Return the arm of a design (k,) with geometry, limits, gravity, and the known masses.
 
-        A link of which neither ``a``, ``alpha`` nor ``d`` is varied is the given arm's, and so is the payload. The mass of a
-        link of another shape is not known: None.
+        The payload, and every link without varied ``a``, ``alpha`` or ``d``, are those of the baseline arm. The mass of any
+        other link is not known, so it is None.
 
         Args:
-            values: (k,) rad or m, within the bounds.
-            name: Of the arm; the given arm's with ``-design`` behind it if not given.
+            values: (k,) design within the bounds, rad or m.
+            name: Name of the arm. Default: the name of the baseline arm with the suffix ``-design``.
 
         Raises:
-            InputError: As :meth:`check`.
+            InputError: The design is not valid; see :meth:`check`.
         """
         table = self.table_of(values)
         values_text = ", ".join(
@@ -281,9 +280,7 @@ class DesignSpace:
 
     @cached_property
     def _links_in_table_frames(self) -> tuple[list[Link | None], Link | None]:
-        """Links of the baseline arm, each in the moving frame of its joint of the table, and the payload in the frame of the
-        last row.
-        """
+        """Links of the baseline arm in the moving frames of the table's joints, and the payload in that of the last row."""
         table_arm = self.table.arm()
         frames = [
             np.linalg.inv(a) @ b for a, b in zip(table_arm.frames_at_zero[:-1], self.arm.frames_at_zero[:-1], strict=True)
@@ -293,13 +290,14 @@ class DesignSpace:
         return links, None if payload is None else payload.in_frame(np.linalg.inv(table_arm.flange) @ frames[-1])
 
     def draw(self, count: int, seed: int = 0) -> FloatArray:
-        """Return designs (count, k) spread over the bounds, from a scrambled Sobol sequence; a larger count begins with the
-        same designs.
+        """Return ``count`` designs (count, k), rad and m, spread over the bounds by a Sobol sequence scrambled with ``seed``.
+
+        A larger count begins with the designs of a smaller one.
         """
         from scipy.stats import qmc
 
         if count < 1:
-            raise InputError(f"{count} designs cannot be drawn; draw at least 1")
+            raise InputError(f"count is {count}; it must be 1 or more")
         engine = qmc.Sobol(len(self.parameters), scramble=True, rng=np.random.default_rng(seed))
         fractions = engine.random_base2(max(0, int(np.ceil(np.log2(count)))))[:count]
         return np.asarray(self.lower + fractions * (self.upper - self.lower))
@@ -309,15 +307,15 @@ Vary = DesignSpace | Iterable["DesignParameter | str"] | Mapping[str, Any]
 
 
 def design_space(arm: Arm, vary: Vary) -> DesignSpace:
-    """Return the space that ``vary`` describes.
+    """Return the design space that ``vary`` describes.
 
     Args:
-        arm: The given arm.
-        vary: A space as it is; bounds by name, ``{"a3": (0.2, 0.6)}``, rad and m; parameters; or texts as
-            :func:`holdfast.studies.designs.parse_vary` reads them.
+        arm: The baseline arm.
+        vary: A design space, which is returned unchanged; bounds by name, rad and m, for example ``{"a3": (0.2, 0.6)}``;
+            parameters; or texts for :func:`holdfast.studies.designs.parse_vary`.
 
     Raises:
-        InputError: As :class:`holdfast.DesignSpace` and :func:`holdfast.studies.designs.parse_vary`.
+        InputError: ``vary`` is not valid; see :class:`holdfast.DesignSpace` and :func:`holdfast.studies.designs.parse_vary`.
     """
     if isinstance(vary, DesignSpace):
         return vary
@@ -332,15 +330,15 @@ def design_space(arm: Arm, vary: Vary) -> DesignSpace:
 def parse_vary(text: str, arm: Arm, option: str = "--vary") -> DesignParameter:
     """Parse ``a3=0.2..0.6``, ``d1=300..400mm``, ``alpha4=-90..90deg`` or ``lower2=-1.5..-0.5rad`` as a parameter.
 
-    Lengths are metres if they have no unit; angles must have theirs.
+    Lengths without a unit are in metres; angles must have a unit.
 
     Args:
-        text: What a person wrote.
-        arm: Says whether a limit is of a prismatic joint.
-        option: What an error calls it.
+        text: Text of the user.
+        arm: Arm whose joints determine whether a limit is a length or an angle.
+        option: Name of the option for error messages.
 
     Raises:
-        InputError: What is wrong with the text.
+        InputError: The text is not valid.
     """
     name, equals, bounds = (piece.strip() for piece in text.partition("="))
     lower_text, dots, upper_text = (piece.strip() for piece in bounds.partition(".."))
@@ -403,9 +401,7 @@ def _parse_parameter_name(name: str, prefix: str = "") -> tuple[str, int | None]
 
 
 def _compute_roll_pitch_yaw(rotation: FloatArray) -> tuple[float, float, float]:
-    """Return roll, pitch, and yaw, rad; at a pitch of 90 deg only the combination of roll and yaw is determined,
-    and yaw is 0.
-    """
+    """Return roll, pitch, and yaw, rad; at a pitch of 90 deg, which determines only a sum of roll and yaw, yaw is 0."""
     pitch = np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0]))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-12:
         return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), float(pitch), 0.0

@@ -1,4 +1,4 @@
-"""Studies from a study file: assessments, convergence maps, workspaces, and task banks."""
+"""Studies that a study file defines, with assessments, convergence maps, workspaces, and task banks."""
 
 from holdfast.core._lazy import offer
 

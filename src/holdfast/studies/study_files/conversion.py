@@ -1,4 +1,4 @@
-"""Convert folders of early versions to the present formats.
+"""Conversion of folders of early versions to the present formats.
 
 The formats of early versions were never released; folders of holdfast 0.1 are kept in ``tests/stored``. A results folder had a
 list of finished chunks in ``run.json`` in place of the journal, a search had lines without checksums in ``search.jsonl``, and
@@ -27,16 +27,16 @@ _LAST_FORMAT_OF_OTHER_DIGITS = 2  # the last digits of rows in this format diffe
 
 
 def convert_folder(path: str | Path, law: Law | None = None) -> Path:
-    """Convert a folder of an early version in place; a folder in the present format stays as it is.
+    """Convert a folder of an early version in place; a folder in the present format is not changed.
 
     Early versions stored no checksums of values, so a lost file is not detected here.
 
     Args:
-        path: Folder of an assessment, a workspace, a study, or a search for designs.
-        law: Control law of a workspace, which early versions stored as a text for people.
+        path: Path of the folder of an assessment, a workspace, a study, or a search for designs.
+        law: Control law of a workspace, of which early versions stored only a description.
 
     Returns:
-        The folder.
+        Path of the folder.
 
     Raises:
         StoreError: The folder contains none of these, is damaged, was stopped before it was complete, or is not writable.
@@ -93,15 +93,15 @@ def _convert_run(folder: Path, law: Law | None) -> None:
 def _replace_law(plan: dict[str, Any], law: Law | None, folder: Path) -> dict[str, Any]:
     """Return a plan with the stored values of a law in place of its text."""
     if law is None or (law.describe(), law.arm.fingerprint) != (plan["law"], plan["arm"]):
-        raise StoreError(f"'{folder}' is of the law '{plan['law']}'; give that law of the same arm")
+        raise StoreError(f"'{folder}' contains the law '{plan['law']}'; give this law of the same arm")
     if float(f"{law.gain:g}") != law.gain:
-        raise StoreError(f"gain is {law.gain}; the text of the law in '{folder}' has six digits, so give a gain of as many")
+        raise StoreError(f"gain is {law.gain}; it must have at most the six digits of the law's text in '{folder}'")
     names = list(plan)
     return {name: plan[name] for name in names[:2]} | law.to_stored() | {name: plan[name] for name in names[3:]}
 
 
 def _convert_search(folder: Path) -> None:
-    *lines, _ = reading.read_bytes(folder / _SEARCH_FILE).split(b"\n")  # the last line is empty, or was cut short
+    *lines, _ = reading.read_bytes(folder / _SEARCH_FILE).split(b"\n")  # the last line is empty or truncated
     ChecksumLines(folder / MEMORY_FILE).append(*lines)
     (folder / _SEARCH_FILE).unlink()
 

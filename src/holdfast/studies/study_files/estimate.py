@@ -1,4 +1,4 @@
-"""Estimate the duration and size of a study by computing a small part of each cell."""
+"""Estimate of the duration and size of a study, by computing a small part of each cell."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from holdfast.core.sweeps.job import SweepCell
 from holdfast.core.sweeps.store import Store
 from holdfast.kernels.threads import shared_pool
 
-_MIN_TRIAL_S = 0.2  # of processor time: what whole chunks are tried for, so that one slow chunk does not decide
-_TRIAL_WRITES = 8  # chunks written to a folder for a while, to know what that takes
+_MIN_TRIAL_S = 0.2  # s of processor time for which whole chunks are computed, so that one slow chunk does not decide
+_TRIAL_WRITES = 8  # chunks that are written to a temporary folder to measure the time
 
 
 @dataclass(frozen=True)
@@ -26,10 +26,10 @@ class CellEstimate:
     """Estimated cost of one cell.
 
     Attributes:
-        cell: The cell.
-        seconds: Processor time of all of it.
-        size: Bytes, before compression.
-        tried: Rows that were computed to know.
+        cell: Cell of the study.
+        seconds: Processor time of the whole cell, s.
+        size: Size before compression, bytes.
+        tried: Number of rows that were computed for the estimate.
     """
 
     cell: SweepCell
@@ -39,14 +39,13 @@ class CellEstimate:
 
 
 def estimate_cells(cells: Sequence[SweepCell], seed: int, max_seconds: float = 3.0) -> Iterator[CellEstimate]:
-    """Try each cell: few rows, more of them while that takes less than ``max_seconds``, and whole chunks if that is fast
-    enough.
+    """Estimate each cell from few rows, from more rows within ``max_seconds``, and from whole chunks if this is fast enough.
 
-    The first rows pay once for compilation, which does not count; writing a chunk counts. Times are processor time, which
-    other programs do not lengthen.
+    The compilation in the first rows does not count, but the writing of a chunk does. Times are processor times, which do not
+    depend on other programs.
 
     Raises:
-        HoldfastError: A cell cannot be computed; the message says why.
+        HoldfastError: A cell cannot be computed; the message states the reason.
     """
     for cell in cells:
         cell.job.prepare(alone=False)
@@ -77,16 +76,16 @@ def _time_rows(cell: SweepCell, rows: int, seed: int, number: int = 0) -> tuple[
         columns = cell.job.run(chunk)
         return time.thread_time() - start_time, columns
 
-    # In one thread of the pool, as when the study runs: what is compiled in the background meanwhile does not count.
+    # In one thread of the pool, as in the study, so that compilation in the background does not count.
     return shared_pool().submit(run_timed).result()
 
 
 def _time_chunk(cell: SweepCell, seed: int, first_seconds: float) -> float:
-    """Compute whole chunks until the median of their processor times can be trusted."""
+    """Return the median processor time of whole chunks, of which enough are computed for a reliable median."""
     times, full_chunks = [first_seconds], cell.rows // cell.chunk
     while len(times) < full_chunks and (len(times) < 3 or sum(times) < _MIN_TRIAL_S):
         times.append(_time_rows(cell, cell.chunk, seed, len(times))[0])
-    return float(np.median(times))  # the first one may have waited for what is compiled
+    return float(np.median(times))  # the first one may have waited for compilation
 
 
 def _time_write(cell: SweepCell, columns: Mapping[str, NDArray[Any]]) -> float:
@@ -105,9 +104,7 @@ def _time_write(cell: SweepCell, columns: Mapping[str, NDArray[Any]]) -> float:
 
 
 def _extrapolate_seconds(tried: Sequence[tuple[int, float]], cell: SweepCell) -> float:
-    """Return the seconds of all chunks of a cell, from rows and seconds of the trials: a constant time per chunk
-    and per row.
-    """
+    """Return the seconds of all chunks of a cell, by a constant time per chunk and per row from the trials."""
     (first_rows, first_seconds), (rows, seconds) = tried[0], tried[-1]
     if rows == first_rows:
         return seconds * cell.rows / rows

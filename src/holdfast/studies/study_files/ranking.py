@@ -1,4 +1,4 @@
-"""Rank the arms for each question of a study, and show whether the first arm is significantly ahead."""
+"""Ranking of the arms for each question of a study, with the arms that are not significantly behind the first one."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from holdfast.studies.study_files.results import AssessedCell, DrivenCell
 
 Key = tuple[str, str]  # index and task
 Ended = tuple[str, str, str]  # arm, task and failures
-_NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
+_NOT_ZERO = ("mean-singular-value",)  # indices that are not 0 at a singular configuration
 
 
 @dataclass(frozen=True)
@@ -21,14 +21,14 @@ class ArmRanking:
     """Ranking of the arms for one question.
 
     Attributes:
-        question: For people, short.
-        about: What is counted, of how many.
-        entries: Name and share of each arm, in the order of the study.
-        law: The control law, where the question is whether the arm reaches the target under it.
-        unit: Of the threshold in the question; empty if it has none.
-        ended: Of each arm whose share is 0 by structure, the joints whose lock ends the task in every configuration.
-        median: Who has the best median, and what it is: what there is to say where the shares say nothing. Empty if unknown.
-        worst: The failure that is most often the worst of that arm; empty if unknown.
+        question: Short text of the question.
+        about: Text on the counted samples and their number.
+        entries: Name and fraction of each arm, in the order of the study.
+        law: Control law, if the question is whether the arm reaches the target under it.
+        unit: Unit of the threshold in the question; empty if it has none.
+        ended: Joints whose lock ends the task in every configuration, for each arm whose fraction is 0 by structure.
+        median: Arm with the best median, and this median, for use if the fractions are not informative. Empty if unknown.
+        worst: Failure that is most often the worst for that arm; empty if unknown.
     """
 
     question: str
@@ -42,12 +42,12 @@ class ArmRanking:
 
     @property
     def ranked_entries(self) -> tuple[tuple[str, Interval], ...]:
-        """Entries, best first."""
+        """Entries from the best to the worst."""
         return tuple(sorted(self.entries, key=lambda entry: (-entry[1].value, entry[0] in self.ended)))
 
     @property
     def tied_with_first(self) -> list[str]:
-        """First arm, and the arms whose interval overlaps its interval, except arms that are 0 by structure."""
+        """Names of the first arm and of the arms whose interval overlaps with its own, without arms that are 0 by structure."""
         first_name, first_interval = self.ranked_entries[0]
         return [
             name
@@ -70,10 +70,10 @@ def rank_arms(
     """Return one ranking for each index and task, as found and optimised, and for each law.
 
     Args:
-        assessments: Indices over regions.
-        laws: Motions under laws.
-        thresholds: Thresholds.
-        fatal_locks: Joints, as text, whose lock ends a task in every configuration, where there are any.
+        assessments: Cells with an index over a region.
+        laws: Cells with motions under a law.
+        thresholds: Thresholds by index and task.
+        fatal_locks: Joints, as text, whose lock ends a task in every configuration, by arm, task and failures.
     """
     rankings: list[ArmRanking] = []
     tasks = len({task for _, task in thresholds}) > 1
@@ -91,7 +91,7 @@ def rank_arms(
                 if interval is not None
             ]
             entries = [(name, interval) for name, _, interval in candidates]
-            # A mean of singular values is not 0 where one of them is, and a threshold of 0 is met there too.
+            # A mean of singular values is not 0 if one of them is, and such a value also meets a threshold of 0.
             structure_matters = index not in _NOT_ZERO and (threshold > 0 or sign == "≤")
             fatal_by_arm = {
                 name: fatal_text

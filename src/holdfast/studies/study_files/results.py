@@ -1,4 +1,4 @@
-"""Read the results of the cells of a study, a chunk at a time, for any number of chunks."""
+"""Results of the cells of a study, which are read one chunk at a time, for any number of chunks."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def read_labels(study: Study, cell: int) -> dict[str, Any]:
         if not isinstance(labels.get(name), str):
             raise StoreError(
                 f"'{study.path}' is damaged: cell '{study.cells[cell]['name']}' has no label '{name}'; give the study file to "
-                "'holdfast study run' again, which writes it anew"
+                "'holdfast study run' again, which writes the label"
             )
     return labels
 
@@ -58,11 +58,11 @@ class AssessedCell:
     """Result of a cell with an index over a region.
 
     Attributes:
-        labels: Of the cell.
-        plan: What was computed.
-        plain, optimised: Distributions; None where nothing is computed, or was not asked for.
-        worst: Name of the failure that is the worst most often, and its share; None if there is none.
-        survival_fraction: Share of the poses left after a lock, mean over the joints; None if not asked for.
+        labels: Labels of the cell in the sweep.
+        plan: Plan of the assessment.
+        plain, optimised: Distributions as found and at the best configurations; None if not computed or not requested.
+        worst: Name and fraction of the failure that is the worst most often; None if there is none.
+        survival_fraction: Fraction of the poses that remain after a lock, mean over the joints; None if not requested.
     """
 
     labels: dict[str, Any]
@@ -73,7 +73,7 @@ class AssessedCell:
     survival_fraction: float | None
 
     def interval(self, threshold: float, optimised: bool) -> Interval | None:
-        """Return the probability that the index meets a threshold, or None."""
+        """Return the probability that the index meets a threshold; None without a distribution."""
         distribution = self.optimised if optimised else self.plain
         if distribution is None or not distribution.samples:
             return None
@@ -107,19 +107,18 @@ def choose_threshold(cells: list[AssessedCell]) -> float:
 
 @dataclass(frozen=True)
 class DrivenCell:
-    """Motions under a law; fractions are over the motions, each a mean over the joints that may have locked.
+    """Result of a cell with motions under a law.
 
     Attributes:
-        labels: Of the cell.
-        joints: Names.
-        motions: Those that had a configuration to start from.
-        ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
-        reaches: (n + 1,) fractions that reach the target, with intervals.
-        fraction_by_motion: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was
-            no start.
-        mean_fraction: Its mean, with its interval.
-        in_reach: Share of the runs with a locked joint in which the target was in reach.
-        touched: Share of them in which something is touched on the way, at most; None if nobody looked.
+        labels: Labels of the cell in the sweep.
+        joints: Names of the joints.
+        motions: Number of motions with a configuration to start from.
+        ends: (n + 1, 4) fractions of converged, stuck, moving and undecided motions, for each locked joint and without failure.
+        reaches: (n + 1,) fractions of motions that reach the target, with intervals.
+        fraction_by_motion: (R,) fraction of the locked joints with which a motion reaches the target; NaN without a start.
+        mean_fraction: Mean of ``fraction_by_motion``, with its interval.
+        in_reach: Fraction of the runs with a locked joint in which the target was in reach.
+        touched: Upper bound of the fraction of these runs with a contact; None if contacts were not checked.
     """
 
     labels: dict[str, Any]
@@ -173,12 +172,12 @@ def compare_convergence_cells(first_cell: DrivenCell, second_cell: DrivenCell) -
 
 @dataclass(frozen=True)
 class MeasureTable:
-    """Further measures of a cell: names of quantities, with values and interval ends.
+    """Further measures of a cell with their intervals.
 
     Attributes:
-        labels: Of the cell.
-        samples: Starts, or sets of tasks.
-        values: (value, low, high) by name; NaN where there is none.
+        labels: Labels of the cell in the sweep.
+        samples: Number of starts, or of sets of tasks.
+        values: Value, lower end and upper end of each measure, by name; NaN if there is none.
     """
 
     labels: dict[str, Any]
@@ -218,16 +217,16 @@ def read_bank(study: Study, cell: int) -> MeasureTable | None:
 
 @dataclass(frozen=True)
 class DesignSweep:
-    """Designs of one arm, the baseline arm first if it is computed.
+    """Result of a cell with D designs of one arm, the baseline arm first if it is computed.
 
     Attributes:
-        labels: Of the cell.
-        plan: What was computed.
-        values: (D, k) rad or m.
-        guaranteed, median: (D,) of the index over the poses.
-        reached: (D,) share of the poses.
-        reach: (D,) m.
-        start: The row of the given arm; None if it is not computed yet.
+        labels: Labels of the cell in the sweep.
+        plan: Plan of the sweep.
+        values: (D, k) designs, rad or m.
+        guaranteed, median: (D,) lower quantile and median of the index over the poses.
+        reached: (D,) fraction of the poses that are reached.
+        reach: (D,) reach, m.
+        start: Row of the baseline arm; None if it is not computed yet.
     """
 
     labels: dict[str, Any]
@@ -253,5 +252,5 @@ def read_design_sweep(study: Study, cell: int) -> DesignSweep | None:
 
 
 def stored_size_bytes(store: Store) -> int:
-    """Return the bytes of the committed chunks of a store."""
+    """Return the size of the committed chunks of a store in bytes."""
     return sum(entry.size for entry in store.entries.values())

@@ -1,4 +1,4 @@
-"""Read study files: YAML, validated, and the requested cells.
+"""Study files in YAML, their validation, and the cells that they request.
 
 .. code-block:: yaml
 
@@ -10,7 +10,7 @@
     assess:                # every arm with every index, task, region and failure set
       indices: [relative-manipulability, manipulability]
       optimise: true
-      cell: bench.yaml     # as --cell; beside this file
+      cell: bench.yaml     # as --cell; next to this file
     convergence:           # every arm with every law
       laws: [pseudoinverse, failure-tolerant:0.3]
 """
@@ -47,7 +47,7 @@ _DEFAULT_ENTRY = "default"
 
 
 def _join_bounds(value: Any) -> Any:
-    """Return ``{a3: [0.2, 0.6], alpha4: -90..90deg}`` with every pair of bounds as one text."""
+    """Return bounds such as ``{a3: [0.2, 0.6], alpha4: -90..90deg}`` with every pair as one text."""
     if not isinstance(value, dict):
         raise ValueError("it must be names with their bounds, as {a3: [0.2, 0.6], alpha4: -90..90deg}")
     for name, bounds in value.items():
@@ -154,10 +154,10 @@ class StudyFile:
     """Content of a study file.
 
     Attributes:
-        name: Of the study.
-        seed: Of all its cells.
-        cells: What is computed.
-        text: The file.
+        name: Name of the study.
+        seed: Seed of all its cells.
+        cells: Cells to compute.
+        text: Text of the file.
     """
 
     name: str
@@ -168,10 +168,10 @@ class StudyFile:
 
 
 def read_study_file(path: str | Path) -> StudyFile:
-    """Read the study in a file.
+    """Read the study in the file ``path``.
 
     Raises:
-        InputError: Unreadable, a key that is unknown, missing or wrong, or an arm, index, task or law that is; the message
+        InputError: The file cannot be read, a key is unknown, missing or wrong, or an arm, index, task or law is; the message
             names it.
     """
     file = Path(path)
@@ -210,7 +210,7 @@ def _assign_unique_cell_names(cells: Iterator[SweepCell]) -> Iterator[SweepCell]
                 f"{MAX_ROWS} rows and {MAX_CHUNKS} chunks, so give fewer rows or a larger chunk"
             )
         if len(used_names) == _MAX_CELLS:
-            raise InputError(f"it asks for more than {_MAX_CELLS} cells (every arm with every index, task, ...); split it")
+            raise InputError(f"it has more than {_MAX_CELLS} cells (every arm with every index, task, ...); split it")
         name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
         unique = next(
             candidate
@@ -279,7 +279,7 @@ def _make_assess_cells(
         plan = make_plan(arm, region, measure, *settings, clearance=block.clearance, cell=cell)
         if block.keep == "counts" and (plan.has_weights or plan.after_lock):
             reason = "poses have weights" if plan.has_weights else "after_lock needs every pose"
-            raise InputError(f"assess.keep: counts cannot be kept where {reason}; use keep: rows")
+            raise InputError(f"assess.keep is counts, but {reason}; use keep: rows")
         data = plan.to_dict()
         if chunk % region.block:
             data["seeds"] = f"as for an assessment, blocks of at most {region.block} poses counted anew in chunks of {chunk}"
@@ -301,10 +301,10 @@ def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Ite
     if block is None:
         raise InputError(f"arms: there is no assess block for the designs of '{entry.arm}'; give one (as 'assess: {{}}')")
     if block.cell is not None:
-        raise InputError(f"assess.cell: designs of '{entry.arm}' are not looked at in a cell; leave it out")
+        raise InputError(f"assess.cell: designs of '{entry.arm}' are not checked in a cell; leave it out")
     for name in ("convergence", "workspace", "bank"):
         if getattr(model, name) is not None:
-            raise InputError(f"arms: designs of '{entry.arm}' cannot be swept in {name}; give that block in a file of its own")
+            raise InputError(f"arms: designs of '{entry.arm}' cannot be swept in {name}; give that block in a separate file")
     has_options = entry.base or entry.tip or entry.hold
     arm_entry = _ArmFile(file=entry.arm, base=entry.base, tip=entry.tip, hold=entry.hold) if has_options else entry.arm
     spec, arm, label = _load_arm(arm_entry, folder)
@@ -313,7 +313,7 @@ def _make_design_cells(model: _StudyModel, entry: _Designs, folder: Path) -> Ite
     for name, measure, region, labels in _sweep_indices(block, "designs", spec, arm, label, folder):
         if measure.better == "smaller":
             raise InputError(
-                f"assess.indices: {labels['index']} is better when smaller, and a guaranteed value must be larger; leave it out"
+                f"assess.indices: {labels['index']} is better when smaller, and a sweep of designs maximises; leave it out"
             )
         sample_comparison_poses(region, 1, 0)  # raises an error if it has none
         plan: dict[str, Any] = {

@@ -20,24 +20,24 @@ from holdfast.model.arms.spec import ArmSpec
 
 _SMALL_CHUNK = 500
 _MAX_CHUNKS = 1000
-_BLOCK_POSES = 1024  # poses of a block of a box region, which draw from one seed
+_BLOCK_POSES = 1024  # poses of a block of a box region, which share one seed
 
 _STUDY_TEXT = """\
-# A study of holdfast: what is computed is every combination of the lists below.
+# A study of holdfast computes every combination of the lists below.
 #
-#   holdfast study run {file} --dry-run        what it would compute, how long it would take, how large it would be
+#   holdfast study run {file} --dry-run        list the cells, with the estimated duration and size
 #   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command resumes
-#   holdfast study status|verify|report DIR    how far it is; is every chunk sound; one HTML page
+#   holdfast study status|verify|report DIR    show the progress; check every chunk; write an HTML report
 #
-# Folders of different seeds are different studies. Everything but name and thresholds defines the results.
+# Folders with different seeds are different studies. Everything except name and thresholds defines the results.
 
 name: {name}
 
-# The same seed gives the same bits, whatever computes it: threads, a Dask cluster, with or without a stop.
+# The same seed gives the same bits with threads or a Dask cluster, with or without an interruption.
 seed: {seed}
 
-# Samples of each cell, and how many of them are computed and committed together: a chunk of a second to a minute is good.
-# A crash costs at most the chunks being computed.
+# Samples of each cell, and samples that are computed and committed together; a chunk should take a second to a minute.
+# A crash loses at most the unfinished chunks.
 poses: {poses}
 chunk: {chunk}
 
@@ -45,21 +45,21 @@ chunk: {chunk}
 # or designs of one arm, each evaluated at the best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
 arms: {arms}
 
-# The probability that an arm keeps its dexterity when a joint fails, over a region: see 'holdfast assess --help'.
+# Probability over a region that an arm keeps its dexterity when a joint fails; see 'holdfast assess --help'.
 assess:
 {known_indices}
   indices: {indices}
   tasks: [default]          # {known_tasks}, or rows as "tool:vx,vy"; default: the arm's
   regions: [default]        # region files, relative to this one; default: around the arm's home
   failures: [single]        # {known_failures}
-  optimise: {optimise}           # also the best configuration of each pose
-  after_lock: false         # also which poses are left once each joint has locked
+  optimise: {optimise}           # also find the best configuration of each pose
+  after_lock: false         # also find the poses that can be reached after each joint has locked
   sampling: random          # or sobol
-  restarts: 100             # random starts before a pose counts as not reached
-  keep: rows                # every pose; counts keeps only how values are distributed, for very many samples
-  # thresholds: {{relative-manipulability: 0.3}}    # what the report asks for; half of the bound, or the median, if not given
+  restarts: 100             # random starts after which a pose counts as not reached
+  keep: rows                # store every pose; counts stores only distributions, for very many samples
+  # thresholds: {{relative-manipulability: 0.3}}    # threshold in the report; default: half of the bound, or the median
 
-# Whether an arm with an unidentified locked joint still reaches the target, by law: see 'holdfast convergence-map --help'.
+# Fraction of targets that an arm with an undetected locked joint still reaches; see 'holdfast convergence-map --help'.
 {convergence}
 # Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
 # "From laptop to cluster".
@@ -69,7 +69,7 @@ _LAWS_TEXT = """\
 convergence:
 {known_laws}
   laws: {laws}
-  motions: {motions}              # random motions of each cell; poses, if not given
+  motions: {motions}              # random motions of each cell; default: poses
   chunk: {motions_chunk}
 """
 
@@ -87,18 +87,18 @@ def write(
     """Write a study file with comments.
 
     Args:
-        file: Where; it must not exist yet.
-        arm: Built-in names, or arm files with their base, tip and what is held.
-        poses: Samples of each cell.
-        chunk: Of them computed and committed together; :func:`choose_chunk_size` if None.
-        seed: Of everything random.
-        indices: Of the assessments.
-        laws: Of the maps of convergence; none if empty.
-        optimise: Also the best configurations.
+        file: Path of the file, which must not exist yet.
+        arm: Built-in names, or arm files with their base, tip and held joints.
+        poses: Number of samples of each cell.
+        chunk: Number of samples that are computed and committed together. None: :func:`choose_chunk_size`.
+        seed: Seed of all random numbers.
+        indices: Indices of the assessments.
+        laws: Control laws of the convergence maps; no maps if empty.
+        optimise: True to compute also the best configurations.
 
     Raises:
-        InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
-        StoreError: It cannot be written.
+        InputError: A number is wrong, an arm, index or law is unknown, or the file exists already.
+        StoreError: The file cannot be written.
     """
     from holdfast.studies.study_files.study_file import read_study_file
 
@@ -108,7 +108,7 @@ def write(
         if number < minimum:
             raise InputError(f"{option} is {number}; it must be {minimum} or more")
     if not arm:
-        raise InputError("no arm is named; give --arm, a built-in name or a file")
+        raise InputError("no arm is given; give --arm with a built-in name or a file")
     for spec in arm:
         spec.load()
     if reading.path_exists(path):
@@ -149,7 +149,7 @@ def choose_chunk_size(poses: int) -> int:
     """Choose a number of samples to compute and commit together.
 
     A study of at most half a million samples has chunks of 500. A larger one has at most a thousand chunks of whole blocks,
-    because each chunk costs a file per column and a line of the journal.
+    because each chunk needs a file per column and a line of the journal.
     """
     if poses <= _SMALL_CHUNK * _MAX_CHUNKS:
         return _SMALL_CHUNK

@@ -1,1 +1,1 @@
-"""Book of record designs: the best arms found so far, in files that anyone can check again."""
+"""Book of record designs, which are the best arms found so far, in files that anyone can check."""

@@ -1,4 +1,4 @@
-"""Record designs, one file each, and the check of their claims."""
+"""Record designs in one file each, and the check of their claims."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ from holdfast.studies.designs.record_book.workspaces import compute_exact_area, 
 
 _ORTHONORMALITY_TOLERANCE = 1e-12
 _TRACE_SPACING_RAD = 0.01  # rad
-_TRACE_STARTS = 32  # of the trace of a self-motion
-_GRID_AREA_TOLERANCE = 2e-3  # relative, of an area by a grid
+_TRACE_STARTS = 32  # random starts of the trace of a self-motion
+_GRID_AREA_TOLERANCE = 2e-3  # relative tolerance of an area that is measured by a grid
 _LENGTH_TOLERANCE = 1e-9  # m, and fraction of all links
 _ONE_CONFIGURATION = "one configuration"
-TOTAL_LINK_LENGTH_M = 3.0  # m, of all links together: so that areas compare
+TOTAL_LINK_LENGTH_M = 3.0  # m, sum of all link lengths, which makes areas comparable
 _DATA_FOLDER = Path(__file__).parent / "data"
 
 
@@ -70,7 +70,7 @@ class _CheckCommand(Strict):
 
 
 class RecordFile(Strict):
-    """Keys of the file of a record."""
+    """Content of the file of a record, by key."""
 
     id: str
     kind: _RecordClass = Field(alias="class")
@@ -88,20 +88,18 @@ class RecordFile(Strict):
 
 
 def digest_record_text(text: str) -> str:
-    """Return the digest of a record file: of all its characters except white space and the digest line, including insignificant
-    digits.
-    """
+    """Return the digest of all characters of a record file, including insignificant digits, without spaces and digest line."""
     return sha256(re.sub(r"(?m)^digest:.*$|\s+", "", text).encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DesignRecord(Result):
-    """Best known design of its class: an arm at one configuration, or a null space alone.
+    """Best known design of its class, which is an arm at one configuration, or only a null space.
 
     Attributes:
-        id: Class and number; never used again.
-        data: All that the file says.
-        text: The file itself, YAML.
+        id: Class and number, which are never reused.
+        data: Content of the file.
+        text: Text of the file, in YAML.
     """
 
     id: str
@@ -110,9 +108,7 @@ class DesignRecord(Result):
 
     @property
     def proven(self) -> tuple[float, str]:
-        """Proven upper bound and its source; for the size of a self-motion in full revolutions of all joints, for a workspace
-        in m^2.
-        """
+        """Proven upper bound and its source; in full revolutions of all joints for a self-motion, in m^2 for a workspace."""
         record_class = self.data.kind
         if record_class.quantity == "self-motion-size":
             return float(record_class.joints), "definition"
@@ -138,7 +134,7 @@ class DesignRecord(Result):
 
     @property
     def arm(self) -> Arm | None:
-        """Arm of the record, or the built-in arm to which the record refers; None for a null space alone."""
+        """Arm of the record, or the built-in arm to which the record refers; None if there is only a null space."""
         if self.data.kind.of is not None:
             return load(self.data.kind.of)
         return None if self.data.arm is None else dh_file.build_arm(self.data.arm, Path(f"{self.id}.yaml"))
@@ -147,10 +143,10 @@ class DesignRecord(Result):
         """Return the arm as a URDF file.
 
         Raises:
-            InputError: It is a null space alone.
+            InputError: The record has only a null space.
         """
         if self.arm is None:
-            raise InputError(f"'{self.id}' is a null space alone; measurements/synthesis in the repository makes arms from it")
+            raise InputError(f"'{self.id}' has only a null space; measurements/synthesis in the repository makes arms from it")
         return urdf_text(self.arm)
 
     @property
@@ -293,7 +289,7 @@ class RecordCheck(Result):
 
     Attributes:
         record: The record.
-        claims: Each claim with what was measured, and whether it holds.
+        claims: Each claim with its measured value, and True if it holds.
     """
 
     record: DesignRecord
@@ -316,10 +312,10 @@ def record_designs() -> RecordBook:
 
 
 def record_design(name: str) -> DesignRecord:
-    """Return the record with an id, or the record in a file.
+    """Return the record with the id ``name``, or the record in the file with this path.
 
     Raises:
-        InputError: There is no such record; the file cannot be read or is no record, and why.
+        InputError: There is no such record, or the file cannot be read or is not a record.
     """
     if name.endswith((".yaml", ".yml")) or Path(name).is_file():
         return load_record_file(Path(name))
@@ -345,7 +341,7 @@ def load_record_file(path: Path) -> DesignRecord:
     """Read the record in a file.
 
     Raises:
-        InputError: It cannot be read, is no record, or holds neither an arm nor a null space.
+        InputError: The file cannot be read, is not a record, or contains neither an arm nor a null space.
     """
     return parse_record(
         yaml.read_mapping(path, "holdfast.studies.designs.record_book.entries", "id"),
@@ -358,21 +354,21 @@ def parse_record(content: Any, text: str, name: str) -> DesignRecord:
     """Return the record with the given file content, text, and name for messages.
 
     Raises:
-        InputError: It is no record.
+        InputError: The content is not a record.
     """
     try:
         data = RecordFile.model_validate(content)
     except ValidationError as error:
         raise InputError(f"{name}: {describe_validation_error(error, RecordFile, dh_file.POSE_TAGS)}") from error
     if [data.arm is None, data.null_space is None, data.kind.of is None].count(False) != 1:
-        raise InputError(f"{name}: a record has an arm or a null_space, or its class is `of` an arm: one of them")
+        raise InputError(f"{name}: a record must have exactly one of arm, null_space, and `of` in its class")
     if data.kind.of is not None and data.kind.of not in names():
         raise InputError(f"{name}: there is no built-in arm '{data.kind.of}'")
     return DesignRecord(id=data.id, data=data, text=text)
 
 
 def _make_null_space_record(bound: UpperBound) -> DesignRecord:
-    """Return the record of a stored null space, which belongs to no particular kind of arm."""
+    """Return the record of a stored null space, which is not that of a particular kind of arm."""
     assert bound.null_space is not None
     record_id = f"jacobian-{bound.n}-{bound.m}-{bound.k}-001"
     record_class = {

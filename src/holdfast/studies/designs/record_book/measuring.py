@@ -1,4 +1,4 @@
-"""Measure the claims of a record again with NumPy alone, independently of the search."""
+"""Measurement of the claims of a record with NumPy alone, independently of the search."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def compute_jacobian(rows: Sequence[Sequence[float]], tool: ArrayLike, q: FloatA
 
     Args:
         rows: ``a``, ``alpha``, ``d`` and ``theta`` of each joint, m and rad.
-        tool: (3,) of the tool point in the last row's frame, m.
-        q: (n,) rad.
+        tool: (3,) tool point in the frame of the last row, m.
+        q: (n,) configuration, rad.
     """
     frame, axes, points = np.eye(4), [], []
     for (a, alpha, d, theta), angle in zip(rows, q, strict=True):
@@ -35,8 +35,8 @@ def approximate_jacobian(pose: Callable[[FloatArray], FloatArray], q: FloatArray
     """Return the Jacobian (6, n) of the tool point in the world, to about 1e-9.
 
     Args:
-        pose: Of q (n,) the pose (4, 4) of the tool.
-        q: (n,) rad and m.
+        pose: Function from q (n,) to the tool pose (4, 4).
+        q: (n,) configuration, rad and m.
     """
     columns, inverse_rotation = [], pose(q)[:3, :3].T
     for step in _DIFFERENCE_STEP * np.eye(len(q)):

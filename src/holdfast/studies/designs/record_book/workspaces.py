@@ -1,7 +1,8 @@
-"""Measure the failure-tolerant workspace that a record claims again in two ways, independently of the search.
+"""Measurement of the failure-tolerant workspace of a record in two ways, independently of the search.
 
-Of a planar arm whose first joint has no artificial limits it depends on the distance from the base alone. A lock merges two
-links into one; chains of free links reach a ring, from what their longest link has more than all others to their sum.
+For a planar arm whose first joint has no artificial limits, the workspace depends only on the distance from the base. A lock
+merges two links into one. A chain of free links reaches a ring, from the excess of its longest link over all others to their
+sum.
 """
 
 from __future__ import annotations
@@ -13,17 +14,17 @@ from numpy.typing import ArrayLike
 
 from holdfast.core.typing import FloatArray
 
-# _GRID_RADII, _LOCK_ANGLES and _HEALTHY_ANGLES: distances; angles of a lock; of each joint while all work
+# Numbers of distances, of angles of a lock, and of angles of each joint of the healthy arm.
 _GRID_RADII = 2000
 _LOCK_ANGLES = 361
 _HEALTHY_ANGLES = 41
 
 
 def compute_exact_area(lengths: ArrayLike, last_limits: tuple[float, float] | None) -> float:
-    """Return the workspace area, m^2, of an arm whose last joint alone has artificial limits, or none.
+    """Return the workspace area, m^2, of an arm of which only the last joint may have artificial limits.
 
     Args:
-        lengths: (n,) of the links, m; n of 3 or more.
+        lengths: (n,) link lengths, m; n is 3 or more.
         last_limits: Limits of the angle between the last two links, rad; None: no limits.
     """
     links = [float(x) for x in np.asarray(lengths)]
@@ -37,14 +38,14 @@ def compute_exact_area(lengths: ArrayLike, last_limits: tuple[float, float] | No
         upper = a + b if angle_gaps[0] <= half_range else max(end_distances)
         lower = abs(a - b) if angle_gaps[1] <= half_range else min(end_distances)
     stretches = [(abs(x - y), x + y) for x, y in pairwise(links[:-1])] + [(lower, upper)]
-    for link in reversed(links[:-2]):  # what all joints reach together
+    for link in reversed(links[:-2]):  # range of distances of the healthy arm
         lower, upper = max(lower - link, link - upper, 0.0), upper + link
-    for index, (shortest, longest) in enumerate(stretches):  # a lock of joint k + 2, at any angle that it may have
+    for index, (shortest, longest) in enumerate(stretches):  # a lock of joint k + 2 at any possible angle
         rings = [_find_reachable_ring([*links[:index], r, *links[index + 2 :]]) for r in (shortest, longest)]
         lower, upper = max(lower, *(r[0] for r in rings)), min(upper, *(r[1] for r in rings))
     inner, outer = _find_reachable_ring(links[1:])
     first_link = links[0]
-    # A lock of joint 1 in any direction: from the elbow all distances from |r - l1| to r + l1.
+    # After a lock of joint 1 in any direction, the distance from the elbow is between |r - l1| and r + l1.
     upper = min(upper, outer - first_link)
     annuli = (
         [(lower, upper)] if inner == 0 else [(lower, min(upper, first_link - inner)), (max(lower, first_link + inner), upper)]
@@ -56,8 +57,8 @@ def estimate_area_by_grid(lengths: ArrayLike, limits: FloatArray) -> float:
     """Return the workspace area, m^2, from trial distances from the base, each with all locks of all joints.
 
     Args:
-        lengths: (n,) of the links, m.
-        limits: (n - 1, 2) artificial limits of the angles of links 2 to n against the link before, rad.
+        lengths: (n,) link lengths, m.
+        limits: (n - 1, 2) artificial limits of the angles of links 2 to n relative to the previous link, rad.
     """
     links = np.asarray(lengths, dtype=np.float64)
     radius_step = links.sum() / _GRID_RADII

@@ -1,4 +1,4 @@
-"""Write the file of a record for submission, with its value as the check measures it."""
+"""Writing of the file of a record for submission, with its value as measured by the check."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from holdfast.studies.designs.record_book.measuring import (
     compute_worst_manipulability,
 )
 
-# _EXACT_TOLERANCE and _DIFFERENCE_TOLERANCE: tolerances of checks, relative
+# Relative tolerances of the check.
 _EXACT_TOLERANCE = "1.0e-9"
 _DIFFERENCE_TOLERANCE = "1.0e-7"
 _SINGULAR_VALUE_TOLERANCE = 1e-9
@@ -47,19 +47,20 @@ def new_record(
     """Create the record of an arm's relative manipulability at one configuration, ready for the check and for submission.
 
     Args:
-        arm: Of revolute joints; of a built-in arm, whatever its joints, the record is one of that arm alone.
+        arm: The arm, with revolute joints only. A built-in arm may have any joints; its record is for that arm alone.
         task: ``planar``, ``position`` or ``pose``.
-        failures: Joints that lock at once.
-        q: (n,) rad. Default: zeros.
-        name: Id of the record. Default: from the class.
-        by: Who found it.
-        how: How it was found, so that others can follow.
+        failures: Number of joints that lock simultaneously.
+        q: (n,) configuration, rad. Default: zeros.
+        name: Id of the record. Default: made from the class.
+        by: Name of the person or program that found the record.
+        how: Description of the method, so that others can repeat it.
 
     Raises:
-        InputError: Another task, joints that are not revolute, a singular configuration, more failures than redundancy.
+        InputError: The task is another one, a joint is not revolute, the configuration is singular, or there are more failures
+            than degrees of redundancy.
     """
     if task not in _RECORD_TASKS:
-        raise InputError(f"records are of tasks {', '.join(_RECORD_TASKS)}, not of '{task}'")
+        raise InputError(f"task is '{task}'; for a record it must be {', '.join(_RECORD_TASKS)}")
     bound = upper_bound(n=arm.n, m=TASK_SIZES[task], k=failures)
     configuration = np.zeros(arm.n) if q is None else arm.check_configurations(q)
     is_built_in = arm.name in names() and load(arm.name).fingerprint == arm.fingerprint
@@ -67,7 +68,7 @@ def new_record(
         jacobian = approximate_jacobian(arm.forward_kinematics, configuration)
         class_prefix, arm_text, tolerance = f"of: {arm.name}, ", "", _DIFFERENCE_TOLERANCE
     elif arm.prismatic.any():
-        raise InputError(f"'{arm.name}' has prismatic joints; records of arms are of revolute joints")
+        raise InputError(f"'{arm.name}' has prismatic joints; records are for arms with revolute joints")
     else:
         parameters = dh_table(arm)
         jacobian = compute_jacobian(

@@ -1,4 +1,4 @@
-"""Assessments as cells of a study: each is the run of :func:`holdfast.assess`, in chunks."""
+"""Assessments as cells of a study, each of which is a run of :func:`holdfast.assess` in chunks."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.study_files.jobs.process import PlannedJob
 
 Keep = Literal["rows", "counts"]
-_JOINT_BLOCKS_PER_STEP = 8  # blocks of joints; no value depends on it but the last digits of sums
+_JOINT_BLOCKS_PER_STEP = 8  # blocks of configurations; only the last digits of sums depend on it
 _SAMPLE_COLUMNS = (("", "index", "worst"), ("optimised_", "optimised_index", "optimised_worst"))
 
 
 @dataclass(frozen=True, eq=False)
 class AssessJob(PlannedJob[AssessmentPlan]):
-    """Poses of a region, solved and evaluated.
+    """Job that solves and evaluates poses of a region.
 
     Attributes:
-        plan: As :meth:`holdfast.studies.assessment.plan.AssessmentPlan.to_dict` gives it.
-        rows, chunk: Poses, in all and of a chunk.
-        keep: ``rows``: every pose, a folder that :func:`holdfast.load` reads; ``counts``: only how values are distributed.
+        plan: Data of :meth:`holdfast.studies.assessment.plan.AssessmentPlan.to_dict`.
+        rows, chunk: Number of all poses, and of the poses in a chunk.
+        keep: ``rows`` to store every pose in a folder for :func:`holdfast.load`; ``counts`` to store only distributions.
     """
 
     rows: int
@@ -45,7 +45,7 @@ class AssessJob(PlannedJob[AssessmentPlan]):
         return plan
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Return the columns of the results; see :class:`holdfast.core.sweeps.SweepJob`."""
         plan = self.compiled_parts
         if self.keep == "rows":
             return plan.columns()
@@ -58,7 +58,7 @@ class AssessJob(PlannedJob[AssessmentPlan]):
         return [Column(prefix + name, kind, (dim,), about=about) for prefix in prefixes for name, kind, dim, about in table]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compute the rows of a chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         plan = self.compiled_parts
         if self.keep == "rows":
             parts = list(self._iterate_blocks(plan, chunk))
@@ -75,7 +75,7 @@ class AssessJob(PlannedJob[AssessmentPlan]):
                     is_counted = reached & (rows["optimised_status"] != Status.INFEASIBLE)
                 values, singular = rows[index], int(np.count_nonzero(is_counted & (rows[worst] < 0)))
                 counts.add(values if is_counted.all() else values[is_counted], int(np.count_nonzero(~is_counted)), singular)
-                worst_counts += np.bincount(rows[worst] + 1, minlength=worst_counts.size + 1)[1:]  # -1: there is none
+                worst_counts += np.bincount(rows[worst] + 1, minlength=worst_counts.size + 1)[1:]  # -1 stands for no failure
         result: Rows = {}
         for (prefix, _, _), (counts, worst_counts) in zip(_SAMPLE_COLUMNS, samples, strict=False):
             result |= {
@@ -86,12 +86,11 @@ class AssessJob(PlannedJob[AssessmentPlan]):
         return result
 
     def _iterate_blocks(self, plan: AssessmentPlan, chunk: Chunk) -> Iterator[Rows]:
-        """Yield the rows of a chunk, one or several blocks at a time; they equal those of an assessment where chunks are whole
-        blocks.
+        """Yield the rows of a chunk, one or several blocks at a time; for chunks of whole blocks they equal an assessment's.
 
-        Nothing else is drawn for configurations of joints, so many blocks go at once; where only the worst cases are counted,
-        through the same memory again and again. Threads that pass Python, and the pages of new arrays, to one another after
-        every block are hardly 1.4 times as fast as one.
+        Configurations of joints need no further random numbers, so many blocks are computed at once, and in the same memory if
+        only the worst cases are counted. Threads that exchange Python's lock, and pages of new arrays, after every block are
+        hardly 1.4 times as fast as one thread.
         """
         block_size, joints = plan.region.block, plan.region.kind == "joints"
         first, step = chunk.number * -(-self.chunk // block_size), _JOINT_BLOCKS_PER_STEP * block_size if joints else block_size

@@ -1,4 +1,4 @@
-"""Task banks as cells of a study: random tasks that a law drives without an operator, healthy and failed."""
+"""Task banks as cells of a study: random tasks that a law executes without an operator, healthy and failed."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from holdfast.teleop.trials.scenarios import Scenario
 
 
 class BankJob(LawJob):
-    """Tasks of :func:`holdfast.teleop.make_task_bank`; a row is a task for each joint that fails.
+    """Job of tasks of :func:`holdfast.teleop.make_task_bank`, with one row for a task for each joint that fails.
 
     Attributes:
-        plan: Arm, task, law, distance.
+        plan: Arm, task, law, and distance.
     """
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Return the columns of the results; see :class:`holdfast.core.sweeps.SweepJob`."""
         law = self.compiled_parts
         joints = ("failing", law.arm.n)
         cases, measures = ("healthy_or_failed", 2), ("measure", RECORDED_MEASURES)
@@ -37,7 +37,7 @@ class BankJob(LawJob):
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compute the rows of a chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         law = self.compiled_parts
         count, n = len(chunk), law.arm.n
         entry, options = LAW_REGISTRY.read_label(self.plan["law"], "laws")

@@ -1,4 +1,4 @@
-"""Convergence maps as cells of a study: random motions under a law, with each joint locked and with none."""
+"""Convergence maps as cells of a study: random motions under a law, with each joint locked and without failure."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from holdfast.studies.study_files.jobs.process import PlannedLaw
 
 
 def describe_surroundings(arm: Arm, cell: Path | None) -> dict[str, Any]:
-    """Return the entries of a plan for the cell around an arm; nothing without a cell."""
+    """Return the entries of a plan for the cell around an arm, which are empty without a cell."""
     clearance = chosen_clearance(arm, False, cell, looks=False)
     return {} if clearance is None else encode_clearance(clearance)
 
 
 @dataclass(frozen=True, eq=False)
 class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
-    """Motions between random poses of :func:`holdfast.convergence_map`; a row is a motion.
+    """Job of motions between random poses of :func:`holdfast.convergence_map`, with one row for each motion.
 
     Attributes:
-        plan: Arm, task, law, time limit; and what was around the arm, if it was looked at.
+        plan: Arm, task, law, and time limit, and the objects around the arm if contacts are checked.
     """
 
     def compile_plan(self) -> tuple[Law, Clearance | None]:
@@ -39,7 +39,7 @@ class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
         return law, decode_clearance(law.arm, self.plan)
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Return the columns of the results; see :class:`holdfast.core.sweeps.SweepJob`."""
         law, clearance = self.compiled_parts
         n = law.arm.n
         locked = (("locked_or_none", n + 1),)
@@ -56,7 +56,7 @@ class ConvergenceJob(PlannedLaw[tuple[Law, Clearance | None]]):
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compute the rows of a chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         law, clearance = self.compiled_parts
         count = len(chunk)
         time_limit = self.plan["time_limit"]

@@ -1,4 +1,4 @@
-"""Designs of an arm as cells of a study: designs spread over their bounds, each with its lower quantile of the index."""
+"""Designs of an arm as cells of a study, spread over their bounds, each with its lower quantile of the index."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ CompiledDesigns = tuple[Evaluator, ReachEvaluator, FloatArray, FloatArray | None
 
 @dataclass(frozen=True, eq=False)
 class DesignJob(PlannedJob[CompiledDesigns]):
-    """Baseline arm and designs of :meth:`holdfast.DesignSpace.draw`, all at the same poses; a row is a design.
+    """Job of the baseline arm and designs of :meth:`holdfast.DesignSpace.draw` at the same poses, with one row per design.
 
     Attributes:
-        plan: Arm, what is varied, region, index, task, failures, level, poses, seed.
-        rows: Designs in all.
+        plan: Arm, varied parameters, region, index, task, failures, level, poses, and seed.
+        rows: Number of all designs.
     """
 
     rows: int
@@ -60,7 +60,7 @@ class DesignJob(PlannedJob[CompiledDesigns]):
         return Evaluator(family, poses, plan["seed"]), ReachEvaluator(family, plan["seed"]), designs, weights
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Return the columns of the results; see :class:`holdfast.core.sweeps.SweepJob`."""
         parameter_count = len(self.plan["vary"])
         level = self.plan["level"]
         return [
@@ -78,7 +78,7 @@ class DesignJob(PlannedJob[CompiledDesigns]):
         ]
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compute the rows of a chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         evaluate, evaluate_reach, designs, weights = self.compiled_parts
         values = designs[chunk.start : chunk.stop]
         evaluated = evaluate(values)

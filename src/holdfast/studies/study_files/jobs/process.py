@@ -1,4 +1,4 @@
-"""Compiled objects that the jobs of one process share; each is made once for all threads."""
+"""Compiled objects that the jobs of one process share, each made once for all threads."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from holdfast.kernels.threads import set_threads, thread_count
 from holdfast.model.arm.task import Task
 from holdfast.model.arms.serial import from_dict
 
-# _TRIM_THRESHOLD and _MMAP_THRESHOLD: of malloc.h
+# Parameters of mallopt, from malloc.h.
 _TRIM_THRESHOLD = -1
 _MMAP_THRESHOLD = -3
-_MAX_COMPILED_CELLS = 32  # cells whose compiled things are kept
+_MAX_COMPILED_CELLS = 32  # cells whose compiled objects are kept
 _lock = threading.RLock()
 _compiled_by_job: OrderedDict[Hashable, Any] = OrderedDict()
 
 
 def compile_once(job: Hashable, make: Callable[[], T]) -> T:
-    """Return the result of ``make`` for a job, which is called once."""
+    """Return the result of ``make`` for a job; ``make`` is called only once."""
     with _lock:
         if job not in _compiled_by_job:
             _compiled_by_job[job] = make()
@@ -41,9 +41,9 @@ def compile_once(job: Hashable, make: Callable[[], T]) -> T:
 
 @lru_cache(maxsize=1)
 def _retain_memory() -> None:
-    """Let this process retain memory from block to block.
+    """Make this process retain memory between blocks.
 
-    Dask's nanny has the C library give every larger array back at once; getting it again costs more than the equations:
+    Dask's nanny makes the C library release every larger array at once. Allocating it again takes longer than the equations;
     chunks took 1.7 times as long.
     """
     with suppress(OSError, AttributeError):  # another C library
@@ -56,10 +56,11 @@ def _retain_memory() -> None:
 class PlannedJob(ABC, Generic[T]):
     """Job that is defined by its plan and compiles once per process for all its chunks.
 
-    Subclasses are ``@dataclass(frozen=True, eq=False)``: a dataclass that compares makes its own hash, and a plan has none.
+    Subclasses are ``@dataclass(frozen=True, eq=False)``, because a comparing dataclass hashes its fields, and a plan has no
+    hash.
 
     Attributes:
-        plan: Arm and all else that defines the values, as JSON data.
+        plan: Arm and further data that define the values, as JSON data.
     """
 
     plan: dict[str, Any]
@@ -76,11 +77,11 @@ class PlannedJob(ABC, Generic[T]):
 
     @property
     def compiled_parts(self) -> T:
-        """Result of :meth:`compile_plan`, made once."""
+        """Result of :meth:`compile_plan`, which is called once."""
         return compile_once(self, self.compile_plan)
 
     def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compile the objects of the plan before the first chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         with _lock:
             if alone:
                 _retain_memory()
@@ -94,7 +95,7 @@ class PlannedLaw(PlannedJob[T]):
     """Job whose plan names a law.
 
     Attributes:
-        plan: Arm, task, law and what the job itself asks for.
+        plan: Arm, task, law, and the settings of the job.
     """
 
     def make_law(self) -> Law:
@@ -106,7 +107,7 @@ class PlannedLaw(PlannedJob[T]):
 
 @dataclass(frozen=True, eq=False)
 class LawJob(PlannedLaw[Law]):
-    """Job that compiles its law and nothing else."""
+    """Job that compiles only its law."""
 
     def compile_plan(self) -> Law:
         """Return the law."""

@@ -1,4 +1,4 @@
-"""Workspaces as cells of a study: the starts from which a target is still reached."""
+"""Workspaces as cells of a study, with the starts from which a target is still reached."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from holdfast.studies.study_files.jobs.process import PlannedLaw
 
 @dataclass(frozen=True, eq=False)
 class WorkspaceJob(PlannedLaw[tuple[TargetAnalysis, Places]]):
-    """Random starts of :func:`holdfast.workspace`, a chunk with its own seed; a row is a start.
+    """Job of random starts of :func:`holdfast.workspace`, with a seed for each chunk and one row for each start.
 
     Attributes:
-        plan: Arm, task, law, target, configurations and points of each start, time limit, seed.
-        rows: Starts in all.
+        plan: Arm, task, law, target, configurations and points of each start, time limit, and seed.
+        rows: Number of all starts.
     """
 
     rows: int
@@ -46,11 +46,11 @@ class WorkspaceJob(PlannedLaw[tuple[TargetAnalysis, Places]]):
         return job, places
 
     def columns(self) -> list[Column]:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Return the columns of the results; see :class:`holdfast.core.sweeps.SweepJob`."""
         return self.compiled_parts[0].store_columns()
 
     def run(self, chunk: Chunk) -> Rows:
-        """See :class:`holdfast.core.sweeps.SweepJob`."""
+        """Compute the rows of a chunk; see :class:`holdfast.core.sweeps.SweepJob`."""
         job, places = self.compiled_parts
         chunk_places = Places(places.poses[chunk.start : chunk.stop])
         beginnings = StartConfigurations(job.law, chunk_places, job.configurations, job.method, chunk.own_seed)
