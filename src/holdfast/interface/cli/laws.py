@@ -1,4 +1,4 @@
-"""Options for a control law, its target, and the locked joints, shared by several commands."""
+"""Options for the control law, the target, and the locked joints, shared by several commands."""
 
 from __future__ import annotations
 
@@ -16,17 +16,16 @@ if TYPE_CHECKING:
     from holdfast.model.arm.task import Task
 
 TargetOption = Annotated[str, TARGET_HELP]
-TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."]
-LAW_HELP = f"{LAW_REGISTRY.usage}."
-LawOption = Annotated[str, LAW_HELP]
+TargetsOption = Annotated[str, f"{TARGET_HELP} Several targets: a lattice (grid:12) or random positions (random:200)."]
+LawOption = Annotated[str, f"Control law: {LAW_REGISTRY.usage}."]
 LawsOption = Annotated[
-    list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
+    list[str] | None, f"Control law: {LAW_REGISTRY.usage}. Repeatable.", "pseudoinverse and failure-tolerant"
 ]
-GainOption = Annotated[float, "Feedback gain Ke, per s or per cycle."]
-SpeedLimitOption = Annotated[float | None, "Of the end effector, m/s or m per cycle. Default: none."]
-CyclesOption = Annotated[bool, "Discrete control cycles in place of continuous time."]
-TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain s, or 1000 cycles"]
-LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
+GainOption = Annotated[float, "Feedback gain Ke in 1/s, or per cycle with --cycles."]
+SpeedLimitOption = Annotated[float | None, "Speed limit of the end effector in m/s, or m per cycle. Default: none."]
+CyclesOption = Annotated[bool, "Simulate discrete control cycles instead of continuous time."]
+TimeLimitOption = Annotated[float | None, "Time limit in s, or in cycles with --cycles.", "3000/gain s, or 1000 cycles"]
+LockDegreesOption = Annotated[bool, "Read --lock in degrees (prismatic joints: m)."]
 
 
 def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **settings: Any) -> Law:
@@ -48,7 +47,7 @@ def read_law_for_arm(label: str, arm: str, task: str | None, chain: ArmSourceOpt
 
 
 def read_position_sampling(text: str) -> str | int:
-    """Read the text of a lattice, or a number of random positions."""
+    """Read a lattice, or a number of random positions."""
     text = text.removeprefix("random:")
     return int(text) if is_count(text) else text
 

@@ -165,7 +165,7 @@ def main() -> None:
 
         _exit_with_error(factorisation_message(error))
     except MemoryError as error:
-        _exit_with_error(f"there is not enough memory ({error}); ask for less at once")
+        _exit_with_error(f"there is not enough memory ({error}); compute less at once")
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
     except OSError as error:

@@ -52,11 +52,11 @@ def index(
 def susceptibility(
     arm: ArmArgument,
     q: QOption,
-    measure: Annotated[str, f"{SUSCEPTIBILITY_REGISTRY.usage}."] = "torque",
+    measure: Annotated[str, f"Susceptibility: {SUSCEPTIBILITY_REGISTRY.usage}."] = "torque",
     weights: Annotated[
         str | None,
-        "effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
-        "Default: all joints alike.",
+        "Joint weights: effort, worst-case, one number per joint (1,2,3), or a CSV file with one number per joint or a square "
+        "matrix. Default: equal weights.",
     ] = None,
     placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
@@ -79,8 +79,8 @@ def susceptibility(
 def trade_off(
     arm: ArmArgument,
     task: TaskOption = None,
-    samples: Annotated[int, "Random configurations and directions."] = 2000,
-    allowed: Annotated[str, "Pre-failure errors, from 0 to below 1, increasing."] = ALLOWED_ERRORS,
+    samples: Annotated[int, "Number of random configurations and directions."] = 2000,
+    allowed: Annotated[str, "Allowed pre-failure errors: increasing fractions from 0 to below 1."] = ALLOWED_ERRORS,
     seed: Annotated[int, typer.Option("--seed", help="Seed of the samples.", min=0)] = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),

@@ -18,14 +18,12 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    task: Annotated[str | None, "planar, position, or with turns (see --rotation). Default: planar or position."] = None,
-    limit: Annotated[
-        list[str] | None, "JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own."
-    ] = None,
-    optimise: Annotated[bool, "Find the artificial limits that make the region largest."] = False,
-    rotation: Annotated[str | None, "Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg."] = None,
-    points: Annotated[int, "Points in the sample (not for planar arms of three joints)."] = 1000,
-    angles: Annotated[int, "Locked values tried per joint."] = 24,
+    task: Annotated[str | None, "Task; with orientation, see --rotation. Default: planar or position, by the arm."] = None,
+    limit: Annotated[list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable."] = None,
+    optimise: Annotated[bool, "Search for the artificial limits that maximise the region."] = False,
+    rotation: Annotated[str | None, "Tool orientation, if the task has one: roll,pitch,yaw in degrees. Default: 0,0,0."] = None,
+    points: Annotated[int, "Number of sampled points (planar arms of three joints need none)."] = 1000,
+    angles: Annotated[int, "Number of locked values tried per joint."] = 24,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),

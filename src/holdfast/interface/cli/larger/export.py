@@ -17,13 +17,13 @@ EXPORT_LANGUAGES = ("c",)
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, "Folder for the files; made if it is not there."],
+    out: Annotated[Path, "Folder for the files; it is created if necessary."],
     law: LawOption = "failure-tolerant",
-    language: Annotated[str, "c: C99 that needs only math.h."] = "c",
-    name: Annotated[str | None, "Name of the function and the files. Default: the law's."] = None,
+    language: Annotated[str, "Language: c, which is C99 that needs only math.h."] = "c",
+    name: Annotated[str | None, "Name of the function and the files. Default: that of the law."] = None,
     task: TaskOption = None,
-    monitor: Annotated[Path | None, "Bounds of calibrate: also a monitor of joint faults, NAME_monitor."] = None,
-    controller: Annotated[bool, "With --monitor: also a controller in C++17 that reacts to it, NAME_controller."] = False,
+    monitor: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to export the monitor NAME_monitor."] = None,
+    controller: Annotated[bool, "Export the C++17 controller NAME_controller, which reacts to the monitor."] = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
@@ -34,7 +34,7 @@ def command(
     if language not in EXPORT_LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(EXPORT_LANGUAGES)}")
     if controller and monitor is None:
-        raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
+        raise InputError("--controller needs a monitor; add --monitor BOUNDS, a file of 'holdfast calibrate'")
     control_law = read_law_for_arm(law, arm, task, chain)
     files = control_law.export_c(out, name)
     monitor_files: list[Path] = []

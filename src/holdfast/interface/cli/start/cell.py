@@ -21,15 +21,15 @@ command = typer.Typer(
 
 @command.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
-    arm: Annotated[str | None, "Built-in name or arm file: what it touches."] = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Environment file (YAML), URDF or MJCF file.")],
+    arm: Annotated[str | None, "Arm whose contacts are checked: built-in name or arm file. Default: none."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Check an environment file: unreadable shapes, permanent contacts, grid resolution.
 
-    The exit code is 3 if something touches the base or in every configuration.
+    Exit code: 3 if an object touches the base, or the arm in every configuration; else 0.
 
     Example: holdfast cell check bench.yaml --arm panda
     """

@@ -19,7 +19,7 @@ def stationary_points(
     arm: ArmArgument,
     target: TargetOption,
     lock: Annotated[
-        list[str] | None, "JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values."
+        list[str] | None, "Locked joint JOINT=VALUE (rad or m), repeatable; or one JOINT, for all its values."
     ] = None,
     failure: FailureOption = None,
     degrees: LockDegreesOption = False,
@@ -37,7 +37,7 @@ def stationary_points(
     target_value = read_target(control_law.arm, control_law.task, target)
     locked = read_locks(control_law.arm, lock, degrees, optional_value=True, failure=failure)
     if output.plot is not None and all("=" in text for text in lock or []):
-        raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
+        raise InputError("--plot shows curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(control_law, target_value, locked, seed=seed)
     output.print_result(result)
 
@@ -45,10 +45,10 @@ def stationary_points(
 def basins(
     arm: ArmArgument,
     target: TargetOption,
-    lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m; may be given again."] = None,
+    lock: Annotated[list[str] | None, "Locked joint JOINT=VALUE in rad or m. Repeatable."] = None,
     failure: FailureOption = None,
-    starts: Annotated[int, "How many random starts."] = 2000,
-    grid: Annotated[int | None, "With two healthy joints, instead: a map of so many by so many starts."] = None,
+    starts: Annotated[int, "Number of random starts."] = 2000,
+    grid: Annotated[int | None, "Number of starts per axis of a map, for two healthy joints; replaces --starts."] = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,

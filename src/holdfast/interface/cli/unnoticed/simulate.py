@@ -19,13 +19,14 @@ from holdfast.interface.cli.options import (
     FailureOption,
     JsonOption,
     MotionCsvOption,
+    PlotOption,
     StartDegreesOption,
     TaskOption,
 )
 from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.interface.presentation.results import print_result, write_outputs
 
-_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
+_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by the ending of a number of --error-limit
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
@@ -34,19 +35,17 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[str | None, "Joint values at the start, rad and m, by commas or spaces."] = None,
+    start: Annotated[str | None, "Start configuration in rad and m, separated by commas or spaces."] = None,
     target: Annotated[str | None, TARGET_HELP] = None,
     motion: Annotated[
         Path | None,
-        "Play this motion in MuJoCo, in place of --start and --target: a CSV file of joints over time or the folder that "
-        "recover, follow or endure wrote with --out, or a record (.npz).",
+        "Motion to play in MuJoCo, instead of --start and --target: a CSV file of joints over time, the folder that recover, "
+        "follow or plan-motion wrote with --out, or a log (.npz).",
     ] = None,
-    error_limit: Annotated[
-        str | None, "With --motion: largest distance of a joint from the motion, for example 2deg or 2deg,1mm."
-    ] = None,
+    error_limit: Annotated[str | None, "Largest deviation of a joint from --motion, for example 2deg or 2deg,1mm."] = None,
     lock: Annotated[
         list[str] | None,
-        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --monitor a fault. May be given again.",
+        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, a fault. Repeatable.",
     ] = None,
     failure: FailureOption = None,
     law: LawOption = "pseudoinverse",
@@ -56,28 +55,26 @@ def command(
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
     physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
-    servo_bandwidth: Annotated[float, "With --physics: bandwidth of the joint servos, Hz."] = 10.0,
-    faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
-    episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
+    servo_bandwidth: Annotated[float, "Bandwidth of the joint servos in Hz, with --physics or --motion."] = 10.0,
+    faults: Annotated[Path | None, "Fault file (YAML), from which the faults are sampled."] = None,
+    episode: Annotated[int, "Number of the episode of --faults, from 0."] = 0,
     monitor: Annotated[
         Path | None,
-        "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts, clear of --cell.",
+        "Threshold file of 'holdfast calibrate', with --physics: a monitor identifies the joint, and the controller reacts.",
     ] = None,
-    record: Annotated[
-        Path | None, "With --physics: write what the sensors told (.npz, .csv or .parquet), for calibrate and diagnose."
-    ] = None,
+    record: Annotated[Path | None, "File for the sensor log (.npz, .csv or .parquet); needs --physics."] = None,
     touched: ContactOptions = ContactOptions(),
-    stop_at_contact: Annotated[bool, "With --cell: the run ends where the arm first touches an object."] = False,
+    stop_at_contact: Annotated[bool, "End the run at the first contact with an object of --cell."] = False,
     degrees: StartDegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
-    plot: Annotated[Path | None, "Draw the motion into this PNG file."] = None,
-    out: Annotated[Path | None, "Folder for report.html with the arm moving, run.png and run.csv."] = None,
+    plot: PlotOption = None,
+    out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate the closed loop with locked joints that the controller does not know of.
 
-    With --motion a planned motion is played instead, and the output says when a joint first exceeds --error-limit.
+    With --motion, a planned motion is played instead, and the output states when a joint first exceeds --error-limit.
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
@@ -103,7 +100,7 @@ def command(
         print_result(execution, json_, write_outputs(execution, plot, out) + ([] if csv is None else [execution.to_csv(csv)]))
         return
     if error_limit is not None:
-        raise InputError("--error-limit is of a motion that is played; add --motion")
+        raise InputError("--error-limit applies to a played motion; add --motion")
     if start is None or target is None:
         raise InputError(f"{'--start' if start is None else '--target'} is missing; give --start and --target, or --motion")
     control_law = read_law_for_arm(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
@@ -140,13 +137,13 @@ def command(
         return
     for name, file in {"--monitor": monitor, "--record": record}.items():
         if file is not None:
-            raise InputError(f"{name} is of an arm with bodies, motors and sensors; add --physics")
+            raise InputError(f"{name} needs bodies, motors and sensors; add --physics")
     if drawn_faults is not None:
         _reject_options({"--lock": lock, "--failure": failure})
     sampled_events = None if drawn_faults is None else drawn_faults.draw(control_law.arm, episode=episode)
     clearance = touched.build_contact_clearance(control_law.arm)
     if stop_at_contact and clearance is None:
-        raise InputError("--stop-at-contact has nothing to stop at; add --cell")
+        raise InputError("--stop-at-contact needs objects to touch; add --cell")
     locked_spec = read_locks(control_law.arm, lock, degrees, failure=failure) if failure else locked_joints
     common_options: dict[str, Any] = {
         "locked": locked_spec,
@@ -160,7 +157,7 @@ def command(
     result: Result = runs
     if physics:
         if cycles:
-            raise InputError("--physics has a control rate of its own; leave out --cycles")
+            raise InputError("--physics has its own control rate; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
         result = hf.simulate_physics(control_law, q0, target_value, servos=servos, **common_options)
     files = write_outputs(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
@@ -202,7 +199,7 @@ def _play_motion(
 
 
 def _read_error_limit(text: str) -> tuple[float, float]:
-    """Read ``--error-limit`` in rad and m; a unit that is missing has no limit."""
+    """Read ``--error-limit`` as limits in rad and m; infinite for a unit that is not given."""
     limits = {"rad": np.inf, "m": np.inf}
     for part in text.split(","):
         unit = next((unit_kind for suffix, unit_kind in _LIMIT_UNITS.items() if part.strip().endswith(suffix)), None)

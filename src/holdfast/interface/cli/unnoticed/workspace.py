@@ -25,9 +25,9 @@ def command(
 ) -> None:
     """Map the start positions from which a target is still reached after an undetected lock.
 
-    The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
-    with 95 % intervals. A stopped analysis resumes if --out is the same.
-    With --over targets the same measures for many targets, each over the same starts: how much a lock endangers each target.
+    The results are the measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by
+    sampling, with 95 % intervals. With the same --out, a stopped analysis resumes. With --over targets, the measures are
+    computed for many targets over the same starts, and show how much a lock endangers each target.
 
     Example: holdfast workspace planar-3r --target 1.5,1.5 --method procedure --out results
 
