@@ -118,7 +118,7 @@ class ConfigurationBoxOptions:
 class SearchOptions:
     """Options for the resources of the search, and for the folder from which it resumes."""
 
-    time_limit: Annotated[float | None, "Time limit in s, half of it for the check; the rest of the boxes stays undecided."] = (
+    time_limit: Annotated[float | None, "Time limit in s, half of it for the check. Boxes still open then stay undecided."] = (
         None
     )
     workers: Annotated[int, "Number of worker processes; does not change the certificate."] = 1

@@ -12,17 +12,30 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.options import JsonOption, OutOption, PlotOption
-from holdfast.interface.cli.values import read_numbers
+from holdfast.interface.cli.options import (
+    TASK_NAMES_HELP,
+    FailuresOption,
+    JsonOption,
+    LengthOption,
+    OutOption,
+    PlotOption,
+    TaskOption,
+)
+from holdfast.interface.cli.values import check_path_units, read_numbers, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
 from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
+    from holdfast.kinematics.paths import TimedPath
     from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
     from holdfast.model.arms.spec import ArmSpec
     from holdfast.model.collision.clearance import Clearance
 
+ArmsArgument = Annotated[
+    list[str], typer.Argument(metavar="ARM...", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
+]
 _PER_ARM = "Once for all arms, or once per arm in order ('-' for none)."
 
 
@@ -70,6 +83,36 @@ class OutputOptions:
     def print_result(self, result: Result, files: Sequence[Path] = ()) -> None:
         """Print the result and the paths of ``files``, the requested picture, and the requested folder."""
         print_result(result, self.json_, [*files, *write_outputs(result, self.plot, self.out)])
+
+
+@dataclass(frozen=True)
+class TaskOptions:
+    """Options for the task and the failures for which an index is computed."""
+
+    task: TaskOption = None
+    failures: FailuresOption = "single"
+    length: LengthOption = 1.0
+
+
+@dataclass(frozen=True)
+class PathOptions:
+    """Options for a tool path, with its task and duration."""
+
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
+    task: Annotated[
+        str | None,
+        f"{TASK_NAMES_HELP} Default: pose; for a path of positions, position (planar for an arm that moves in a plane).",
+    ] = None
+    duration: Annotated[float | None, "Duration of the path in s. Default: that of the path file."] = None
+
+    def load_path(self, spec: str, arm: Arm) -> tuple[TimedPath, str | Task]:
+        """Load the path, and return it with the task of the arm that ``spec`` names."""
+        from holdfast.kinematics.paths import TimedPath
+        from holdfast.model.arm.task import default_path_task
+
+        timed = TimedPath.load(self.path, self.duration)
+        check_path_units(arm, timed.path, f"path '{self.path}'")
+        return timed, read_task(self.task or default_path_task(arm, timed.path.oriented), spec, arm)
 
 
 _MOUNT_ROTATIONS = {

@@ -12,9 +12,6 @@ from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
 NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the user is not met
 
 ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table (YAML).")]
-ArmsArgument = Annotated[
-    list[str], typer.Argument(metavar="ARM...", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
-]
 ArmOption = Annotated[str, "Arm: built-in name, URDF or MJCF file, or DH table (YAML)."]
 FailureOption = Annotated[Path | None, "Failure file (YAML): locked, range-limited or slowed joints. Use instead of --lock."]
 JsonOption = Annotated[bool, "Print the result as JSON."]
@@ -31,16 +28,11 @@ AtOption = Annotated[str | None, "Current joint values in rad and m, separated b
 AtDegreesOption = Annotated[bool, "Read --at in degrees (prismatic joints: m)."]
 DegreesOption = Annotated[bool, "Read --q in degrees (prismatic joints: m)."]
 StartDegreesOption = Annotated[bool, "Read --start in degrees (prismatic joints: m)."]
-PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
-PathTaskOption = Annotated[
-    str | None, f"{TASK_NAMES_HELP} Default: pose; for a path of positions, position (planar for an arm that moves in a plane)."
-]
 KeepOption = Annotated[
     list[str] | None,
     "Constraint along the whole motion: upright:10deg, rail:0,0,1 or plane:0,0,1. Numbers are in rad and m, or have a unit "
     "(deg, rad, mm, m). Repeatable.",
 ]
-DurationOption = Annotated[float | None, "Duration of the path in s. Default: that of the path file."]
 MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
 PlotOption = Annotated[Path | None, "PNG file for the figure."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]

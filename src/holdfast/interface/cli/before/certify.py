@@ -160,7 +160,7 @@ def path(
     failures: FailuresOption = "single",
     during: Annotated[str, "Interval in which a joint may lock: two fractions of the motion."] = "0 1",
     tube: Annotated[str, "Allowed deviation from the path: m, and rad for a task with orientation; or one for both."] = "0",
-    task: Annotated[str, "Task that follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
+    task: Annotated[str, "Tool motion that follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
     segments: Annotated[int | None, "Number of motion segments to use. Default: all, at most 256."] = None,
     halvings: Annotated[int, "Maximum bisection depth of lock-time intervals."] = 6,
     options: UnseededProofOptions = UnseededProofOptions(out=Path("path.certificate")),

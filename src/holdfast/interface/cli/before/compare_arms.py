@@ -6,16 +6,8 @@ from dataclasses import replace
 from typing import Annotated
 
 import holdfast as hf
-from holdfast.interface.cli.groups import ArmSourcesOptions
-from holdfast.interface.cli.options import (
-    ArmsArgument,
-    FailuresOption,
-    JsonOption,
-    OutOption,
-    RegionOption,
-    SeedOption,
-    TaskOption,
-)
+from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions
+from holdfast.interface.cli.options import FailuresOption, JsonOption, OutOption, RegionOption, SeedOption, TaskOption
 from holdfast.interface.cli.start.candidates import read_candidates
 from holdfast.interface.cli.values import read_failures, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs

@@ -8,17 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.registry import LAW_REGISTRY
-from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.options import (
-    ArmArgument,
-    FailuresOption,
-    JsonOption,
-    LengthOption,
-    RegionOption,
-    SeedOption,
-    TaskOption,
-    ThreadsOption,
-)
+from holdfast.interface.cli.groups import ArmSourceOptions, TaskOptions
+from holdfast.interface.cli.options import ArmArgument, JsonOption, RegionOption, SeedOption, ThreadsOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.start.assess import read_region
 from holdfast.interface.cli.values import read_failures, read_task
@@ -43,9 +34,7 @@ def command(
     law: Annotated[str | None, f"Control law for --maximise convergence: {LAW_REGISTRY.usage}. Default: pseudoinverse."] = None,
     keep_reach: Annotated[bool, "Keep the sum of the varied link lengths constant (with --maximise convergence)."] = False,
     region: RegionOption = None,
-    task: TaskOption = None,
-    failures: FailuresOption = "single",
-    length: LengthOption = 1.0,
+    considered: TaskOptions = TaskOptions(),
     level: Annotated[float, "Fraction of the poses that must keep the index; 0.95 maximises the 5 % quantile."] = 0.95,
     poses: Annotated[int, "Number of poses on which designs are compared."] = 256,
     designs: Annotated[int, "Number of designs, spread over the bounds, that are evaluated first."] = 512,
@@ -69,7 +58,7 @@ def command(
         hf.kernels.set_threads(threads)
     baseline = chain.resolve_arm(arm)
     space = hf.designs.design_space(baseline, vary)
-    rows = read_task(task, arm, baseline)
+    design_task = read_task(considered.task, arm, baseline)
     design_result: Result
     with ProgressBar(json_, "designs") as progress:
         common: dict[str, Any] = {
@@ -80,14 +69,21 @@ def command(
             "progress": progress,
         }
         if maximise == "convergence":
-            control_law = LAW_REGISTRY.make(law or "pseudoinverse", baseline, option="--law", task=rows)
+            control_law = LAW_REGISTRY.make(law or "pseudoinverse", baseline, option="--law", task=design_task)
             design_result = hf.design_for_convergence(control_law, space, keep_reach=keep_reach, **common)
         elif law is not None or keep_reach:
             raise InputError("--law and --keep-reach need --maximise convergence; add it, or leave them out")
         else:
-            common |= {"level": level, "failures": read_failures(baseline, failures), "length": length}
+            common |= {"level": level, "failures": read_failures(baseline, considered.failures), "length": considered.length}
             workspace_region = read_region(region, arm, baseline)
             design_result = hf.design(
-                baseline, space, maximise, region=workspace_region, task=rows, poses=poses, check_poses=check_poses, **common
+                baseline,
+                space,
+                maximise,
+                region=workspace_region,
+                task=design_task,
+                poses=poses,
+                check_poses=check_poses,
+                **common,
             )
     print_result(design_result, json_, [] if out is None else design_result.save(out), listed=True)

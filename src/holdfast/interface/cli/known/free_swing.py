@@ -20,7 +20,9 @@ def command(
     ] = None,
     brake: Annotated[list[float] | None, "Delay of the brake after the failure in ms. Repeatable.", "50, 100 and 200"] = None,
     limits: Annotated[bool, "Stop the joint at its limits (prismatic joints always stop there)."] = False,
-    duration: Annotated[float | None, "Longest duration in s. Default: until the joint is at rest."] = None,
+    duration: Annotated[
+        float | None, "Longest duration in s. Default: until the joint is at rest, at most 60 to 300 s."
+    ] = None,
     touched: ContactOptions = ContactOptions(),
     degrees: DegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),

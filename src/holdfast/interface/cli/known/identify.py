@@ -10,15 +10,7 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
-from holdfast.interface.cli.options import (
-    NOT_MET_EXIT_CODE,
-    ArmArgument,
-    AtDegreesOption,
-    AtOption,
-    MotionCsvOption,
-    SeedOption,
-    TaskOption,
-)
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, AtDegreesOption, AtOption, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_configuration, read_joint, read_task
 from holdfast.interface.presentation.results import print_result
 
@@ -34,7 +26,7 @@ def command(
     speed: Annotated[float, "Norm of the joint rates in rad/s and m/s."] = 0.25,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
-    csv: MotionCsvOption = None,
+    csv: Annotated[Path | None, "CSV file for the motion."] = None,
     output: OutputOptions = OutputOptions(),
 ) -> None:
     """Plan a self-motion that identifies a locked joint, or evaluate its log.

@@ -67,7 +67,7 @@ def command(
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for goal configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Number of route searches if straight lines are blocked.")] = 4,
     time_limit: Annotated[float | None, "Time limit of all searches in s. Default: none."] = None,
-    tolerance: Annotated[str | None, "Allowed error of the goal in infeasibility proofs, for example 1mm,0.5deg."] = None,
+    tolerance: Annotated[str | None, "Allowed error of goal and path in infeasibility proofs, for example 1mm,0.5deg."] = None,
     accelerations: Annotated[
         str | None,
         "Acceleration limits for timing the motion in rad/s^2 and m/s^2: one number, one per joint, or JOINT=NUMBER,...",

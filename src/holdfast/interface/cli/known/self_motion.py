@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
-from holdfast.interface.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
+from holdfast.interface.cli.laws import OptionalTargetOption
+from holdfast.interface.cli.options import ArmArgument, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_pose, read_target, read_task
 
 if TYPE_CHECKING:
@@ -20,15 +21,14 @@ if TYPE_CHECKING:
     from holdfast.model.arm.task import Task
 
 PoseOption = Annotated[str | None, "Target pose of the tool: x,y,z,roll,pitch,yaw in m and degrees. Use instead of --target."]
-TargetOption = Annotated[str | None, TARGET_HELP]
 
 
 def command(
     arm: ArmArgument,
-    target: TargetOption = None,
+    target: OptionalTargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[bool, "Also find the values at which each joint may lock without losing the target."] = False,
+    bounds: Annotated[bool, "Find also the values at which each joint may lock without losing the target."] = False,
     degrees: Annotated[bool, "Write --csv in degrees (prismatic joints: m)."] = False,
     spacing: Annotated[float, "Distance between neighbouring points in rad."] = 0.05,
     seed: SeedOption = 0,

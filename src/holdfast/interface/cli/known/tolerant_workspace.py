@@ -9,7 +9,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
-from holdfast.interface.cli.options import ArmArgument, SeedOption
+from holdfast.interface.cli.options import TASK_NAMES_HELP, ArmArgument, SeedOption
 from holdfast.interface.cli.values import read_joint, read_numbers, read_task
 
 if TYPE_CHECKING:
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    task: Annotated[str | None, "Task; with orientation, see --rotation. Default: planar or position, by the arm."] = None,
-    limit: Annotated[list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable."] = None,
+    task: Annotated[str | None, f"{TASK_NAMES_HELP} Default: planar for an arm that moves in a plane, else position."] = None,
+    limit: Annotated[
+        list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable. Default: the joint limits."
+    ] = None,
     optimise: Annotated[bool, "Search for the artificial limits that maximise the region."] = False,
     rotation: Annotated[str | None, "Tool orientation, if the task has one: roll,pitch,yaw in degrees. Default: 0,0,0."] = None,
     points: Annotated[int, "Number of sampled points (planar arms of three joints need none)."] = 1000,

@@ -7,9 +7,8 @@ from typing import Annotated
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.laws import LawOption, read_law_for_arm
-from holdfast.interface.cli.options import ArmArgument, JsonOption, TaskOption
+from holdfast.interface.cli.laws import LawOptions
+from holdfast.interface.cli.options import ArmArgument, JsonOption
 from holdfast.interface.presentation.results import print_result
 
 EXPORT_LANGUAGES = ("c",)
@@ -18,13 +17,11 @@ EXPORT_LANGUAGES = ("c",)
 def command(
     arm: ArmArgument,
     out: Annotated[Path, "Folder for the files; it is created if necessary."],
-    law: LawOption = "failure-tolerant",
+    controlled: LawOptions = LawOptions(law="failure-tolerant"),
     language: Annotated[str, "Language: c, which is C99 that needs only math.h."] = "c",
     name: Annotated[str | None, "Name of the function and the files. Default: that of the law."] = None,
-    task: TaskOption = None,
     monitor: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to export the monitor NAME_monitor."] = None,
     controller: Annotated[bool, "Export the C++17 controller NAME_controller, which reacts to the monitor."] = False,
-    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Export a control law, monitor or controller as C or C++ code.
@@ -35,7 +32,7 @@ def command(
         raise InputError(f"--language '{language}' is not known; use {', '.join(EXPORT_LANGUAGES)}")
     if controller and monitor is None:
         raise InputError("--controller needs a monitor; add --monitor BOUNDS, a file of 'holdfast calibrate'")
-    control_law = read_law_for_arm(law, arm, task, chain)
+    control_law = controlled.read_law(arm)
     files = control_law.export_c(out, name)
     monitor_files: list[Path] = []
     if monitor is not None:

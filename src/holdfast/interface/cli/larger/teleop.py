@@ -19,7 +19,7 @@ DIFFERS_EXIT_CODE = 3  # exit code: the command worked, and a trial differs from
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.")]
 ProtocolArgument = Annotated[
-    str, typer.Argument(metavar="[PROTOCOL]", help="Protocol: goel2003, goel2003-smooth, or a protocol file (YAML).")
+    str, typer.Argument(metavar="PROTOCOL", help="Protocol: goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
 
 command = typer.Typer(
@@ -158,7 +158,8 @@ def export(
 def allocation(
     protocol: ProtocolArgument = "goel2003",
     subjects: Annotated[
-        int | None, typer.Option("--subjects", min=1, help="Number of subjects.", show_default="the protocol's number")
+        int | None,
+        typer.Option("--subjects", min=1, help="Number of sheets, one per subject.", show_default="the protocol's number"),
     ] = None,
     out: Annotated[Path | None, "HTML file for sheets to print."] = None,
 ) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def tasks(
     arm: Annotated[
-        str, typer.Argument(metavar="[ARM]", help="Arm: built-in name, URDF or MJCF file, or DH table.")
+        str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table.")
     ] = "planar-3r",
     per_joint: Annotated[int, typer.Option("--per-joint", min=1, help="Number of tasks for each failed joint.")] = 400,
     distance: Annotated[float, "Distance from start to target in m."] = 2.0,
@@ -29,10 +29,10 @@ def tasks(
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Also select the most disorienting task, and one in which a wrong stationary point attracts the failed arm.",
+            help="Select also the most disorienting task, and one in which a wrong stationary point attracts the failed arm.",
         ),
     ] = True,
-    task: Annotated[str | None, "Task of the joystick: planar or position.", "planar if the arm moves in a plane"] = None,
+    task: Annotated[str | None, "Task of the joystick: planar or position.", "planar for a planar arm, else position"] = None,
     out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:

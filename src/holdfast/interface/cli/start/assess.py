@@ -10,11 +10,10 @@ import typer
 
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
-from holdfast.interface.cli.groups import ArmSourcesOptions, ClearanceOptions
+from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions, ClearanceOptions
 from holdfast.interface.cli.measure_options import IndexOption
 from holdfast.interface.cli.options import (
     TASK_HELP,
-    ArmsArgument,
     FailuresOption,
     JsonOption,
     LengthOption,
@@ -36,7 +35,7 @@ if TYPE_CHECKING:
 FailureRateOption = Annotated[
     list[str] | None, "Relative failure rate JOINT=RATE; weights the poses that remain reachable. Repeatable."
 ]
-AtLeastOption = Annotated[list[float] | None, "Threshold of the index. Repeatable."]
+AtLeastOption = Annotated[list[float] | None, "Threshold of the index, whose probability is estimated. Repeatable."]
 
 
 def command(
@@ -51,9 +50,11 @@ def command(
     seed: SeedOption = 0,
     sampling: Annotated[str, "Sampling: random or sobol."] = "random",
     restarts: Annotated[int, "Number of random starts per pose before it counts as not found."] = 100,
-    optimise: Annotated[bool, "Also find the best configuration of each pose."] = False,
-    after_lock: Annotated[bool, "Also find which poses remain reachable after each joint has locked."] = False,
-    lock: Annotated[list[str] | None, "Joint that locks at a given value: JOINT=VALUE, rad or m. Repeatable."] = None,
+    optimise: Annotated[bool, "Find also the best configuration of each pose."] = False,
+    after_lock: Annotated[bool, "Find also the poses that remain reachable after each joint has locked."] = False,
+    lock: Annotated[
+        list[str] | None, "Value at which a joint locks, JOINT=VALUE, rad or m; implies --after-lock for it. Repeatable."
+    ] = None,
     failure_rate: FailureRateOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
     at_least: AtLeastOption = None,

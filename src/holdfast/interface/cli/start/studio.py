@@ -10,7 +10,8 @@ import typer
 from holdfast.core.errors import InputError
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REGISTRY, unknown_name_message
 from holdfast.interface.cli.groups import ArmSourceOptions, CellOption, MeshesOption
-from holdfast.interface.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
+from holdfast.interface.cli.laws import OptionalTargetOption, read_law
+from holdfast.interface.cli.options import ArmArgument, DegreesOption, TaskOption
 from holdfast.interface.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 
 if TYPE_CHECKING:
@@ -31,13 +32,15 @@ def command(
     free: Annotated[list[str] | None, "Free-swinging joint, by name or number from 1. Repeatable."] = None,
     index: Annotated[str, f"Index shown by the bars: a built-in one, {OWN_INDEX}."] = "relative-manipulability",
     susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITY_REGISTRY.usage}."] = ("torque"),
-    objective: Annotated[str, f"Objective of best and worst: a built-in one, {OWN_INDEX}."] = "relative-manipulability",
+    objective: Annotated[
+        str, f"Objective of the view best-worst: index, susceptibility, {OWN_INDEX}."
+    ] = "relative-manipulability",
     law: Annotated[
         list[str] | None,
         f"Control law; give it twice to compare two laws: {LAW_REGISTRY.usage}.",
         "pseudoinverse and failure-tolerant",
     ] = None,
-    target: Annotated[str | None, TARGET_HELP] = None,
+    target: OptionalTargetOption = None,
     file: Annotated[str | None, "Motion to play: a CSV file or folder that follow, simulate or recover wrote."] = None,
     region: Annotated[str | None, "Results folder that assess wrote."] = None,
     cell: CellOption = None,
@@ -57,7 +60,6 @@ def command(
     """
     from pathlib import Path
 
-    from holdfast.interface.cli.laws import read_law
     from holdfast.interface.studio.server import serve
     from holdfast.interface.studio.state import DISPLAY_MODES, State
     from holdfast.model.arm.poses import pose_numbers

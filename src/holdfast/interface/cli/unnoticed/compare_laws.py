@@ -10,16 +10,7 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import (
-    CyclesOption,
-    GainOption,
-    LawsOption,
-    SpeedLimitOption,
-    TimeLimitOption,
-    read_laws,
-    read_position_sampling,
-    read_targets,
-)
+from holdfast.interface.cli.laws import ClosedLoopOptions, LawsOption, read_laws, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_target
@@ -48,17 +39,14 @@ def command(
     ] = None,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[str | None, "Shortest and longest distance of random motions in m, for example 0.2,0.8."] = None,
-    reachable_after: Annotated[str | None, "Failures after which random targets must remain reachable."] = None,
+    reachable_after: Annotated[str | None, "Failures, as for --failures, after which random targets stay reachable."] = None,
     start: Annotated[str | None, "Start configuration in rad and m of one motion, simulated instead of random motions."] = None,
     target: Annotated[str | None, "Target, as in 'holdfast simulate'; with --best also grid:12 or random:200."] = None,
     failures: Annotated[
         str, "Joints that lock at the start, one per run: single (each), 'joint2; joint3', or none."
     ] = "single",
     task: TaskOption = None,
-    gain: GainOption = 1.0,
-    speed_limit: SpeedLimitOption = None,
-    cycles: CyclesOption = False,
-    time_limit: TimeLimitOption = None,
+    loop: ClosedLoopOptions = ClosedLoopOptions(),
     touched: ContactOptions = ContactOptions(),
     degrees: StartDegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -75,15 +63,20 @@ def command(
     Example: holdfast compare-laws panda --best --task position --target 0.5,0.2,0.4 --starts 100
     """
     model = chain.resolve_arm(arm)
-    laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
+    laws = read_laws(law, model, task, arm, gain=loop.gain, speed_limit=loop.speed_limit)
     clearance = touched.build_contact_clearance(model)
     if best:
         if target is None:
             raise InputError("--best needs --target; give a position, grid:12 or random:200")
         motion_options = (start, motions, distance, reachable_after)
-        if any(option is not None for option in motion_options) or failures != "single" or cycles:
+        if any(option is not None for option in motion_options) or failures != "single" or loop.cycles:
             raise InputError("--best uses the locks of a convergence map; leave out the options of given and random motions")
-        map_options: dict[str, Any] = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+        map_options: dict[str, Any] = {
+            "configurations": configurations,
+            "over": over,
+            "time_limit": loop.time_limit,
+            "seed": seed,
+        }
         targets, places = read_targets(laws[0], target), read_position_sampling(starts)
         with ProgressBar(json_, "runs") as progress:
             choice = hf.compare_laws(laws, places, targets, best=True, progress=progress, clearance=clearance, **map_options)
@@ -103,8 +96,8 @@ def command(
         description = f"one motion of '{model.name}'"
     failure_spec = None if failures == "none" else read_failures(model, failures)
     common_options: dict[str, Any] = {
-        "cycles": cycles,
-        "time_limit": time_limit,
+        "cycles": loop.cycles,
+        "time_limit": loop.time_limit,
         "seed": seed,
         "about": description,
         "clearance": clearance,

@@ -37,7 +37,7 @@ class MeasureOptions:
     ] = None
     relative_to: Annotated[
         Literal["inside", "whole"],
-        "Reference of the measures F: the part of the path inside the joint ranges, or the whole path.",
+        "Reference of the measures F: the part of the path inside the joints' ranges, or the whole path.",
     ] = "inside"
 
     def library_arguments(self) -> dict[str, Any]:

@@ -11,17 +11,15 @@ import numpy as np
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities
-from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, read_law_for_arm
+from holdfast.interface.cli.groups import ContactOptions
+from holdfast.interface.cli.laws import ClosedLoopOptions, LawOptions, OptionalTargetOption
 from holdfast.interface.cli.options import (
-    TARGET_HELP,
     ArmArgument,
     FailureOption,
     JsonOption,
     MotionCsvOption,
     PlotOption,
     StartDegreesOption,
-    TaskOption,
 )
 from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.interface.presentation.results import print_result, write_outputs
@@ -36,7 +34,7 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     start: Annotated[str | None, "Start configuration in rad and m, separated by commas or spaces."] = None,
-    target: Annotated[str | None, TARGET_HELP] = None,
+    target: OptionalTargetOption = None,
     motion: Annotated[
         Path | None,
         "Motion to play in MuJoCo, instead of --start and --target: a CSV file of joints over time, the folder that recover, "
@@ -45,15 +43,11 @@ def command(
     error_limit: Annotated[str | None, "Largest deviation of a joint from --motion, for example 2deg or 2deg,1mm."] = None,
     lock: Annotated[
         list[str] | None,
-        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, a fault. Repeatable.",
+        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, the lock is a fault. Repeatable.",
     ] = None,
     failure: FailureOption = None,
-    law: LawOption = "pseudoinverse",
-    task: TaskOption = None,
-    gain: GainOption = 1.0,
-    speed_limit: SpeedLimitOption = None,
-    cycles: CyclesOption = False,
-    time_limit: TimeLimitOption = None,
+    controlled: LawOptions = LawOptions(),
+    loop: ClosedLoopOptions = ClosedLoopOptions(),
     physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
     servo_bandwidth: Annotated[float, "Bandwidth of the joint servos in Hz, with --physics or --motion."] = 10.0,
     faults: Annotated[Path | None, "Fault file (YAML), from which the faults are sampled."] = None,
@@ -66,7 +60,6 @@ def command(
     touched: ContactOptions = ContactOptions(),
     stop_at_contact: Annotated[bool, "End the run at the first contact with an object of --cell."] = False,
     degrees: StartDegreesOption = False,
-    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
     plot: PlotOption = None,
     out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
@@ -83,19 +76,19 @@ def command(
             "--start": start,
             "--target": target,
             "--failure": failure,
-            "--task": task,
-            "--speed-limit": speed_limit,
+            "--task": controlled.task,
+            "--speed-limit": loop.speed_limit,
         }
         other_options |= {
-            "--cycles": cycles,
-            "--time-limit": time_limit,
+            "--cycles": loop.cycles,
+            "--time-limit": loop.time_limit,
             "--faults": faults,
             "--monitor": monitor,
             "--record": record,
         }
         _reject_options(other_options | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
         execution = _play_motion(
-            chain.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
+            controlled.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
         )
         print_result(execution, json_, write_outputs(execution, plot, out) + ([] if csv is None else [execution.to_csv(csv)]))
         return
@@ -103,7 +96,7 @@ def command(
         raise InputError("--error-limit applies to a played motion; add --motion")
     if start is None or target is None:
         raise InputError(f"{'--start' if start is None else '--target'} is missing; give --start and --target, or --motion")
-    control_law = read_law_for_arm(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
+    control_law = controlled.read_law(arm, gain=loop.gain, speed_limit=loop.speed_limit)
     target_value = read_target(control_law.arm, control_law.task, target)
     locked_joints, lock_times = (
         zip(*[_read_timed_lock(control_law.arm, text) for text in lock or []], strict=True) if lock else ((), ())
@@ -111,7 +104,7 @@ def command(
     q0 = read_configuration(control_law.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
     if physics and (drawn_faults is not None or monitor is not None or record is not None):
-        _reject_options({"--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
+        _reject_options({"--failure": failure, "--cycles": loop.cycles, "--stop-at-contact": stop_at_contact})
         if lock and drawn_faults is not None:
             _reject_options({"--lock": lock})
         locks = [
@@ -127,7 +120,7 @@ def command(
             episode=episode,
             monitor=fault_monitor,
             clearance=touched.build_contact_clearance(control_law.arm),
-            time_limit=12.0 if time_limit is None else time_limit,
+            time_limit=12.0 if loop.time_limit is None else loop.time_limit,
             servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if fault_monitor is None else fault_monitor.bounds.rate),
         )
         records = [] if record is None else [fault_run.log().save(record)]
@@ -147,16 +140,22 @@ def command(
     locked_spec = read_locks(control_law.arm, lock, degrees, failure=failure) if failure else locked_joints
     common_options: dict[str, Any] = {
         "locked": locked_spec,
-        "time_limit": time_limit,
+        "time_limit": loop.time_limit,
         "time": lock_times or 0.0,
         "clearance": clearance,
     }
     runs = hf.simulate(
-        control_law, q0, target_value, cycles=cycles, faults=sampled_events, stop_at_contact=stop_at_contact, **common_options
+        control_law,
+        q0,
+        target_value,
+        cycles=loop.cycles,
+        faults=sampled_events,
+        stop_at_contact=stop_at_contact,
+        **common_options,
     )
     result: Result = runs
     if physics:
-        if cycles:
+        if loop.cycles:
             raise InputError("--physics has its own control rate; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
         result = hf.simulate_physics(control_law, q0, target_value, servos=servos, **common_options)
