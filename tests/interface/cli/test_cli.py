@@ -327,7 +327,7 @@ def test_tools_and_arms_are_compared(cli, tmp_path, monkeypatch):
     tools = ("--tool", "short=0,0,0.1,0,0,0", "--tool", "bent=0 0.02 0.1 90 0 0")
     code, text, err = cli(*arguments, *tools, "--out", out)
     assert code == 0
-    assert "every candidate is tried in the default region of 'panda-short'" in err
+    assert "every candidate is assessed in the default region of 'panda-short'" in err
     names = ["panda-short", "panda-bent", "my_arm-short", "my_arm-bent"]
     assert all(name in text for name in names)
     assert sorted(p.name for p in out.iterdir()) == sorted([*names, "comparison.json", "report.html"])
@@ -385,7 +385,7 @@ def test_report_of_a_comparison(cli, ask, refused, flat, tmp_path):
 def test_a_folder_of_one_run_is_not_used_for_a_comparison(refused, tmp_path):
     run = tmp_path / "run"
     hf.assess(arms.load("planar-3r"), hf.Region.joints([-1] * 3, [1] * 3), task="planar", poses=10, store=run)
-    assert "holds one run" in refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--out", run)
+    assert "contains a single run" in refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--out", run)
 
 
 def test_report_of_a_run_that_was_stopped(cli, ask, tmp_path):

@@ -267,7 +267,7 @@ def test_bad_input_is_one_sentence(arguments, words, refused):
 def test_a_file_without_poses(refused, tmp_path):
     file = tmp_path / "poses.csv"
     file.write_text("x,y,z\n")
-    assert "holds no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
+    assert "contains no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
     file.write_text("x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,2\n")
     assert "line 2: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from holdfast.model.collision.clearance import Clearance
 
 ArmsArgument = Annotated[
-    list[str], typer.Argument(metavar="ARM...", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
+    list[str], typer.Argument(metavar="ARM", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
 ]
 _PER_ARM = "Once for all arms, or once per arm in order ('-' for none)."
 
@@ -44,7 +44,9 @@ class ArmSourceOptions:
     """Options that select the kinematic chain of an arm file."""
 
     base: Annotated[str | None, "Base link or body (URDF, MJCF). Default: the root."] = None
-    tip: Annotated[str | None, "Tip link, body or site (URDF, MJCF). Default: the only end that is no gripper finger."] = None
+    tip: Annotated[str | None, "Tip link, body or site (URDF, MJCF). Default: the only end that is not a gripper finger."] = (
+        None
+    )
     hold: Annotated[
         list[str] | None, "Fixed gripper joint or external axis (URDF, MJCF): JOINT=VALUE in rad or m. Repeatable."
     ] = None

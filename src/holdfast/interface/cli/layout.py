@@ -1,4 +1,4 @@
-"""Layout of the help of a command: paragraphs, examples to copy, and options in thematic panels."""
+"""Layout of the help of a command: paragraphs, examples, and options in panels by topic."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _TYPE_LABELS = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": 
 
 
 class PanelCommand(TyperCommand):
-    """Command with its options in panels; it lays out its help on request, and supports shell completion."""
+    """Command with its options in panels; lays out its help on request, and supports shell completion."""
 
     def __init__(self, name: str | None, **settings: Any) -> None:
         super().__init__(name, **settings)

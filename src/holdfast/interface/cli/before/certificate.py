@@ -17,11 +17,7 @@ from holdfast.interface.presentation.results import print_result
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate file, or the folder that contains it.")]
 
-command = typer.Typer(
-    name="certificate",
-    help="Verify or display certificates.",
-    no_args_is_help=True,
-)
+command = typer.Typer(name="certificate", help="Verify or display certificates.", no_args_is_help=True)
 
 
 @command.command()

@@ -86,7 +86,9 @@ def tolerant(
     ranges: Annotated[Path | None, "File of working ranges (YAML): JOINT: [LOW, HIGH] in rad or m."] = None,
     range_: LimitOption = None,
     degrees: AnglesOption = False,
-    find_ranges: Annotated[bool, "Search for wide working ranges within the given ones, and use them in the proof."] = False,
+    find_ranges: Annotated[
+        bool, "Search for wide working ranges by sampling, within the given ones, and prove the claim with them."
+    ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
     options: _BundleOptions = _BundleOptions(out=Path("certificates")),

@@ -28,7 +28,7 @@ def command(
     degrees: DegreesOption = False,
     gain: Annotated[
         float | None,
-        "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: high enough to hardly lag.",
+        "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: enough to hardly lag.",
     ] = None,
     wanted: Annotated[float | None, "Value of the objective that augmented-jacobian keeps. Default: that of the start."] = None,
     rate_cap: Annotated[float | None, "Largest norm of the joint rates in rad/s; slows only the self-motion."] = None,

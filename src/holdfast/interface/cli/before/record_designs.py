@@ -15,9 +15,7 @@ from holdfast.interface.cli.values import read_configuration
 from holdfast.interface.presentation.results import print_result, print_results
 
 command = typer.Typer(
-    name="record-designs",
-    help="Browse, check and submit the best known arms and null spaces.",
-    no_args_is_help=True,
+    name="record-designs", help="Browse, check and submit the best known arms and null spaces.", no_args_is_help=True
 )
 
 NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a record file.")]
@@ -38,8 +36,7 @@ def list_(
 
 @command.command()
 def show(
-    record: NameArgument,
-    urdf: Annotated[bool, "Print the arm as URDF, for simulators, instead of YAML."] = False,
+    record: NameArgument, urdf: Annotated[bool, "Print the arm as URDF, for simulators, instead of YAML."] = False
 ) -> None:
     """Print one record as YAML or URDF.
 

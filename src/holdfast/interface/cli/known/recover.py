@@ -62,7 +62,9 @@ def command(
     keep: KeepOption = None,
     degrees: Annotated[bool, "Read --at, --lock and q: in degrees (prismatic joints: m)."] = False,
     metric: Annotated[str, "Quantity to minimise: travel (length in joint space) or time (at the velocity limits)."] = "travel",
-    region: Annotated[Path | None, "Region file (YAML) for the remaining workspace. Default: random poses."] = None,
+    region: Annotated[
+        Path | None, "Region file (YAML) for the remaining workspace. Default: random poses of the healthy arm."
+    ] = None,
     samples: Annotated[int, typer.Option("--samples", min=0, help="Poses for the remaining workspace; 0 skips it.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for goal configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Number of route searches if straight lines are blocked.")] = 4,
@@ -77,7 +79,9 @@ def command(
     apart: ClearanceOptions = ClearanceOptions(),
     check: Annotated[Path | None, "CSV file of waypoints to check by a replay, instead of planning."] = None,
     out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and figures."] = None,
-    certificate: Annotated[Path | None, "File for the certificate that no configuration meets the goal."] = None,
+    certificate: Annotated[
+        Path | None, "File for the proof that no configuration meets the goal, for 'holdfast certificate check'."
+    ] = None,
     csv: Annotated[Path | None, "CSV file for the waypoints."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,

@@ -20,13 +20,11 @@ from holdfast.interface.presentation.printing import make_console, print_json
 from holdfast.interface.presentation.results import print_result, print_results
 
 command = typer.Typer(
-    name="study",
-    help="Run parameter sweeps that can be stopped, resumed and distributed.",
-    no_args_is_help=True,
+    name="study", help="Run parameter sweeps that can be stopped, resumed and distributed.", no_args_is_help=True
 )
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.")]
-FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.")]
+FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR", help="Folders that 'holdfast study run --out' wrote.")]
 
 
 @command.command()

@@ -23,9 +23,7 @@ ProtocolArgument = Annotated[
 ]
 
 command = typer.Typer(
-    no_args_is_help=True,
-    help="Run teleoperation experiments: tasks, sessions, records and statistics.",
-    add_completion=False,
+    no_args_is_help=True, help="Run teleoperation experiments: tasks, sessions, records and statistics.", add_completion=False
 )
 
 
@@ -119,8 +117,7 @@ def verify(folder: FolderArgument) -> None:
 
 @command.command()
 def backup(
-    folder: FolderArgument,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")],
+    folder: FolderArgument, out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")]
 ) -> None:
     """Copy an experiment and verify the copy.
 
@@ -132,7 +129,7 @@ def backup(
 
     with show_status("copying"):
         copied = copy(folder, out)
-    typer.echo(f"written: {out}; verified: {copied.trials} trials, {copied.links} digests")
+    typer.echo(f"written: {out}; sound: {copied.trials} trials, {copied.links} digests")
 
 
 @command.command()
@@ -218,7 +215,7 @@ def protocol_(
 
     chosen = read_protocol(protocol)
     if write is not None and reading.path_exists(write):
-        raise StoreError(f"--write: '{write}' exists; choose another name")
+        raise StoreError(f"--write: '{write}' exists already; choose another name")
     show_protocol(chosen, make_console())
     if write is not None:
         typer.echo(f"written: {chosen.write(write)}")

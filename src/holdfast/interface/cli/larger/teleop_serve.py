@@ -37,7 +37,7 @@ def serve(
     texts: Annotated[Path | None, "Translation file (YAML) of the page texts. Default: English."] = None,
     tlx: Annotated[bool, "Ask subjects for the NASA task load index."] = False,
     behind_proxy: Annotated[
-        bool, "Trust X-Forwarded-For and X-Forwarded-Proto, the headers of a proxy on this computer."
+        bool, "Read addresses and https from the headers X-Forwarded-For and X-Forwarded-Proto of a proxy on this computer."
     ] = False,
 ) -> None:
     """Serve the web pages of an experiment.
@@ -92,9 +92,7 @@ def _read_token(option_token: str | None, file: Path | None) -> str | None:
         raise InputError(f"--token-file: the first line of '{file}' is not text; write the token there") from error
 
 
-def texts(
-    write: Annotated[Path | None, "File for a copy of the texts, to be translated."] = None,
-) -> None:
+def texts(write: Annotated[Path | None, "File for a copy of the texts, to be translated."] = None) -> None:
     """Print or copy the page texts for translation.
 
     'holdfast teleop serve --texts FILE' uses the translation.

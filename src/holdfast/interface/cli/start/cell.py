@@ -12,11 +12,7 @@ from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, JsonOption, OutOption
 from holdfast.interface.presentation.results import print_result, write_outputs
 
-command = typer.Typer(
-    name="cell",
-    help="Inspect the environment around an arm.",
-    no_args_is_help=True,
-)
+command = typer.Typer(name="cell", help="Inspect the environment around an arm.", no_args_is_help=True)
 
 
 @command.command()

@@ -28,7 +28,7 @@ class MeasureOptions:
         "36 in a plane, else 8; over targets 8 and 4",
     ] = None
     points: Annotated[
-        int | None, "Number of failures per joint and motion; 0 skips the measures F.", "10, or 3; over targets 2"
+        int | None, "Number of failures per joint and motion; 0 skips the measures F.", "10 in a plane, else 3; over targets 2"
     ] = None
     method: Annotated[
         Literal["brute", "procedure", "sampled"] | None,
@@ -37,7 +37,7 @@ class MeasureOptions:
     ] = None
     relative_to: Annotated[
         Literal["inside", "whole"],
-        "Reference of the measures F: the part of the path inside the joints' ranges, or the whole path.",
+        "Reference of the measures F: inside (the path within the joints' ranges) or whole (the whole path).",
     ] = "inside"
 
     def library_arguments(self) -> dict[str, Any]:

@@ -43,7 +43,7 @@ def diagnose(
 
 
 def calibrate(
-    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Logs of the healthy arm (.npz, .csv or .parquet).")],
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Logs of the healthy arm (.npz, .csv or .parquet).")],
     arm: ArmOption,
     out: Annotated[Path, "File for the thresholds (JSON)."],
     factor: Annotated[float | None, "Multiple of the largest healthy residual. Default: 1.5, or 2.5 without torques."] = None,

@@ -13,14 +13,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities
 from holdfast.interface.cli.groups import ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawOptions, OptionalTargetOption
-from holdfast.interface.cli.options import (
-    ArmArgument,
-    FailureOption,
-    JsonOption,
-    MotionCsvOption,
-    PlotOption,
-    StartDegreesOption,
-)
+from holdfast.interface.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption
 from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.interface.presentation.results import print_result, write_outputs
 
@@ -54,14 +47,17 @@ def command(
     episode: Annotated[int, "Number of the episode of --faults, from 0."] = 0,
     monitor: Annotated[
         Path | None,
-        "Threshold file of 'holdfast calibrate', with --physics: a monitor identifies the joint, and the controller reacts.",
+        "Threshold file of 'holdfast calibrate', with --physics: a monitor identifies the joint, and the controller reacts "
+        "and avoids --cell.",
     ] = None,
-    record: Annotated[Path | None, "File for the sensor log (.npz, .csv or .parquet); needs --physics."] = None,
+    record: Annotated[
+        Path | None, "File for the sensor log (.npz, .csv or .parquet), with --physics, for calibrate and diagnose."
+    ] = None,
     touched: ContactOptions = ContactOptions(),
     stop_at_contact: Annotated[bool, "End the run at the first contact with an object of --cell."] = False,
     degrees: StartDegreesOption = False,
     csv: MotionCsvOption = None,
-    plot: PlotOption = None,
+    plot: Annotated[Path | None, "PNG file for a figure of the motion."] = None,
     out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -72,21 +68,10 @@ def command(
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
     if motion is not None:
-        other_options = {
-            "--start": start,
-            "--target": target,
-            "--failure": failure,
-            "--task": controlled.task,
-            "--speed-limit": loop.speed_limit,
-        }
-        other_options |= {
-            "--cycles": loop.cycles,
-            "--time-limit": loop.time_limit,
-            "--faults": faults,
-            "--monitor": monitor,
-            "--record": record,
-        }
-        _reject_options(other_options | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
+        others: dict[str, Any] = {"--start": start, "--target": target, "--failure": failure, "--task": controlled.task}
+        others |= {"--speed-limit": loop.speed_limit, "--cycles": loop.cycles, "--time-limit": loop.time_limit}
+        others |= {"--faults": faults, "--monitor": monitor, "--record": record}
+        _reject_options(others | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
         execution = _play_motion(
             controlled.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
         )
