@@ -106,10 +106,10 @@ def test_optimise_says_why_nothing_is_clear(cli):
     [
         (
             ("--no-clearance", "--radius", 0.1),
-            "--radius checks self-collisions, and --no-clearance allows them",
+            "--radius needs the check for self-collisions that --no-clearance excludes",
         ),
-        (("--no-clearance", "--margin", 0.1), "--margin asks for"),
-        (("--no-clearance", "--capsules", "x.yaml"), "--capsules asks for"),
+        (("--no-clearance", "--margin", 0.1), "--margin needs the check for self-collisions"),
+        (("--no-clearance", "--capsules", "x.yaml"), "--capsules needs the check for self-collisions"),
         (("--radius", 0.1, "--capsules", "x.yaml"), "--capsules and --radius are both given"),
         (("--radius", 0), "--radius is 0; it must be a finite number of metres above 0"),
         (("--radius", "nan"), "--radius is nan"),

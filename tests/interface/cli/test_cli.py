@@ -498,7 +498,7 @@ BAD = {
     "a tool without a name": (["assess", "panda", "--tool", "0,0,0.1,0,0,0"], ["NAME=x,y,z,roll,pitch,yaw", "gripper=0"]),
     "a tool of five numbers": (["assess", "panda", "--tool", "a=0,0,0,0,0"], ["--tool a has 5 numbers", "give 6"]),
     "a tool in words": (["assess", "panda", "--tool", "a=0,0,up,0,0,0"], ["--tool a: 'up' is not a number"]),
-    "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a holds NaN"]),
+    "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a contains NaN"]),
     "a tool that climbs": (["assess", "panda", "--tool", "../a=0,0,0,0,0,0"], ["is not NAME="]),
     "one of two not redundant": (["assess", "panda", "ur5"], ["'ur5' is not redundant"]),
     "missing region": (

@@ -52,7 +52,7 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
     assert "--monitor needs bodies, motors and sensors; add --physics" in refused(*CALL, "--monitor", "bounds.json")
     assert "--stop-at-contact does not go with" in refused(*CALL, "--physics", "--record", "run.npz", "--stop-at-contact")
-    assert "--record is of an arm" in refused(*CALL, "--record", "run.npz")
+    assert "--record needs bodies" in refused(*CALL, "--record", "run.npz")
     assert "--lock does not go with --faults" in refused(*CALL, "--physics", "--lock", "1", "--faults", "faults.yaml")
 
 

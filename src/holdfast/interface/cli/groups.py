@@ -195,7 +195,9 @@ class ClearanceOptions:
         """
         given_options = [f"--{name}" for name in ("capsules", "radius", "margin") if getattr(self, name) is not None]
         if self.clearance is False and given_options and self.cell is None:
-            raise InputError(f"{given_options[0]} checks self-collisions, and --no-clearance allows them; give one of them")
+            raise InputError(
+                f"{given_options[0]} needs the check for self-collisions that --no-clearance excludes; give one of them"
+            )
         if self.capsules is not None and self.radius is not None:
             raise InputError("--capsules and --radius are both given; give one of them (a capsule file can contain a radius)")
         if self.radius is not None and not (math.isfinite(self.radius) and self.radius > 0):

@@ -23,7 +23,7 @@ command = typer.Typer(name="certificate", help="Verify or display certificates."
 @command.command()
 def check(
     file: FileArgument,
-    sample: Annotated[int | None, "Number of randomly chosen cells to check. Default: all."] = None,
+    sample: Annotated[int | None, "Number of randomly chosen boxes to check. Default: all."] = None,
     workers: Annotated[int, "Number of worker processes."] = 1,
     arm: Annotated[str | None, "Arm that the certificate must be about: built-in name or arm file. Default: any."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -31,7 +31,7 @@ def check(
 ) -> None:
     """Verify a certificate with the independent checker (ball arithmetic).
 
-    Exit code: 0 if every cell is accepted, 1 if one is rejected, 2 if the file cannot be checked or is about another arm.
+    Exit code: 0 if every box is accepted, 1 if one is rejected, 2 if the file cannot be checked or is about another arm.
 
     Example: holdfast certificate check reach.certificate
     """

@@ -109,7 +109,7 @@ def run(
     if problems:
         name, problem = next(iter(problems.items()))
         others_note = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
-        raise InputError(f"{len(problems)} of {len(study_file.cells)} cells are not computed: '{name}': {problem}{others_note}")
+        raise InputError(f"{len(problems)} of {len(study_file.cells)} cells failed; '{name}': {problem}{others_note}")
     if stop():
         raise KeyboardInterrupt
 

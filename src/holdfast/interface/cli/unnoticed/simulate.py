@@ -36,7 +36,7 @@ def command(
     error_limit: Annotated[str | None, "Largest deviation of a joint from --motion, for example 2deg or 2deg,1mm."] = None,
     lock: Annotated[
         list[str] | None,
-        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, the lock is a fault. Repeatable.",
+        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, it must be detected. Repeatable.",
     ] = None,
     failure: FailureOption = None,
     controlled: LawOptions = LawOptions(),
