@@ -109,7 +109,7 @@ def test_a_ceiling(cli, tmp_path):
     assert cli("certificate", "check", str(file))[0] == 0
     code, _, err = cli(*words, "--within", "3 4", "--below", "0.06")
     assert code == 2
-    assert "--within one or 7" in err
+    assert "give 7, and one or 7" in err
     assert cli(*words, "--below", "0.06")[0] == 2
     code, out, _ = cli(
         *words, "--within", "5", "--limit", "2=-50..-40", "--below", "0.07", "--halvings", "0", "--no-check", "--json"
@@ -161,10 +161,10 @@ def test_a_floor(cli, tmp_path):
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --out .", "is a folder; give the name of a file"),
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --out arm.urdf", "exists and is not a certificate"),
         ("tolerant planar-3r --box '1.5 0.5' --size 0.1 --out arm.urdf", "exists and is not a certificate"),
-        ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within has a negative half width"),
+        ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within is -1; a half width must be 0 or larger"),
         ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail slides; bounds are for arms whose joints all turn"),
         ("structural-zero ur5-rail rail", "structural zeros are for arms whose joints all turn"),
-        ("path planar-3r motion.csv --during 1", "--during must be two fractions"),
+        ("path planar-3r motion.csv --during 1", "--during has 1 numbers; give two fractions"),
     ],
 )
 def test_what_makes_no_claim_is_said_before_the_search(refused, tmp_path, monkeypatch, words, said):

@@ -104,9 +104,11 @@ class ConfigurationBoxOptions:
             center = read_numbers("--around", self.around, f"{arm.n} numbers,")
             half_widths = read_numbers("--within", self.within, f"one number, or {arm.n},")
             if len(center) != arm.n or len(half_widths) not in (1, arm.n):
-                raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+                raise InputError(
+                    f"--around has {len(center)} numbers and --within {len(half_widths)}; give {arm.n}, and one or {arm.n}"
+                )
             if (half_widths < 0).any():
-                raise InputError("--within has a negative half width; give numbers of 0 or larger")
+                raise InputError(f"--within is {half_widths.min():g}; a half width must be 0 or larger")
             pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
             texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
             box = read_joint_intervals(arm, "--around", texts, self.degrees)

@@ -179,7 +179,7 @@ def path(
 
     model, failure_times = options.resolve_arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
     if len(failure_times) != 2:
-        raise InputError("--during must be two fractions of the motion, for example --during '0 0.5'")
+        raise InputError(f"--during has {len(failure_times)} numbers; give two fractions of the motion, for example '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").select_columns(joint_columns(model)),
