@@ -45,9 +45,11 @@ def default(parameter: Any, context: Any) -> str:
     """What holds if the option is not given, in the words of ``--help``."""
     if parameter.required:
         return "Required."
-    value = parameter.get_default(context)
+    value, shown = parameter.get_default(context), parameter.show_default
+    if isinstance(shown, str):
+        return f"Default: {escaped(shown)}."
     if "Default:" in (parameter.help or "") or value is None or value == () or (parameter.is_flag and not value):
-        return "May be given again." if parameter.multiple and "again" not in (parameter.help or "") else ""
+        return ""
     return f"Default: ``{value}``."
 
 

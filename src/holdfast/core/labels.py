@@ -20,7 +20,7 @@ from holdfast.core.errors import InputError
 TASK_SIZES = {"pose": 6, "pointing": 5, "position": 3, "planar": 2, "planar-pose": 3}
 TASK_ROW_NAMES = ("vx", "vy", "vz", "wx", "wy", "wz")
 FAILURE_SET_SIZES = {"single": 1, "pairs": 2}  # named failure sets, and the number of joints that fail together
-FAILURES_HELP = f"{', '.join(FAILURE_SET_SIZES)}, a number of joints, or sets such as 'joint2; joint1+joint4'"
+FAILURES_HELP = f"{', '.join(FAILURE_SET_SIZES)}, the number of failed joints, or sets such as 'joint2; joint1+joint4'"
 
 _SETTING_NAME = re.compile(r"[A-Za-z_][\w.-]*")
 _UNIT_FACTORS = {"deg": math.pi / 180, "rad": 1.0, "mm": 1e-3, "m": 1.0}

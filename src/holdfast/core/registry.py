@@ -21,7 +21,7 @@ from holdfast.core.errors import HoldfastError, InputError, TaskError
 from holdfast.core.typing import P, T
 from holdfast.core.validation import check_arguments
 
-OWN_INDEX = "or a function of a file in the current folder, as module:function"
+OWN_INDEX = "or your own function in a file of the current folder, as module:function"
 _MODULE_FUNCTION = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*")
 
 

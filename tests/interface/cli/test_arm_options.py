@@ -179,7 +179,7 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
         ),
         (
             ("simulate", "panda", "--start", Q7, "--target", "500,0,400", "--task", "position"),
-            "--target: a place is 640.3 m from the base of 'panda', which is at most 1.423 m long; give metres",
+            "--target: a position is 640.3 m from the base of 'panda', which is at most 1.423 m long; give metres",
         ),
         (
             ("basins", "planar-3r", "--target", "1.5,1.5", "--lock", "1=100"),
@@ -193,12 +193,12 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
         (("recover", "panda", "--lock", "4=-120", "--at", Q7), "--lock: joint 'panda_joint4' is at -120 rad, far beyond"),
         (
             ("optimise", "panda", "--pose", "500,0,400,0,0,0", "--minimise", "torque"),
-            "--pose: a place is 640.3 m from the base",
+            "--pose: a position is 640.3 m from the base",
         ),
-        (("self-motion", "planar-3r", "--target", "nan,0.2"), "--target holds NaN or infinity;"),
+        (("self-motion", "planar-3r", "--target", "nan,0.2"), "--target contains NaN or infinity;"),
         (
             ("stationary-points", "planar-3r", "--target", "inf,1", "--lock", "2"),
-            "--target holds NaN or infinity; give finite numbers",
+            "--target contains NaN or infinity; give finite numbers",
         ),
     ],
 )

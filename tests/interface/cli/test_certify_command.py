@@ -109,7 +109,7 @@ def test_a_ceiling(cli, tmp_path):
     assert cli("certificate", "check", str(file))[0] == 0
     code, _, err = cli(*words, "--within", "3 4", "--below", "0.06")
     assert code == 2
-    assert "--within one or 7" in err
+    assert "give 7, and one or 7" in err
     assert cli(*words, "--below", "0.06")[0] == 2
     code, out, _ = cli(
         *words, "--within", "5", "--limit", "2=-50..-40", "--below", "0.07", "--halvings", "0", "--no-check", "--json"
@@ -154,17 +154,17 @@ def test_a_floor(cli, tmp_path):
     ("words", "said"),
     [
         ("reach panda --box '0.5 0' --size 0.1", "arms that move in the xy plane"),
-        ("reach planar-3r --box '1.5 0.5' --size 0.4 --lock 2=..1", "'2=..1' is no interval; write JOINT=LOW..HIGH"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --lock 2=..1", "'2=..1' is not an interval; write JOINT=LOW..HIGH"),
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --lock 2=1..0.5", "joint2 is 1 to 0.5; it must be"),
-        ("reach planar-3r --box '1.5 0.5' --size 0.4 --rotation-size 1", "give --rotation as well"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --rotation-size 1", "need --rotation, which is missing; give it as well"),
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --out none/a.certificate", "there is no folder 'none'"),
         ("reach planar-3r --box '1.5 0.5' --size 0.4 --out .", "is a folder; give the name of a file"),
-        ("reach planar-3r --box '1.5 0.5' --size 0.4 --out arm.urdf", "is there, and no certificate"),
-        ("tolerant planar-3r --box '1.5 0.5' --size 0.1 --out arm.urdf", "is there, and no certificate"),
-        ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within must not be negative"),
+        ("reach planar-3r --box '1.5 0.5' --size 0.4 --out arm.urdf", "exists and is not a certificate"),
+        ("tolerant planar-3r --box '1.5 0.5' --size 0.1 --out arm.urdf", "exists and is not a certificate"),
+        ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within is -1; a half width must be 0 or larger"),
         ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail is prismatic; bounds are for arms with revolute joints only"),
         ("structural-zero ur5-rail rail", "structural zeros are for arms with revolute joints only"),
-        ("path planar-3r motion.csv --during 1", "--during takes two parts"),
+        ("path planar-3r motion.csv --during 1", "--during has 1 numbers; give two fractions"),
     ],
 )
 def test_what_makes_no_claim_is_said_before_the_search(refused, tmp_path, monkeypatch, words, said):
@@ -263,7 +263,7 @@ def test_ranges_are_found_printed_and_certified(cli, tmp_path):
     text = page.read_text(encoding="utf-8")
     assert "The limiting joint is joint1" in text
     assert "169.9 deg" in text.replace("\N{NO-BREAK SPACE}", " ")
-    (line,) = [line for line in out.splitlines() if line.startswith("The same claim without the search: holdfast ")]
+    (line,) = [line for line in out.splitlines() if line.startswith("To prove the claim without the search: holdfast ")]
     again = shlex.split(line.partition(": holdfast ")[2])
     assert again.count("--range") == 3
     assert not {"--find-ranges", "--range=3=-2.5..2.5"} & set(again)
@@ -288,4 +288,4 @@ def test_ranges_that_are_not_found_are_said_and_nothing_is_written(cli, refused,
     assert not list(tmp_path.iterdir())
     assert "outside of its limits" in refused(*words, "--range", "1=-9..9")
     (tmp_path / "arm.urdf").write_text("<robot/>")
-    assert "is there, and no certificate" in refused(*words[:-1], tmp_path / "arm.urdf")
+    assert "exists and is not a certificate" in refused(*words[:-1], tmp_path / "arm.urdf")

@@ -106,11 +106,11 @@ def test_optimise_says_why_nothing_is_clear(cli):
     [
         (
             ("--no-clearance", "--radius", 0.1),
-            "--radius asks for a clearance of the arm from itself and --no-clearance asks for none",
+            "--radius needs the check for self-collisions that --no-clearance excludes",
         ),
-        (("--no-clearance", "--margin", 0.1), "--margin asks for"),
-        (("--no-clearance", "--capsules", "x.yaml"), "--capsules asks for"),
-        (("--radius", 0.1, "--capsules", "x.yaml"), "give one of --capsules and --radius"),
+        (("--no-clearance", "--margin", 0.1), "--margin needs the check for self-collisions"),
+        (("--no-clearance", "--capsules", "x.yaml"), "--capsules needs the check for self-collisions"),
+        (("--radius", 0.1, "--capsules", "x.yaml"), "--capsules and --radius are both given"),
         (("--radius", 0), "--radius is 0; it must be a finite number of metres above 0"),
         (("--radius", "nan"), "--radius is nan"),
         (("--margin", "inf"), "--margin is inf"),
@@ -127,7 +127,7 @@ def test_capsules_of_one_arm_are_not_those_of_another(refused, tmp_path):
     file = tmp_path / "shape.yaml"
     file.write_text("radius: 0.13\n")
     sentence = refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--capsules", file)
-    assert "--capsules is the shape of one arm and there are 2" in sentence
+    assert "--capsules describes one arm and there are 2" in sentence
     file.write_text("links: {elbow: []}\n")
     assert "has no link 'elbow'" in refused("assess", "planar-3r", "--poses", 5, "--capsules", file)
     assert "add --optimise" in refused("assess", "planar-3r", "--poses", 5, "--margin", 0.1)
@@ -135,7 +135,7 @@ def test_capsules_of_one_arm_are_not_those_of_another(refused, tmp_path):
 
 def test_failure_rates_are_of_one_arm(refused):
     sentence = refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--after-lock", "--failure-rate", "1=2")
-    assert "--failure-rate is about the joints of one arm" in sentence
+    assert "--failure-rate applies to one arm" in sentence
 
 
 BENCH = """

@@ -327,7 +327,7 @@ def test_tools_and_arms_are_compared(cli, tmp_path, monkeypatch):
     tools = ("--tool", "short=0,0,0.1,0,0,0", "--tool", "bent=0 0.02 0.1 90 0 0")
     code, text, err = cli(*arguments, *tools, "--out", out)
     assert code == 0
-    assert "every candidate is tried in the default region of 'panda-short'" in err
+    assert "every candidate is assessed in the default region of 'panda-short'" in err
     names = ["panda-short", "panda-bent", "my_arm-short", "my_arm-bent"]
     assert all(name in text for name in names)
     assert sorted(p.name for p in out.iterdir()) == sorted([*names, "comparison.json", "report.html"])
@@ -385,7 +385,7 @@ def test_report_of_a_comparison(cli, ask, refused, flat, tmp_path):
 def test_a_folder_of_one_run_is_not_used_for_a_comparison(refused, tmp_path):
     run = tmp_path / "run"
     hf.assess(arms.load("planar-3r"), hf.Region.joints([-1] * 3, [1] * 3), task="planar", poses=10, store=run)
-    assert "holds one run" in refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--out", run)
+    assert "contains a single run" in refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--out", run)
 
 
 def test_report_of_a_run_that_was_stopped(cli, ask, tmp_path):
@@ -498,7 +498,7 @@ BAD = {
     "a tool without a name": (["assess", "panda", "--tool", "0,0,0.1,0,0,0"], ["NAME=x,y,z,roll,pitch,yaw", "gripper=0"]),
     "a tool of five numbers": (["assess", "panda", "--tool", "a=0,0,0,0,0"], ["--tool a has 5 numbers", "give 6"]),
     "a tool in words": (["assess", "panda", "--tool", "a=0,0,up,0,0,0"], ["--tool a: 'up' is not a number"]),
-    "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a holds NaN"]),
+    "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a contains NaN"]),
     "a tool that climbs": (["assess", "panda", "--tool", "../a=0,0,0,0,0,0"], ["is not NAME="]),
     "one of two not redundant": (["assess", "panda", "ur5"], ["'ur5' is not redundant"]),
     "missing region": (

@@ -54,9 +54,9 @@ def test_a_run_stops_at_its_contact(ask, around):
 
 
 def test_what_has_nothing_to_touch_is_refused(refused, around, tmp_path):
-    assert "--stop-at-contact has nothing to stop at; add --cell" in refused(*CALL, "--stop-at-contact")
-    assert "--capsules is the shape of the arm that may touch a cell" in refused(*CALL, *around[2:])
-    assert "--radius is the shape" in refused(*CALL, "--radius", "0.1")
+    assert "--stop-at-contact needs objects to touch; add --cell" in refused(*CALL, "--stop-at-contact")
+    assert "--capsules describes an arm that touches an environment" in refused(*CALL, *around[2:])
+    assert "--radius describes an arm that touches" in refused(*CALL, "--radius", "0.1")
     assert "missing.yaml" in refused(*CALL, "--cell", tmp_path / "missing.yaml")
 
 

@@ -11,4 +11,4 @@ def test_a_page_with_the_arm_is_written(cli, ask, tmp_path):
     assert "Locked: joint2." in file.read_text()
     assert ask("describe", "planar-3r", "--view", str(file))["files"] == [str(file)]
     code, _, err = cli("describe", "planar-3r", "--lock", "2")
-    assert (code, err) == (2, "holdfast: --q and --lock are of the arm in the page that --view writes; give it too\n")
+    assert (code, err) == (2, "holdfast: --q and --lock need --view FILE, the page that shows them; add it\n")

@@ -53,4 +53,4 @@ def test_a_lock_is_found_by_a_self_motion(cli, tmp_path, monkeypatch):
     assert "anda_joint6 is locked: decided after" in out
     code, _, error = cli("identify", "panda")
     assert code == 2
-    assert "give --at to plan, or --record to decide" in error
+    assert "give either --at, to plan a motion, or --record, to evaluate its log" in error

@@ -48,7 +48,7 @@ def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([*POINTS, "--plot", "x.png"], "--plot draws curves"),
+        ([*POINTS, "--plot", "x.png"], "--plot shows curves"),
         ([*POINTS, "--lock", "1"], "locked gives no value for 'joint1'; give {joint: value}"),
         ([*POINTS, "--lock", "2=1"], "--lock gives joint 'joint2' twice"),
         ([*CURVES, "--lock", "1"], "locked gives no value for 'joint2' and 'joint1'"),

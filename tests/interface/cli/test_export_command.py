@@ -56,7 +56,7 @@ def test_what_is_refused(refused, tmp_path):
     assert "did you mean pseudoinverse?" in refused(*start, "--law", "pseudo-inverse")
     assert "control law 'pinv' is not known" in refused(*start, "--law", "pinv")
     assert "--language 'rust' is not known; use c" in refused(*start, "--language", "rust")
-    assert "--controller needs --monitor BOUNDS" in refused(*start, "--controller")
+    assert "--controller needs a monitor; add --monitor BOUNDS" in refused(*start, "--controller")
     assert "between 0 and 1" in refused(*start, "--law", "failure-tolerant:2")
     assert "--law 'weighted:a,1,2': 'a' is not a number" in refused(*start, "--law", "weighted:a,1,2")
     assert "cannot name a C function" in refused(*start, "--law", "pseudoinverse", "--name", "3r")

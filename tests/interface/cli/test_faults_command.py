@@ -50,9 +50,9 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
     assert "no certified safety function" in page
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
-    assert "--monitor is of an arm with bodies, motors and sensors; add --physics" in refused(*CALL, "--monitor", "bounds.json")
+    assert "--monitor needs bodies, motors and sensors; add --physics" in refused(*CALL, "--monitor", "bounds.json")
     assert "--stop-at-contact does not go with" in refused(*CALL, "--physics", "--record", "run.npz", "--stop-at-contact")
-    assert "--record is of an arm" in refused(*CALL, "--record", "run.npz")
+    assert "--record needs bodies" in refused(*CALL, "--record", "run.npz")
     assert "--lock does not go with --faults" in refused(*CALL, "--physics", "--lock", "1", "--faults", "faults.yaml")
 
 

@@ -241,11 +241,11 @@ def test_positions_need_no_orientation(ask):
         (["--minimise", "torque", "--at", IN_RADIANS, "--pose", "1,0,0"], "give one of --pose"),
         (["--minimise", "torque", "--at", IN_RADIANS, "--any-pose"], "give one of --pose"),
         (["--minimise", "torque", "--at", "1 2"], "has 2 values per configuration"),
-        (["--minimise", "torque", "--at", "1 2 3 4 5 6 nan"], "--at holds NaN"),
+        (["--minimise", "torque", "--at", "1 2 3 4 5 6 nan"], "--at contains NaN"),
         (["--minimise", "torque", "--pose", "1,2"], "--pose has 2 numbers; give x,y,z,roll,pitch,yaw"),
         (["--minimise", "torque", "--pose", "1,2,x"], "--pose: 'x' is not a number"),
-        (["--minimise", "torque", "--pose", "1,2,inf"], "--pose holds NaN or infinity"),
-        (["--minimise", "torque", "--pose", "0.5,0,0.5"], "task 'pose' asks for one"),
+        (["--minimise", "torque", "--pose", "1,2,inf"], "--pose contains NaN or infinity"),
+        (["--minimise", "torque", "--pose", "0.5,0,0.5"], "task 'pose' needs one"),
         (
             ["--minimise", "torque", "--starts", "1", "--pose", "5,0,0,0,0,0"],
             "no configuration of the pose: no solution was found",
@@ -267,7 +267,7 @@ def test_bad_input_is_one_sentence(arguments, words, refused):
 def test_a_file_without_poses(refused, tmp_path):
     file = tmp_path / "poses.csv"
     file.write_text("x,y,z\n")
-    assert "holds no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
+    assert "contains no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
     file.write_text("x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,2\n")
     assert "line 2: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
 

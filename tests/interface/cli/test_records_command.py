@@ -98,8 +98,8 @@ def test_ceilings_on_the_command_line(cli):
     for words, said in (
         (("7", "7"), "there is no redundancy"),
         (("9", "6", "4"), "the bound is 0"),
-        (("9", "seven"), "neither a number of rows nor a task"),
-        ((), "give the joints and the rows"),
+        (("9", "seven"), "neither a number of task components nor a task"),
+        ((), "give the number of joints and of task components"),
         (("--table", "--task", "7"), "nothing is stored"),
     ):
         code, _, err = cli("upper-bound", *words)
@@ -131,4 +131,4 @@ def test_the_least_singular_value(cli):
 def test_the_options_of_convergence_are_refused_for_an_index(cli):
     code, _, told = cli("design", "planar-3r", "--vary", "a1=0.5..2", "--keep-reach")
     assert code == 2
-    assert "--law and --keep-reach belong to --maximise convergence" in told
+    assert "--law and --keep-reach need --maximise convergence" in told

@@ -197,7 +197,7 @@ def test_a_failure_file_says_more_than_locks(cli, tmp_path):
     assert (code, "limits and locks are kept" in text.lower()) == (0, True)
     code, _, err = cli(*call, "--lock", "1")
     assert code == 2
-    assert "--failure and --lock both say what is locked" in err
+    assert "--failure and --lock both define the failure" in err
     code, text, _ = cli("basins", "planar-3r", "--target", "1.5,1.5", "--failure", file)
     assert code == 2
 

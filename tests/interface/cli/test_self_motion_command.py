@@ -84,8 +84,8 @@ def test_the_region_of_a_spatial_arm_is_sampled(cli, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["self-motion", "planar-3r"], "give the target by --target or by --pose, one of them"),
-        (["self-motion", "planar-3r", "--target", "1,1", "--pose", "1,1,0"], "one of them"),
+        (["self-motion", "planar-3r"], "give the target by either --target or --pose"),
+        (["self-motion", "planar-3r", "--target", "1,1", "--pose", "1,1,0"], "by either --target or --pose"),
         (["self-motion", "planar-3r", "--target", "1,1,1"], "--target has 3 numbers; task 'planar' needs 2, in m"),
         (["self-motion", "planar-2r", "--target", "1,1"], "without redundancy"),
         (["self-motion", "panda", "--pose", "0.4,0.1,0.5"], "--pose has 3 numbers; task 'pose' needs 6"),

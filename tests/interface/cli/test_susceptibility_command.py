@@ -123,8 +123,8 @@ def test_a_weights_file_that_is_no_table(refused, tmp_path):
     file = tmp_path / "w.csv"
     for content, words in (
         (b"a,b\n1\n", "'a' is not a number"),
-        (b"", "lines of equally many numbers"),
-        (b"1,2\n3\n", "lines of equally many numbers"),
+        (b"", "lines with equally many numbers"),
+        (b"1,2\n3\n", "lines with equally many numbers"),
         (b"\xff\xfe1", "is not text"),
     ):
         file.write_bytes(content)

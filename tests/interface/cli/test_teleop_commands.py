@@ -226,7 +226,7 @@ def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (["run", "--out", "new"], "take part in a browser"),
+        (["run", "--out", "new"], "for people in a browser"),
         (["run", "--simulated"], "--out"),
         (["run", "--simulated", "--operators", "0", "--out", "new"], "operators"),
         (["run", "--simulated", "--out", "new", "--protocol", "none.yaml"], "none.yaml"),

@@ -13,7 +13,7 @@ __all__ = ["main"]
 
 def main() -> None:
     """Run the program; Ctrl-C ends it within a second, with exit code 130 and one line on stderr."""
-    gc.set_threshold(50_000)  # of 700, which looks for circles again and again while modules are imported
+    gc.set_threshold(50_000)  # the default of 700 collects many times while modules are imported
     interrupt = InterruptHandler()
     try:
         from holdfast.interface.cli.program import main as run
@@ -22,7 +22,7 @@ def main() -> None:
     except SystemExit as end:
         if end.code != STOPPED_EXIT_CODE:
             raise
-    except BaseException:  # a foreign module that is interrupted while it is imported may raise what it likes
+    except BaseException:  # a third-party module that is interrupted during its import may raise any exception
         if not interrupt.was_requested:
             raise
         print("holdfast: stopped", file=sys.stderr, flush=True)

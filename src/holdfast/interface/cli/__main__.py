@@ -1,4 +1,4 @@
-"""``python -m holdfast.interface.cli``."""
+"""Entry point of ``python -m holdfast.interface.cli``."""
 
 from holdfast.interface.cli import main
 

@@ -23,26 +23,26 @@ if TYPE_CHECKING:
 REJECTED_EXIT_CODE = 1
 REFUTED_EXIT_CODE = 4
 
-LimitOption = Annotated[list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again."]
-AnglesOption = Annotated[bool, "Angles are in degrees (slides stay in m)."]
-HalvingsOption = Annotated[int, "Of each axis of the box, at most."]
-JointHalvingsOption = Annotated[int, "Of each joint, at most."]
-CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify what was found (needs holdfast-arms[certify]).")]
-CertificateOption = Annotated[Path, "Certificate to write."]
+LimitOption = Annotated[list[str] | None, "Working range JOINT=LOW..HIGH in rad or m. Repeatable. Default: the joint limits."]
+AnglesOption = Annotated[bool, "Read joint values in degrees (prismatic joints: m)."]
+HalvingsOption = Annotated[int, "Maximum bisection depth of each axis of the target box."]
+JointHalvingsOption = Annotated[int, "Maximum bisection depth of each joint interval."]
+CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify the certificate (needs holdfast-arms[certify]).")]
+CertificateOption = Annotated[Path, "File for the certificate."]
 
 
 @dataclass(frozen=True)
 class TargetBoxOptions:
     """Options for a box of targets."""
 
-    box: Annotated[str, "Centre of the targets, m: x, y, z; x, y in a plane."]
-    size: Annotated[str, "Edges of the box, m: one number, or one for each axis."]
+    box: Annotated[str, "Center of the target box in m: x,y,z; in a plane x,y."]
+    size: Annotated[str, "Edge lengths of the target box in m: one number, or one per axis."]
     rotation: Annotated[
         str | None,
-        "Roll, pitch and yaw of the tool at every target, degrees: Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
+        "Orientation at every target: roll,pitch,yaw in degrees, Rz(yaw) Ry(pitch) Rx(roll); in a plane yaw. Default: any.",
     ] = None
-    rotation_size: Annotated[str | None, "Edges of a box around --rotation, degrees: one number or three. Default: 0."] = None
-    pointing: Annotated[bool, "Of --rotation only where the tool's z axis points counts, not its turn about it."] = False
+    rotation_size: Annotated[str | None, "Edge lengths around --rotation in degrees: one number or three. Default: 0."] = None
+    pointing: Annotated[bool, "Prescribe only the direction of the tool's z axis in --rotation."] = False
 
     def claim_arguments(self) -> dict[str, Any]:
         """Return the targets as arguments of a claim."""
@@ -54,15 +54,13 @@ class TargetBoxOptions:
         }
         if self.rotation is None:
             if self.rotation_size is not None or self.pointing:
-                raise InputError(
-                    "--rotation-size is a box around --rotation, and --pointing about its z axis; give --rotation as well"
-                )
+                raise InputError("--rotation-size and --pointing need --rotation, which is missing; give it as well")
             return box
         angles = read_numbers("--rotation", self.rotation, "roll, pitch and yaw")
         edges = read_numbers("--rotation-size", self.rotation_size or "0", "one number, or three,")
         if angles.size not in (1, 3) or edges.size not in (1, angles.size) or not (edges >= 0).all():
             raise InputError(
-                "--rotation takes roll, pitch and yaw, or in a plane yaw; --rotation-size one number or as many, not negative"
+                "--rotation takes roll,pitch,yaw, or yaw in a plane; --rotation-size one number, or one each, from 0"
             )
         radians_per_degree, arguments = np.pi / 180, box | ({"task": "pointing"} if self.pointing else {})
         if angles.size == 3 and not edges.any():
@@ -73,9 +71,9 @@ class TargetBoxOptions:
 
 @dataclass(frozen=True)
 class LockedTargetBoxOptions(TargetBoxOptions):
-    """Options for a box of targets and the joint that is locked."""
+    """Options for a box of targets and a locked joint."""
 
-    lock: Annotated[str | None, "JOINT=LOW..HIGH, rad or m: where it may be locked. Default: healthy."] = None
+    lock: Annotated[str | None, "Locked joint with its possible values: JOINT=LOW..HIGH in rad or m. Default: none."] = None
     limit: LimitOption = None
     degrees: AnglesOption = False
 
@@ -88,12 +86,12 @@ class LockedTargetBoxOptions(TargetBoxOptions):
 
 @dataclass(frozen=True)
 class ConfigurationBoxOptions:
-    """Options for a box of configurations, intervals around a center or within limits, and what may happen in it."""
+    """Options for a box of configurations, around a center or within limits, and for the task and failures in it."""
 
-    around: Annotated[str | None, "Middle of the box: a value of each joint, rad. Default: limits."] = None
-    within: Annotated[str | None, "Half widths of it, rad: one number, or one for each joint."] = None
+    around: Annotated[str | None, "Center of the configuration box in rad, one value per joint. Default: the limits."] = None
+    within: Annotated[str | None, "Half widths of the configuration box in rad: one number, or one per joint."] = None
     limit: LimitOption = None
-    task: Annotated[str, "pose; planar-pose for arms in a plane."] = "pose"
+    task: Annotated[str, "Task: pose, or planar-pose for an arm that moves in a plane."] = "pose"
     degrees: AnglesOption = False
     failures: FailuresOption = "single"
 
@@ -101,14 +99,16 @@ class ConfigurationBoxOptions:
         """Return the box, failures and task as arguments of a claim."""
         box: Ranges = {}
         if (self.around is None) != (self.within is None):
-            raise InputError("--around and --within go together: the middle of the box and its half widths")
+            raise InputError("--around and --within go together; give the center of the box and its half widths")
         if self.around is not None and self.within is not None:
             center = read_numbers("--around", self.around, f"{arm.n} numbers,")
             half_widths = read_numbers("--within", self.within, f"one number, or {arm.n},")
             if len(center) != arm.n or len(half_widths) not in (1, arm.n):
-                raise InputError(f"--around needs {arm.n} numbers, and --within one or {arm.n}")
+                raise InputError(
+                    f"--around has {len(center)} numbers and --within {len(half_widths)}; give {arm.n}, and one or {arm.n}"
+                )
             if (half_widths < 0).any():
-                raise InputError("--within must not be negative: it is half widths")
+                raise InputError(f"--within is {half_widths.min():g}; a half width must be 0 or larger")
             pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
             texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
             box = read_joint_intervals(arm, "--around", texts, self.degrees)
@@ -118,13 +118,13 @@ class ConfigurationBoxOptions:
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Options for the resources of the search, and the folder from which it resumes."""
+    """Options for the resources of the search, and for the folder from which it resumes."""
 
-    time_limit: Annotated[float | None, "Time limit of search and check together, s; half of it is kept for the check."] = None
-    workers: Annotated[int, "Processes; the certificate is the same."] = 1
-    store: Annotated[
-        Path | None, "Folder that remembers what is done, so that the same command resumes a search that was stopped or killed."
-    ] = None
+    time_limit: Annotated[float | None, "Time limit in s, half of it for the check. Boxes still open then stay undecided."] = (
+        None
+    )
+    workers: Annotated[int, "Number of worker processes; does not change the certificate."] = 1
+    store: Annotated[Path | None, "Folder from which the same command resumes a search that was stopped or killed."] = None
     check: CheckOption = True
 
 
@@ -134,7 +134,7 @@ class CertificateOutput:
 
     out: CertificateOption = Path()
     plot: PlotOption = None
-    report: Annotated[Path | None, "Write a page of what is proved into this HTML file."] = None
+    report: Annotated[Path | None, "HTML file for a report of the proof."] = None
     json_: JsonOption = False
 
 
@@ -147,23 +147,23 @@ class SeedOptions:
 
 @dataclass(frozen=True)
 class UnseededProofOptions(CertificateOutput, ArmSourceOptions, SearchOptions):
-    """Options of all commands that prove a claim; those of the last class come first in the help."""
+    """Options of all commands that prove a claim; the options of the last base class come first in the help."""
 
 
 @dataclass(frozen=True)
 class ProofOptions(CertificateOutput, SeedOptions, ArmSourceOptions, SearchOptions):
-    """Options of commands that prove a claim by a search with random draws."""
+    """Options of commands that prove a claim by a randomised search."""
 
 
 def read_joint_intervals(arm: Arm, option: str, texts: list[str] | None, degrees: bool) -> Ranges:
-    """Read ``JOINT=LOW..HIGH`` as numbers, rad."""
+    """Read ``JOINT=LOW..HIGH`` as a range in rad or m by joint."""
     ends: tuple[list[str], list[str]] = [], []
     for text in texts or []:
         joint, _, span = text.rpartition("=")
         lower, separator, upper = span.partition("..")
         if not (separator and lower and upper):
             raise InputError(
-                f"{option} '{text}' is no interval; write JOINT=LOW..HIGH, for example {arm.joint_names[0]}=-0.5..0.5"
+                f"{option} '{text}' is not an interval; write JOINT=LOW..HIGH, such as {arm.joint_names[0]}=-0.5..0.5"
             )
         for end, value in zip(ends, (lower, upper), strict=True):
             end.append(f"{joint}={value}")

@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 
 
 def _check_output_and_flint(options: Options, folder: bool) -> None:
-    """Raise before any search if its certificate could not be written or checked, or would replace another file."""
+    """Raise before the search if its certificate cannot be written or checked, or would replace another file."""
     from holdfast.certificates.checks import require_flint
 
     out = options.out
     if out.is_dir() and not folder:
         raise InputError(f"--out '{out}' is a folder; give the name of a file")
     if out.is_file() and out.suffix not in ("", ".certificate", ".zip"):
-        raise InputError(f"--out '{out}' is there, and no certificate; give another name, such as {out.stem}.certificate")
+        raise InputError(f"--out '{out}' exists and is not a certificate; give another name, such as {out.stem}.certificate")
     if (out.suffix or not folder) and not out.absolute().parent.is_dir():
-        raise InputError(f"--out '{out}': there is no folder '{out.parent}'; make it, or give another path")
+        raise InputError(f"--out '{out}': there is no folder '{out.parent}'; create it, or give another path")
     if options.check:
         require_flint()
 
@@ -51,12 +51,12 @@ def prove_with_found_ranges(arm: Arm, claim_arguments: dict[str, Any], options: 
     if not working_ranges.ok:
         raise typer.Exit(NOT_MET_EXIT_CODE)
     if not options.json_:
-        typer.echo(f"The same claim without the search: {_command_with_ranges(working_ranges.options)}\n")
+        typer.echo(f"To prove the claim without the search: {_command_with_ranges(working_ranges.options)}\n")
     prove_claim(working_ranges.claim, options, ranges=working_ranges, **certify_options)
 
 
 def _command_with_ranges(ranges: Sequence[str]) -> str:
-    """Return the present command with these ranges, in degrees, in place of its own."""
+    """Return the current command with these ranges, in degrees, instead of its own."""
     retained, words = list[str](), iter(sys.argv[1:])
     for word in words:
         option, equals, _ = word.partition("=")
@@ -69,7 +69,7 @@ def _command_with_ranges(ranges: Sequence[str]) -> str:
 
 
 def format_state(search_state: SearchState) -> str:
-    """Format the progress of a search as one line: fractions are never rounded up to the whole or down to nothing."""
+    """Format the progress of a search as one line; fractions are never rounded up to the whole or down to nothing."""
     from holdfast.certificates.verifier import format_percent
 
     shares = [f"{key} {format_percent(Fraction(min(getattr(search_state, key), 1.0)))}" for key in ("proved", "refuted")]
@@ -81,17 +81,15 @@ def format_state(search_state: SearchState) -> str:
 
 
 def prove_claim(claim: Any, options: Options, ranges: WorkingRanges | None = None, **certify_options: Any) -> None:
-    """Prove a claim, write and check the certificate, draw it and print the result; ranges found for the claim are on the page
-    and in the JSON.
-    """
+    """Prove a claim, write, check and plot the certificate, and print the result; report and JSON contain the ranges found."""
     from holdfast.certificates.checks import CheckStopped
 
     _check_output_and_flint(options, len(claim.parts) > 1)
-    # Of a limited time half is kept for the check, which gets what the search leaves as well.
+    # Half of the time limit is reserved for the check, which also receives the time that the search does not use.
     start_time, search_limit = monotonic() - (ranges.seconds if ranges else 0.0), options.time_limit
     if search_limit is not None:
         search_limit = max(search_limit - (ranges.seconds if ranges else 0.0), 1e-3) / (2 if options.check else 1)
-    bar = ProgressBar(options.json_, "ten-thousandths")
+    bar = ProgressBar(options.json_, "searching")
     certify_options |= {"time_limit": search_limit, "workers": options.workers, "store": options.store}
     with stop_on_signal("") as stop, bar as progress:
         proof = hf.certify(

@@ -1,8 +1,8 @@
 """Conversion of the parameters of a command to typer options.
 
-A parameter whose type is ``Annotated[int, "What it is for."]`` is the option of its name; a second text is what the help shows
-as its default. One whose type is a dataclass is a group: the command takes the options that are its fields, at the same place,
-with the values of its default as theirs, or with those of the class if it has none.
+A parameter of type ``Annotated[int, "Help text."]`` becomes the option of the same name; the help shows a second text as the
+default. A parameter whose type is a dataclass is a group: its fields become options at the same place, with their defaults from
+the default of the parameter, or from the class if the parameter has none.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from holdfast.core.labels import is_number
 
 def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
     """Return the command with separate options, each declared by ``typer.Option``."""
-    if hasattr(command, "__signature__"):  # it is that already
+    if hasattr(command, "__signature__"):  # already converted
         return command
     options, groups = list[Parameter](), dict[str, tuple[Any, list[str]]]()
     for parameter in signature(command, eval_str=True).parameters.values():

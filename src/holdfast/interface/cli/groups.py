@@ -12,30 +12,43 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.options import JsonOption, OutOption, PlotOption
-from holdfast.interface.cli.values import read_numbers
+from holdfast.interface.cli.options import (
+    TASK_NAMES_HELP,
+    FailuresOption,
+    JsonOption,
+    LengthOption,
+    OutOption,
+    PlotOption,
+    TaskOption,
+)
+from holdfast.interface.cli.values import check_path_units, read_numbers, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
 from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
+    from holdfast.kinematics.paths import TimedPath
     from holdfast.model.arm.model import Arm
+    from holdfast.model.arm.task import Task
     from holdfast.model.arms.spec import ArmSpec
     from holdfast.model.collision.clearance import Clearance
 
-_PER_ARM = "once for all arms, or once for each in order ('-' for none)."
+ArmsArgument = Annotated[
+    list[str], typer.Argument(metavar="ARM", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
+]
+_PER_ARM = "Once for all arms, or once per arm in order ('-' for none)."
 
 
 @dataclass(frozen=True)
 class ArmSourceOptions:
     """Options that select the kinematic chain of an arm file."""
 
-    base: Annotated[str | None, "URDF, MJCF: base link or body. Default: the root."] = None
-    tip: Annotated[str | None, "URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger."] = None
+    base: Annotated[str | None, "Base link or body (URDF, MJCF). Default: the root."] = None
+    tip: Annotated[str | None, "Tip link, body or site (URDF, MJCF). Default: the only end that is not a gripper finger."] = (
+        None
+    )
     hold: Annotated[
-        list[str] | None,
-        "URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be given "
-        "again.",
+        list[str] | None, "Fixed gripper joint or external axis (URDF, MJCF): JOINT=VALUE in rad or m. Repeatable."
     ] = None
 
     def resolve_arm(self, spec: str) -> Arm:
@@ -49,13 +62,10 @@ class ArmSourceOptions:
 class ArmSourcesOptions:
     """Options that select the kinematic chains of several arms, and their names."""
 
-    base: Annotated[list[str] | None, f"URDF, MJCF: base link or body, {_PER_ARM} Default: the root."] = None
-    tip: Annotated[list[str] | None, f"URDF, MJCF: tip link, body or site, {_PER_ARM} Default: the only end."] = None
-    hold: Annotated[
-        list[str] | None,
-        f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {_PER_ARM}",
-    ] = None
-    name: Annotated[list[str] | None, "What an arm is called, once for each in order ('-' for its own)."] = None
+    base: Annotated[list[str] | None, f"Base link or body (URDF, MJCF). {_PER_ARM} Default: the root."] = None
+    tip: Annotated[list[str] | None, f"Tip link, body or site (URDF, MJCF). {_PER_ARM} Default: the only end."] = None
+    hold: Annotated[list[str] | None, f"Fixed joints (URDF, MJCF): JOINT=VALUE in rad or m, comma-separated. {_PER_ARM}"] = None
+    name: Annotated[list[str] | None, "Name of an arm in the results, once per arm in order ('-' keeps its own name)."] = None
 
     def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
         """Return the arms that ``specs`` and these options describe; see
@@ -77,6 +87,36 @@ class OutputOptions:
         print_result(result, self.json_, [*files, *write_outputs(result, self.plot, self.out)])
 
 
+@dataclass(frozen=True)
+class TaskOptions:
+    """Options for the task and the failures for which an index is computed."""
+
+    task: TaskOption = None
+    failures: FailuresOption = "single"
+    length: LengthOption = 1.0
+
+
+@dataclass(frozen=True)
+class PathOptions:
+    """Options for a tool path, with its task and duration."""
+
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
+    task: Annotated[
+        str | None,
+        f"{TASK_NAMES_HELP} Default: pose; for a path of positions, position (planar for an arm that moves in a plane).",
+    ] = None
+    duration: Annotated[float | None, "Duration of the path in s. Default: that of the path file."] = None
+
+    def load_path(self, spec: str, arm: Arm) -> tuple[TimedPath, str | Task]:
+        """Load the path, and return it with the task of the arm that ``spec`` names."""
+        from holdfast.kinematics.paths import TimedPath
+        from holdfast.model.arm.task import default_path_task
+
+        timed = TimedPath.load(self.path, self.duration)
+        check_path_units(arm, timed.path, f"path '{self.path}'")
+        return timed, read_task(self.task or default_path_task(arm, timed.path.oriented), spec, arm)
+
+
 _MOUNT_ROTATIONS = {
     "floor": np.eye(3),
     "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
@@ -88,17 +128,22 @@ _MOUNT_ROTATIONS = {
 class MountingOptions:
     """Options for the mounting, the gravity, and the payload of an arm."""
 
-    mount: Annotated[str, "floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x)."] = "floor"
-    gravity: Annotated[str | None, "Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's."] = None
+    mount: Annotated[
+        str, "Mounting: floor (as in the file), wall (rotated by 90 deg about y) or ceiling (180 deg about x)."
+    ] = "floor"
+    gravity: Annotated[str | None, "Gravity in the world frame in m/s^2, for example 0,0,-9.81. Default: that of the arm."] = (
+        None
+    )
     payload: Annotated[
-        str | None, "A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0)."
+        str | None,
+        "Point mass: kg, optionally followed by its position x,y,z in m in the frame of the last link (default 0,0,0).",
     ] = None
 
     def mount_arm(self, arm: Arm) -> Arm:
         """Return the arm with this mounting, gravity, and payload.
 
         Raises:
-            InputError: A mount that is not known, or numbers that are too many or too few.
+            InputError: An unknown mounting, or a wrong count of numbers.
         """
         from holdfast.model.arm.machine import Link
 
@@ -118,55 +163,54 @@ class MountingOptions:
         return arm
 
 
-CapsulesOption = Annotated[Path | None, "Capsule file (YAML): the shape of the arm's links."]
-RadiusOption = Annotated[float | None, "Radius, m, along the links. Default: the collision shapes, else assumed."]
-MeshesOption = Annotated[Path | None, "Folder in which meshes that the arm's file names are looked for first."]
-CellOption = Annotated[Path | None, "Cell file (YAML): objects around the arm, which it is kept clear of."]
+CapsulesOption = Annotated[Path | None, "Capsule file (YAML): collision model of the links."]
+RadiusOption = Annotated[float | None, "Radius of the links in m. Default: the collision shapes, else an assumed radius."]
+MeshesOption = Annotated[Path | None, "Folder that is searched first for the mesh files of the arm."]
+CellOption = Annotated[Path | None, "Environment file (YAML): objects that the arm must not touch."]
 
 
 @dataclass(frozen=True)
 class ClearanceOptions:
-    """Options for the clearance of an arm. With ``--no-clearance`` the cell alone counts."""
+    """Options for the clearance of an arm. With ``--no-clearance``, only the environment is checked."""
 
     clearance: Annotated[
         bool | None,
         typer.Option(
             "--clearance/--no-clearance",
-            help="Keep the arm from colliding with itself, or let it. Default: keep it when configurations are chosen, but for "
-            "an arm that moves in a plane.",
+            help="Avoid self-collisions, or allow them. Default: avoid them when configurations are chosen, except for an arm "
+            "that moves in a plane.",
         ),
     ] = None
     capsules: CapsulesOption = None
     radius: RadiusOption = None
     meshes: MeshesOption = None
-    margin: Annotated[float | None, "Smallest clearance kept, m; from objects beyond the cell's own. Default: 0."] = None
+    margin: Annotated[float | None, "Smallest clearance in m, added to the margins of the environment file. Default: 0."] = None
     cell: CellOption = None
 
     def check_consistency(self) -> None:
         """Raise for contradictory options, before any work is done.
 
         Raises:
-            InputError: Which ones, or an invalid radius or margin.
+            InputError: Two options contradict each other, or a radius or margin is invalid.
         """
         given_options = [f"--{name}" for name in ("capsules", "radius", "margin") if getattr(self, name) is not None]
         if self.clearance is False and given_options and self.cell is None:
             raise InputError(
-                f"{given_options[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give "
-                f"one of them"
+                f"{given_options[0]} needs the check for self-collisions that --no-clearance excludes; give one of them"
             )
         if self.capsules is not None and self.radius is not None:
-            raise InputError("give one of --capsules and --radius; a capsule file may hold a radius")
+            raise InputError("--capsules and --radius are both given; give one of them (a capsule file can contain a radius)")
         if self.radius is not None and not (math.isfinite(self.radius) and self.radius > 0):
             raise InputError(f"--radius is {self.radius:g}; it must be a finite number of metres above 0")
         if self.margin is not None and not math.isfinite(self.margin):
             raise InputError(f"--margin is {self.margin:g}; it must be a finite number of metres")
 
     def build_clearance(self, arm: Arm, chooses_configurations: bool = True) -> Clearance | None:
-        """Build the clearance to enforce, or return None for none; ``chooses_configurations``: the command chooses among
-        configurations.
+        """Build the clearance to enforce, or return None for none; ``chooses_configurations`` is True if the command chooses
+        among configurations.
 
         Raises:
-            InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
+            InputError: A margin that has no effect, or an environment that cannot be read or does not fit the arm.
             ArmError: A capsule file or radius that does not fit the arm.
         """
         from holdfast.model.collision.capsules import Capsules
@@ -175,7 +219,7 @@ class ClearanceOptions:
         from holdfast.model.shapes.reading import with_mesh_folder
 
         if self.margin is not None and not chooses_configurations:
-            raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
+            raise InputError("--margin applies to the best configurations, and none are requested; add --optimise")
         arm = arm if self.meshes is None else with_mesh_folder(arm, self.meshes)
         if self.capsules is not None or self.radius is not None:
             shape = Capsules.along_links(arm, self.radius) if self.capsules is None else Capsules.load(self.capsules, arm)
@@ -183,8 +227,8 @@ class ClearanceOptions:
         default_clearance = chosen_clearance(arm, self.clearance, self.cell, looks=chooses_configurations)
         if self.margin is not None and default_clearance is None:
             raise InputError(
-                f"--margin has no effect: the links of '{arm.name}' lie beside each other, so its clearance is not checked "
-                f"unless you ask for it; add --clearance or --capsules"
+                f"--margin has no effect because the clearance of '{arm.name}', an arm that moves in a plane, is not checked "
+                f"by default; add --clearance or --capsules"
             )
         return default_clearance
 
@@ -198,18 +242,18 @@ class ClearanceOptions:
 
 @dataclass(frozen=True)
 class ContactOptions:
-    """Options for objects that the arm may touch, where a command reports the contacts."""
+    """Options for objects that the arm may touch, for commands that report the contacts."""
 
-    cell: Annotated[Path | None, "Cell file (YAML): objects around the arm; what it touches is said."] = None
+    cell: Annotated[Path | None, "Environment file (YAML): objects around the arm; contacts with them are reported."] = None
     capsules: CapsulesOption = None
     radius: RadiusOption = None
     meshes: MeshesOption = None
 
     def build_contact_clearance(self, arm: Arm) -> Clearance | None:
-        """Build the clearance from the arm's shape and the cell; return None without a cell.
+        """Build the clearance from the collision model and the environment; return None without an environment.
 
         Raises:
-            InputError: A shape with nothing to touch, or a cell that cannot be read or does not fit the arm.
+            InputError: A collision model without an environment, or one that cannot be read or does not fit the arm.
             ArmError: A capsule file or radius that does not fit the arm.
         """
         clearance_options = ClearanceOptions(capsules=self.capsules, radius=self.radius, meshes=self.meshes, cell=self.cell)
@@ -217,6 +261,6 @@ class ContactOptions:
         if self.cell is None:
             for name in ("capsules", "radius", "meshes"):
                 if getattr(self, name) is not None:
-                    raise InputError(f"--{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
+                    raise InputError(f"--{name} describes an arm that touches an environment, and there is none; add --cell")
             return None
         return replace(clearance_options, clearance=False).build_clearance(arm, chooses_configurations=False)

@@ -1,7 +1,7 @@
-"""Handling of Ctrl-C, which ends the program within a second, whatever it is computing.
+"""Handling of Ctrl-C, which ends the program within a second during any computation.
 
-``KeyboardInterrupt`` alone does not: it waits until a compiler or a kernel returns to Python, foreign modules swallow it
-while they are imported, and at the end Python waits for threads that compute what nobody wants any more.
+``KeyboardInterrupt`` alone is not sufficient: it waits until a compiler or a kernel returns to Python, third-party modules
+suppress it during their import, and at exit Python waits for threads whose results are no longer needed.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ import time
 from typing import Any, NoReturn
 
 STOPPED_EXIT_CODE = 130
-_GRACE_PERIOD_S = 0.8  # s, to put things in order
+_GRACE_PERIOD_S = 0.8  # s, for cleaning up
 
 
 class InterruptHandler:
     """Handler that raises ``KeyboardInterrupt`` at Ctrl-C, and ends the process if it still runs shortly afterwards.
 
-    What puts a handler of its own in place (a study, a server) is left alone, as is a program whose starter has Ctrl-C ignored.
+    Code that installs its own handler (a study, a server) keeps it, and a parent process that ignores Ctrl-C is respected.
 
     Attributes:
-        was_requested: There was a Ctrl-C.
+        was_requested: True after a Ctrl-C.
     """
 
     def __init__(self) -> None:
@@ -47,7 +47,7 @@ class InterruptHandler:
         raise KeyboardInterrupt
 
     def _filter_unraisable(self, unraisable: Any) -> None:
-        if not self.was_requested:  # otherwise it is our own exception, swallowed by a destructor
+        if not self.was_requested:  # otherwise it is the KeyboardInterrupt, raised in a destructor
             sys.__unraisablehook__(unraisable)
 
     def _wait_for_signal(self) -> None:

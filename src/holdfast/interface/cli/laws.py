@@ -1,32 +1,58 @@
-"""Options for a control law, its target, and the locked joints, shared by several commands."""
+"""Options for the control law, the target, and the locked joints, shared by several commands."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from holdfast.core.labels import is_count
 from holdfast.core.registry import LAW_REGISTRY
-from holdfast.interface.cli.options import TARGET_HELP
+from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.options import TARGET_HELP, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_target, read_task
 
 if TYPE_CHECKING:
     from holdfast.control.laws.law import Law
-    from holdfast.interface.cli.groups import ArmSourceOptions
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
 
 TargetOption = Annotated[str, TARGET_HELP]
-TargetsOption = Annotated[str, f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200)."]
-LAW_HELP = f"{LAW_REGISTRY.usage}."
-LawOption = Annotated[str, LAW_HELP]
+OptionalTargetOption = Annotated[str | None, TARGET_HELP]
+TargetsOption = Annotated[str, f"{TARGET_HELP} Several targets: a lattice (grid:12) or random positions (random:200)."]
 LawsOption = Annotated[
-    list[str] | None, f"A law to compare: {LAW_HELP} May be given again.", "pseudoinverse and failure-tolerant"
+    list[str] | None, f"Control law: {LAW_REGISTRY.usage}. Repeatable.", "pseudoinverse and failure-tolerant"
 ]
-GainOption = Annotated[float, "Feedback gain Ke, per s or per cycle."]
-SpeedLimitOption = Annotated[float | None, "Of the end effector, m/s or m per cycle. Default: none."]
-CyclesOption = Annotated[bool, "Discrete control cycles in place of continuous time."]
-TimeLimitOption = Annotated[float | None, "Time limit, s or cycles.", "3000/gain s, or 1000 cycles"]
-LockDegreesOption = Annotated[bool, "--lock is in degrees (prismatic joints stay in m)."]
+LockDegreesOption = Annotated[bool, "Read --lock in degrees (prismatic joints: m)."]
+
+
+@dataclass(frozen=True)
+class LawOptions(ArmSourceOptions):
+    """Options for the control law of an arm, and its task."""
+
+    law: Annotated[str, f"Control law: {LAW_REGISTRY.usage}."] = "pseudoinverse"
+    task: TaskOption = None
+
+    def read_law(self, arm: str, **settings: Any) -> Law:
+        """Create the law for the arm that ``arm`` names."""
+        model = self.resolve_arm(arm)
+        return read_law(self.law, model, read_task(self.task, arm, model), **settings)
+
+
+@dataclass(frozen=True)
+class SeededLawOptions(LawOptions):
+    """Options for a control law, and the seed."""
+
+    seed: SeedOption = 0
+
+
+@dataclass(frozen=True)
+class ClosedLoopOptions:
+    """Options for the simulation of a control law."""
+
+    gain: Annotated[float, "Feedback gain Ke in 1/s, or per cycle with --cycles."] = 1.0
+    speed_limit: Annotated[float | None, "Speed limit of the end effector in m/s, or m per cycle. Default: none."] = None
+    cycles: Annotated[bool, "Simulate discrete control cycles instead of continuous time."] = False
+    time_limit: Annotated[float | None, "Time limit in s, or in cycles with --cycles.", "3000/gain s, or 1000 cycles"] = None
 
 
 def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **settings: Any) -> Law:
@@ -41,14 +67,8 @@ def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, *
     return [read_law(label, arm, common_task, **settings) for label in labels or ["pseudoinverse", "failure-tolerant"]]
 
 
-def read_law_for_arm(label: str, arm: str, task: str | None, chain: ArmSourceOptions, **settings: Any) -> Law:
-    """Create the law that --law, ARM, --task and the options of the kinematic chain describe."""
-    model = chain.resolve_arm(arm)
-    return read_law(label, model, read_task(task, arm, model), **settings)
-
-
 def read_position_sampling(text: str) -> str | int:
-    """Read the text of a lattice, or a number of random positions."""
+    """Read a lattice, or a number of random positions."""
     text = text.removeprefix("random:")
     return int(text) if is_count(text) else text
 

@@ -1,4 +1,4 @@
-"""Layout of the help of a command: paragraphs, examples to copy, and options in thematic panels."""
+"""Layout of the help of a command: paragraphs, examples, and options in panels by topic."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from typer.core import TyperCommand, TyperGroup
 
 from holdfast.interface.cli.completion import offer_names
 
-_MIN_OPTIONS_FOR_PANELS = 8  # options that stay in one panel
+_MIN_OPTIONS_FOR_PANELS = 8  # without --help
 _PANEL_OPTIONS = {
-    "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance cell",
-    "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
-    "local-searches check-poses designs chunk rotation spacing metric",
-    "Output": "out json csv parquet plot at-least",
+    "Arm and environment": "base tip hold name tool mount gravity payload capsules radius meshes margin clearance cell",
+    "Computation": "seed poses samples sampling restarts starts tries configurations points angles method time-limit threads "
+    "workers local-searches check-poses designs chunk halvings store spacing metric",
+    "Output": "out json csv parquet plot report at-least",
 }
-_PANEL_BY_OPTION = {f"--{name}": choose_panel for choose_panel, names in _PANEL_OPTIONS.items() for name in names.split()}
+_OTHER_MEANINGS = {("optimise", "--poses"), ("export", "--name")}  # commands whose option has no place in its panel
+_PANEL_BY_OPTION = {f"--{name}": panel for panel, names in _PANEL_OPTIONS.items() for name in names.split()}
 _TYPE_LABELS = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
 
 
 class PanelCommand(TyperCommand):
-    """Command with its options in panels; it lays out its help on request, and supports shell completion."""
+    """Command with its options in panels; lays out its help on request, and supports shell completion."""
 
     def __init__(self, name: str | None, **settings: Any) -> None:
         super().__init__(name, **settings)
@@ -36,7 +37,7 @@ class PanelCommand(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the arguments like typer, after attaching name completion if a shell requests it."""
-        if ctx.resilient_parsing:  # a shell asks
+        if ctx.resilient_parsing:  # a shell requests completion
             offer_names(list(self.params))
         return super().parse_args(ctx, args)
 
@@ -51,10 +52,10 @@ class PanelGroup(TyperGroup):
 
 
 def choose_panel(option: Any, command: Any) -> str | None:
-    """Choose the panel of an option by its topic, for commands with many options."""
-    # And --help.
+    """Return the panel of an option, for commands with many options."""
     has_panels = sum(parameter.param_type_name == "option" for parameter in command.params) >= _MIN_OPTIONS_FOR_PANELS
-    return _PANEL_BY_OPTION.get(option.opts[0]) if has_panels else None
+    belongs = has_panels and (command.name, option.opts[0]) not in _OTHER_MEANINGS
+    return _PANEL_BY_OPTION.get(option.opts[0]) if belongs else None
 
 
 def type_label(option: Any) -> str:

@@ -6,8 +6,14 @@ from typing import Annotated
 
 from holdfast.core.registry import INDEX_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REGISTRY
 
-IndexOption = Annotated[str, f"{INDEX_REGISTRY.usage}; {OWN_INDEX}."]
+IndexOption = Annotated[str, f"Index: {INDEX_REGISTRY.usage}; {OWN_INDEX}."]
 OBJECTIVES_HELP = (
-    f"{', '.join(SUSCEPTIBILITY_REGISTRY)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, "
-    f"torque:joint2 for one joint alone), or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}, {OWN_INDEX}"
+    f"{', '.join(SUSCEPTIBILITY_REGISTRY)} (with optional weights: torque:effort, torque:worst-case, torque:0,1,0, or "
+    f"torque:joint2 for a single joint); or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}; {OWN_INDEX}"
 )
+MinimiseOption = Annotated[
+    str | None, f"Objective to minimise: {OBJECTIVES_HELP}; or a sum such as '0.5*torque:effort + 0.1*acceleration'."
+]
+MaximiseOption = Annotated[
+    str | None, "Objective to maximise, as for --minimise. Maximising a torque or minimising an index gives the worst case."
+]

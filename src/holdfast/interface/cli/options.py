@@ -9,35 +9,34 @@ import typer
 
 from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
 
-NOT_MET_EXIT_CODE = 3  # exit code: it worked, and the answer is that not everything asked for is met
+NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the user is not met
 
-ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).")]
-FailureOption = Annotated[Path | None, "What is locked, has lost range or is slow (YAML file), for --lock."]
-JsonOption = Annotated[bool, "Print JSON for machines."]
-TASK_HELP = f"{', '.join(TASK_SIZES)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
+ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table (YAML).")]
+ArmOption = Annotated[str, "Arm: built-in name, URDF or MJCF file, or DH table (YAML)."]
+FailureOption = Annotated[Path | None, "Failure file (YAML): locked, range-limited or slowed joints. Use instead of --lock."]
+JsonOption = Annotated[bool, "Print the result as JSON."]
+TASK_NAMES_HELP = f"Task: {', '.join(TASK_SIZES)}, or components such as vx,vy,wz or tool:vz."
+TASK_HELP = f"{TASK_NAMES_HELP} Default: the task of a built-in arm, planar for an arm that moves in a plane, else pose."
 TaskOption = Annotated[str | None, TASK_HELP]
 TARGET_HELP = (
-    "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z,roll,pitch,yaw (m and degrees, "
-    "as URDF) or x,y,z and a quaternion x,y,z,w."
+    "Target of the tool: one number in m per task component, or, for a task with orientation, x,y,z,roll,pitch,yaw (m and "
+    "degrees, URDF convention) or x,y,z and a quaternion x,y,z,w."
 )
-LengthOption = Annotated[float, "Characteristic length, m, that divides linear rows."]
-QOption = Annotated[list[str], "Joint values, rad and m, separated by commas or spaces. May be given again."]
-DegreesOption = Annotated[bool, "--q is in degrees (prismatic joints stay in m)."]
-StartDegreesOption = Annotated[bool, "--start is in degrees (prismatic joints stay in m)."]
-PathArgument = Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.")]
-PathTaskOption = Annotated[
-    str | None,
-    f"{', '.join(TASK_SIZES)}, or rows such as vx,vy,wz. Default: position for a path of positions (planar if the arm "
-    "moves in a plane), else pose.",
-]
+LengthOption = Annotated[float, "Characteristic length in m; divides the linear components of the task."]
+QOption = Annotated[list[str], "Joint values in rad and m, separated by commas or spaces. Repeatable."]
+AtOption = Annotated[str | None, "Current joint values in rad and m, separated by commas or spaces."]
+AtDegreesOption = Annotated[bool, "Read --at in degrees (prismatic joints: m)."]
+DegreesOption = Annotated[bool, "Read --q in degrees (prismatic joints: m)."]
+StartDegreesOption = Annotated[bool, "Read --start in degrees (prismatic joints: m)."]
 KeepOption = Annotated[
     list[str] | None,
-    "upright:10deg, rail:0,0,1 or plane:0,0,1 (rad and m, or with deg, mm behind): kept along the whole motion. "
-    "May be given again.",
+    "Constraint along the whole motion: upright:10deg, rail:0,0,1 or plane:0,0,1. Numbers are in rad and m, or have a unit "
+    "(deg, rad, mm, m). Repeatable.",
 ]
-DurationOption = Annotated[float | None, "Duration, s. Default: the file's."]
-MotionCsvOption = Annotated[Path | None, "Write the motion to this file."]
-PlotOption = Annotated[Path | None, "Draw into this PNG file."]
+MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
+PlotOption = Annotated[Path | None, "PNG file for the figure."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]
-SeedOption = Annotated[int, "Seed of all random draws."]
-FailuresOption = Annotated[str, f"{FAILURES_HELP} or '2; 1+4'."]
+RegionOption = Annotated[Path | None, "Region file (YAML). Default: a region around the home of the (first) arm."]
+ThreadsOption = Annotated[int | None, "Number of threads. Default: all processors."]
+SeedOption = Annotated[int, "Seed of all random numbers."]
+FailuresOption = Annotated[str, f"Failures that may occur: {FAILURES_HELP} or '2; 1+4'."]

@@ -22,14 +22,14 @@ from holdfast.interface.cli.declaration import as_typer
 from holdfast.interface.cli.interrupt import STOPPED_EXIT_CODE
 from holdfast.interface.cli.layout import PanelCommand, PanelGroup
 
-PANEL_TITLES = {  # of the help, in its order, by the folder
+PANEL_TITLES = {  # panels of the help in their order, by the folder of their commands
     "start": "Start here",
     "before": "Prepare for a failure",
     "unnoticed": "Undetected failures: simulate and diagnose",
     "known": "Known failures: recover",
     "larger": "Studies, experiments, export",
 }
-COMMAND_MODULES = {  # the module of each, in the order of the help; what it defines is `command`, or stands after the colon
+COMMAND_MODULES = {  # module of each command, in the order of the help; it defines `command`, or the name after the colon
     "assess": "start.assess",
     "studio": "start.studio",
     "describe": "start.arms:describe",
@@ -120,7 +120,7 @@ def _handle_root_options(
 
 
 class _PipeSafeOutput(FileIO):
-    """Standard output that drops text after its reader has ended, so that the command still ends with its own exit code."""
+    """Standard output that drops text after its reader has ended, so that the command keeps its own exit code."""
 
     def write(self, content: Any, /) -> int:
         """Write to the output, or discard the content once its reader has ended."""
@@ -132,9 +132,9 @@ class _PipeSafeOutput(FileIO):
 
 
 def main() -> None:
-    """Run the program: exit code 0 on success, 2 and one sentence on stderr after an error, 130 after Ctrl-C."""
+    """Run the program; the exit code is 0 on success, 2 after an error (with a message on stderr), and 130 after Ctrl-C."""
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # where an encoding has few characters, as that of files on Windows
+        if isinstance(stream, TextIOWrapper):  # for encodings with few characters, such as that of files on Windows
             stream.reconfigure(errors="backslashreplace")
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout is sys.__stdout__:
         original_output = sys.stdout
@@ -149,38 +149,36 @@ def main() -> None:
         exit_code = build_app(find_command_name(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
         _exit_with_error(f"{error}{_suggest_tip(error)}")
-    except TyperException as error:  # an unknown command or option, a missing argument
+    except TyperException as error:  # for example an unknown command or a missing argument
         context = getattr(error, "ctx", None)
         hint = f" (see '{context.command_path} --help')" if context is not None else ""
         message = getattr(error, "format_message", error.__str__)().rstrip(".")
-        if not message:  # no arguments: the help was shown
+        if not message:  # without arguments, typer has shown the help
             sys.exit(2)
         _exit_with_error(message + (_format_renaming_hint(message) or hint))
     except (KeyboardInterrupt, typer.Abort):
         _exit_stopped()
     except ValueError as error:
-        if type(error).__name__ != "LinAlgError":  # known by name, so that numpy is not imported for every command
+        if type(error).__name__ != "LinAlgError":  # compared by name, so that not every command imports numpy
             raise
         from holdfast.core.validation import factorisation_message
 
         _exit_with_error(factorisation_message(error))
     except MemoryError as error:
-        _exit_with_error(f"there is not enough memory ({error}); ask for less at once")
-    except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
+        _exit_with_error(f"there is not enough memory ({error}); compute less at once")
+    except SystemExit:  # raised by typer for a closed pipe, for example after head
         sys.exit(0)
     except OSError as error:
-        # What is left in the buffer would be written again at the end, and Python 3.13 exits with 120 when that fails.
+        # Python would write the rest of the buffer again at exit, and Python 3.13 exits with 120 if that fails.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         _exit_with_error(f"cannot write the output: {error.strerror or error}")
-    if exit_code == STOPPED_EXIT_CODE:  # typer's answer to Ctrl-C
+    if exit_code == STOPPED_EXIT_CODE:  # returned by typer after Ctrl-C
         _exit_stopped()
     sys.exit(exit_code if isinstance(exit_code, int) else 0)
 
 
 def _format_renaming_hint(message: str) -> str:
-    """Return the clause that gives the new name of a command or option that the error message calls unknown; empty if it was
-    never known.
-    """
+    """Return the clause with the new name of a command or option that the error message calls unknown, or an empty text."""
     unknown = re.search(r"No such (?:command|option):? '?([\w-]+)", message)
     name = unknown.group(1) if unknown else ""
     if name in REPOSITORY_COMMANDS:
@@ -195,7 +193,7 @@ def _exit_stopped() -> None:
 
 
 def _suggest_tip(error: HoldfastError) -> str:
-    """Return the same command with a tip added, if one is missing and the command names one file of an arm."""
+    """Return the command with an added --tip, if it is missing and the command names a single arm file."""
     arguments = sys.argv[1:]
     files = [position for position, word in enumerate(arguments) if word.lower().endswith((".urdf", ".xml", ".mjcf"))]
     if not isinstance(error, ArmError) or error.tip is None or len(files) != 1:
@@ -206,7 +204,7 @@ def _suggest_tip(error: HoldfastError) -> str:
 
 def _exit_with_error(message: str) -> None:
     text = f"holdfast: {message}"
-    if sys.stderr.isatty():  # a terminal would cut the last word of a line in two
+    if sys.stderr.isatty():  # a terminal would break a line inside a word
         text = fill(text, get_terminal_size().columns, break_long_words=False, break_on_hyphens=False)
     typer.echo(text, err=True)
     sys.exit(2)

@@ -15,7 +15,7 @@ class ProgressBar:
         self._label = label
         self._quiet = quiet or not sys.stderr.isatty()
         self._bar: Any = None
-        self.set_text: Callable[[str], None] = lambda text: None  # in place of the label
+        self.set_text: Callable[[str], None] = lambda text: None  # replaces the label
 
     def __enter__(self) -> Any:
         if self._quiet:
@@ -38,7 +38,7 @@ class ProgressBar:
 
 @contextmanager
 def show_status(text: str) -> Iterator[Callable[[str], None]]:
-    """Show the current activity during the block, which gets a function that changes the text."""
+    """Show the current activity during the block, and yield a function that changes the text."""
     from rich.console import Console
     from rich.markup import escape
 

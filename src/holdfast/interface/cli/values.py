@@ -58,10 +58,10 @@ def read_locks(
         from holdfast.model.failure_modes import Degraded
 
         if texts:
-            raise InputError("--failure and --lock both say what is locked; give one of them")
+            raise InputError("--failure and --lock both define the failure; give one of them")
         return Degraded.load(failure, arm)
     if not texts:
-        raise InputError(f"give --lock, the joint that is locked, for example --lock {arm.joint_names[0]}, or --failure")
+        raise InputError(f"no joint is locked; give --lock JOINT, for example --lock {arm.joint_names[0]}, or --failure")
     locked_values = read_numbers_by_joint(arm, texts, "--lock", degrees, optional_value)
     known_values = {name: value for name, value in locked_values.items() if value is not None}
     check_joint_units(
@@ -104,7 +104,7 @@ def check_position_units(arm: Arm, positions: NDArray[np.float64], option: str) 
     """Raise for positions (3,) or (N, 3), m, so far from an arm that they must be millimetres.
 
     Raises:
-        InputError: A place is more than ten times as far from the base as the arm, stretched out, could be long.
+        InputError: A position is more than ten times as far from the base as the stretched arm can reach.
     """
     strokes = sum(max(abs(joint.lower), abs(joint.upper)) for joint in arm.joints if joint.prismatic)
     transforms = [*(joint.origin for joint in arm.joints), arm.tool]
@@ -112,7 +112,7 @@ def check_position_units(arm: Arm, positions: NDArray[np.float64], option: str) 
     distance = float(np.linalg.norm(np.atleast_2d(positions) - arm.base[:3, 3], axis=1).max(initial=0.0))
     if np.isfinite(longest) and distance > 10 * longest:
         raise InputError(
-            f"{option}: a place is {distance:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
+            f"{option}: a position is {distance:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
             "give metres"
         )
 
@@ -127,7 +127,7 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
     q = read_numbers(option, text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
-        raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
+        raise InputError(f"{option} contains NaN or infinity; give {arm.n} finite numbers")
     q = np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
     check_joint_units(arm.joints, q.tolist(), option, degrees)
     return q
@@ -147,7 +147,7 @@ def read_weights(option: str, text: str) -> Any:
         raise InputError(f"{option}: {file} is not text; give numbers separated by commas") from error
     rows = [read_numbers(f"{option} {file}", line, "numbers") for line in lines if line.strip()]
     if len({len(row) for row in rows}) != 1:
-        raise InputError(f"{option}: {file} must hold lines of equally many numbers: one per joint, or a square matrix")
+        raise InputError(f"{option}: {file} must contain lines with equally many numbers: one per joint, or a square matrix")
     table = np.array(rows)
     return table.ravel() if 1 in table.shape else table
 
@@ -155,7 +155,7 @@ def read_weights(option: str, text: str) -> Any:
 def read_objective(arm: Arm, option: str, text: str, task: str | Task, failures: FailureSpec = "single") -> Objective:
     """Read ``--minimise`` or ``--maximise``, such as ``0.5*torque:effort + 0.1*acceleration``, as an argument of the library.
 
-    A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
+    A summand is the label of an index or a susceptibility; a susceptibility may have a single joint after the colon.
     """
     from holdfast.kinematics.indices.objective import NegatedObjective, WeightedSum
 
@@ -191,9 +191,7 @@ def _make_objective_term(
     objective: Objective
     if name in SUSCEPTIBILITY_REGISTRY:
         if failures != "single":
-            raise InputError(
-                f"--failures is for an index, not for {name}; give one joint as {name}:joint2, or leave --failures out"
-            )
+            raise InputError(f"--failures is for an index, not for {name}; give one joint as {name}:joint2, or leave it out")
         weight_options = {} if weights is None else {"weights": _read_joint_weights(arm, option, name, weights)}
         objective = SUSCEPTIBILITY_REGISTRY.make(name, arm, option=option, **weight_options)
     elif INDEX_REGISTRY.covers(label := name if weights is None else f"{name}:{weights}"):
@@ -233,7 +231,7 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
     if numbers.size not in (3, 6):
         raise InputError(f"{option} has {numbers.size} numbers; give x,y,z,roll,pitch,yaw (m and degrees), or x,y,z alone")
     if not np.isfinite(numbers).all():
-        raise InputError(f"{option} holds NaN or infinity; give finite numbers")
+        raise InputError(f"{option} contains NaN or infinity; give finite numbers")
     check_position_units(arm, numbers[:3], option)
     if numbers.size == 3:
         return numbers
@@ -244,12 +242,10 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
 
 
 def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
-    """Read ``--target`` as an argument of the library: the task's rows of the tool point, or a pose (4, 4) by angles or by a
-    quaternion.
-    """
+    """Read ``--target`` as an argument of the library: one value per task component, or a pose (4, 4)."""
     values = read_numbers("--target", text, "numbers")
     if not np.isfinite(values).all():
-        raise InputError("--target holds NaN or infinity; give finite numbers")
+        raise InputError("--target contains NaN or infinity; give finite numbers")
     if values.size == 6:
         return read_pose(arm, "--target", text)
     if values.size == 7:

@@ -57,7 +57,7 @@ def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
         motion_files = [file / name for name in names if (file / name).is_file()]
         if not motion_files:
             raise InputError(
-                f"folder '{file}' holds no motion; give one that follow, simulate, recover or endure wrote with --out"
+                f"folder '{file}' contains no motion; give one that follow, simulate, recover or plan-motion wrote with --out"
             )
         file = motion_files[0]
     table = read_joint_table(arm, file, "motion", TIME_COLUMNS[0])

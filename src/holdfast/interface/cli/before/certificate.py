@@ -15,27 +15,23 @@ from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import JsonOption
 from holdfast.interface.presentation.results import print_result
 
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate, or the folder that holds it.")]
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Certificate file, or the folder that contains it.")]
 
-command = typer.Typer(
-    name="certificate",
-    help="Verify or display certificates.",
-    no_args_is_help=True,
-)
+command = typer.Typer(name="certificate", help="Verify or display certificates.", no_args_is_help=True)
 
 
 @command.command()
 def check(
     file: FileArgument,
-    sample: Annotated[int | None, "Only so many cells, drawn at random."] = None,
-    workers: Annotated[int, "Processes."] = 1,
-    arm: Annotated[str | None, "The arm that it must be about, as ARM elsewhere."] = None,
+    sample: Annotated[int | None, "Number of randomly chosen boxes to check. Default: all."] = None,
+    workers: Annotated[int, "Number of worker processes."] = 1,
+    arm: Annotated[str | None, "Arm that the certificate must be about: built-in name or arm file. Default: any."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Verify a certificate with the independent checker (ball arithmetic).
 
-    The exit code is 1 if a cell is rejected, 2 if the file cannot be checked or is about another arm.
+    Exit code: 0 if every box is accepted, 1 if one is rejected, 2 if the file cannot be checked or is about another arm.
 
     Example: holdfast certificate check reach.certificate
     """
@@ -73,9 +69,9 @@ def show(file: FileArgument) -> None:
     )
     typer.echo(f"Not verified{proved_part}: {document['claim']}")
     typer.echo(
-        f"A {document['kind']} of {arm}, whose file has {len(document['arm']['joints'])} joints; digest {document['digest']}."
+        f"A {document['kind']} of {arm}, with {len(document['arm']['joints'])} joints in the file; digest {document['digest']}."
     )
     claimed_parts = [
         f"{state} {verifier.format_percent(volume, up=state == 'undecided')}" for state, volume in volumes.items() if volume
     ]
-    typer.echo(f"Claimed, not checked: {', '.join(claimed_parts)}; {document['made_by']}.")
+    typer.echo(f"Claimed fractions, not checked: {', '.join(claimed_parts)}. Made by {document['made_by']}.")

@@ -17,6 +17,7 @@ from holdfast.interface.cli.certify_options import (
     ConfigurationBoxOptions,
     HalvingsOption,
     JointHalvingsOption,
+    LimitOption,
     LockedTargetBoxOptions,
     ProofOptions,
     TargetBoxOptions,
@@ -37,7 +38,7 @@ command = typer.Typer(
 
 @dataclass(frozen=True)
 class _BundleOptions(ProofOptions):
-    out: Annotated[Path, "Folder for the certificate and those of its parts; or FILE.zip."] = Path()
+    out: Annotated[Path, "Folder, or FILE.zip, for the certificate and those of its parts."] = Path()
 
 
 @command.command()
@@ -49,8 +50,8 @@ def reach(
 ) -> None:
     """Prove that every target in a box is reachable, with or without a locked joint.
 
-    The exit code is 0 if all is proved, 3 if something is undecided, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far; with --store the same command resumes.
+    Exit code: 0 if everything is proved, 3 if a part is undecided, 1 if the check rejects a part. Ctrl-C writes the part that
+    is proved; with --store, the same command resumes the search.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -63,13 +64,13 @@ def reach(
 def out_of_reach(
     arm: ArmArgument,
     targets: LockedTargetBoxOptions,
-    halvings: Annotated[int, "Of each joint and axis of the box, at most."] = 16,
+    halvings: Annotated[int, "Maximum bisection depth of each joint interval and each axis of the target box."] = 16,
     options: ProofOptions = ProofOptions(out=Path("out-of-reach.certificate")),
 ) -> None:
     """Prove that no target in a box is reachable, with or without a locked joint.
 
-    The exit code is 0 if all is proved, 3 if something is undecided, 4 if a configuration is found whose tool is in the box, 1
-    if the check rejects something. Ctrl-C writes what is proved so far; with --store the same command resumes.
+    Exit code: 0 if everything is proved, 3 if a part is undecided, 4 if a configuration is found whose tool is in the box, 1 if
+    the check rejects a part. Ctrl-C writes the part that is proved; with --store, the same command resumes the search.
 
     Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
     """
@@ -82,13 +83,11 @@ def out_of_reach(
 def tolerant(
     arm: ArmArgument,
     targets: TargetBoxOptions,
-    ranges: Annotated[Path | None, "Working ranges (YAML file): JOINT: [LOW, HIGH], rad or m."] = None,
-    range_: Annotated[
-        list[str] | None, "JOINT=LOW..HIGH, rad or m: a working range. May be given again. Default: the joint's limits."
-    ] = None,
+    ranges: Annotated[Path | None, "File of working ranges (YAML): JOINT: [LOW, HIGH] in rad or m."] = None,
+    range_: LimitOption = None,
     degrees: AnglesOption = False,
     find_ranges: Annotated[
-        bool, "Find wide working ranges by samples, within those that are given, and prove the claim with them."
+        bool, "Search for wide working ranges by sampling, within the given ones, and prove the claim with them."
     ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
@@ -96,8 +95,8 @@ def tolerant(
 ) -> None:
     """Prove that every target in a box stays reachable after any single lock.
 
-    The exit code is 0 if all is proved, 3 if something is undecided or no ranges are found, 1 if the check rejects something.
-    Ctrl-C writes what is proved so far; with --store the same command resumes.
+    Exit code: 0 if everything is proved, 3 if a part is undecided or no ranges are found, 1 if the check rejects a part.
+    Ctrl-C writes the part that is proved; with --store, the same command resumes the search.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
@@ -117,16 +116,16 @@ def tolerant(
 @command.command()
 def ceiling(
     arm: ArmArgument,
-    below: Annotated[float, "Threshold, between 0 and 1."],
+    below: Annotated[float, "Upper bound to prove, between 0 and 1."],
     configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
     halvings: JointHalvingsOption = 16,
     options: ProofOptions = ProofOptions(out=Path("ceiling.certificate")),
 ) -> None:
     """Prove an upper bound on relative manipulability over a box of configurations.
 
-    The best configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something is
-    undecided, 4 if that configuration is above the threshold, 1 if the check rejects something. Ctrl-C writes what is proved
-    so far; with --store the same command resumes.
+    The command also prints the best configuration that it finds in the box. Exit code: 0 if everything is proved, 3 if a part
+    is undecided, 4 if that configuration is above the bound, 1 if the check rejects a part. Ctrl-C writes the part that is
+    proved; with --store, the same command resumes the search.
 
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
@@ -138,16 +137,16 @@ def ceiling(
 @command.command()
 def floor(
     arm: ArmArgument,
-    above: Annotated[float, "Threshold, between 0 and 1."],
+    above: Annotated[float, "Lower bound to prove, between 0 and 1."],
     configurations: ConfigurationBoxOptions = ConfigurationBoxOptions(),
     halvings: JointHalvingsOption = 16,
     options: ProofOptions = ProofOptions(out=Path("floor.certificate")),
 ) -> None:
     """Prove a lower bound on relative manipulability over a box of configurations.
 
-    The worst configuration that is found in the box is printed beside it. The exit code is 0 if all is proved, 3 if something
-    is undecided, 4 if that configuration is below the threshold, 1 if the check rejects something. Ctrl-C writes what is
-    proved so far; with --store the same command resumes.
+    The command also prints the worst configuration that it finds in the box. Exit code: 0 if everything is proved, 3 if a part
+    is undecided, 4 if that configuration is below the bound, 1 if the check rejects a part. Ctrl-C writes the part that is
+    proved; with --store, the same command resumes the search.
 
     Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
     """
@@ -159,20 +158,20 @@ def floor(
 @command.command()
 def path(
     arm: ArmArgument,
-    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with a column for each joint.")],
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with one column per joint.")],
     failures: FailuresOption = "single",
-    during: Annotated[str, "When a joint may lock: two parts of the motion."] = "0 1",
-    tube: Annotated[str, "How far off the path may be, m, and rad where the tool turns; or one number for both."] = "0",
-    task: Annotated[str, "What follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
-    segments: Annotated[int | None, "Use so many of the motion. Default: all."] = None,
-    halvings: Annotated[int, "Of intervals of lock instants, at most."] = 6,
+    during: Annotated[str, "Interval in which a joint may lock: two fractions of the motion."] = "0 1",
+    tube: Annotated[str, "Allowed deviation from the path: m, and rad for a task with orientation; or one for both."] = "0",
+    task: Annotated[str, "Tool motion that follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
+    segments: Annotated[int | None, "Number of motion segments to use. Default: all, at most 256."] = None,
+    halvings: Annotated[int, "Maximum bisection depth of lock-time intervals."] = 6,
     options: UnseededProofOptions = UnseededProofOptions(out=Path("path.certificate")),
 ) -> None:
     """Prove that a tool path can be completed after any single lock at any time.
 
-    The motion is a table of the healthy arm's configurations, such as follow writes; between them joints move along straight
-    lines. The exit code is 0 if all is proved, 3 if something is undecided, 4 if something is refuted, 1 if the check rejects
-    something. Ctrl-C writes what is found so far; with --store the same command resumes.
+    MOTION is a table of configurations of the healthy arm, such as 'holdfast follow' writes. Between them, joints move along
+    straight lines. Exit code: 0 if everything is proved, 3 if a part is undecided, 4 if a part is refuted, 1 if the check
+    rejects a part. Ctrl-C writes the parts that are decided; with --store, the same command resumes the search.
 
     Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
     """
@@ -180,7 +179,7 @@ def path(
 
     model, failure_times = options.resolve_arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
     if len(failure_times) != 2:
-        raise InputError("--during takes two parts of the motion, for example --during '0 0.5'")
+        raise InputError(f"--during has {len(failure_times)} numbers; give two fractions of the motion, for example '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").select_columns(joint_columns(model)),
@@ -196,7 +195,7 @@ def path(
 @command.command("structural-zero")
 def structural_zero(
     arm: ArmArgument,
-    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Between a shoulder and a wrist.")],
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Name of a joint between the shoulder and the wrist.")],
     check: CheckOption = True,
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: CertificateOption = Path("structural-zero.certificate"),
@@ -204,8 +203,8 @@ def structural_zero(
 ) -> None:
     """Prove that locking one joint removes all relative manipulability in every configuration.
 
-    Proved exactly, of an arm whose geometry is that of the file but for rounded digits, and by how much it differs is
-    printed. The exit code is 0 if it is proved, 3 if axes do not meet.
+    The proof is exact for an arm whose geometry is that of the file up to rounding; the command prints the difference. Exit
+    code: 0 if the claim is proved, 3 if the axes do not meet.
 
     Example: holdfast certify structural-zero iiwa14 lbr_iiwa_joint_4
     """
@@ -223,7 +222,7 @@ def structural_zero(
 
 
 def _read_range_options(file: Path) -> list[str]:
-    """Read a file of working ranges; return them in the form of ``--range``."""
+    """Read a file of working ranges, and return them in the form of ``--range``."""
     from holdfast.core.files.yaml import read_mapping
 
     try:

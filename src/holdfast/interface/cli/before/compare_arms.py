@@ -3,37 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Annotated
 
-import typer
-
 import holdfast as hf
-from holdfast.interface.cli.groups import ArmSourcesOptions
-from holdfast.interface.cli.options import FailuresOption, JsonOption, OutOption, SeedOption, TaskOption
+from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions
+from holdfast.interface.cli.options import FailuresOption, JsonOption, OutOption, RegionOption, SeedOption, TaskOption
 from holdfast.interface.cli.start.candidates import read_candidates
 from holdfast.interface.cli.values import read_failures, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
 
 
 def command(
-    arm: Annotated[
-        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several side by side.")
-    ],
-    region: Annotated[Path | None, "Region file (YAML). Default: around the home of the first arm."] = None,
+    arm: ArmsArgument,
+    region: RegionOption = None,
     task: TaskOption = None,
     failures: FailuresOption = "single",
     measures: Annotated[
         list[str] | None,
-        "quantile, fraction-above, self-motion-size or tolerant-workspace; may be given again. Default: all that the "
-        "arms have.",
+        "Measure: quantile, fraction-above, self-motion-size or tolerant-workspace. Repeatable. Default: all that are defined "
+        "for the arms.",
     ] = None,
-    level: Annotated[float, "Fraction of the poses that have at least a quantile."] = 0.95,
-    thresholds: Annotated[list[float] | None, "For fraction-above; may be given again. Default: 0.05, 0.1, 0.2, 0.3."] = None,
-    poses: Annotated[int, "Poses of the region."] = 100,
-    samples: Annotated[int, "Configurations of each arm."] = 20_000,
-    points: Annotated[int, "Points of a workspace, where it is sampled."] = 300,
-    best_limits: Annotated[bool, "Look for the artificial limits of the largest tolerant workspace."] = False,
+    level: Annotated[float, "Fraction of the poses that have at least the value of quantile or self-motion-size."] = 0.95,
+    thresholds: Annotated[list[float] | None, "Threshold of fraction-above. Repeatable. Default: 0.05, 0.1, 0.2, 0.3."] = None,
+    poses: Annotated[int, "Number of poses sampled from the region."] = 100,
+    samples: Annotated[int, "Number of configurations sampled per arm."] = 20_000,
+    points: Annotated[int, "Number of points of a tolerant workspace that must be sampled."] = 300,
+    best_limits: Annotated[bool, "Search for the artificial limits with the largest tolerant workspace."] = False,
     seed: SeedOption = 0,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
     out: OutOption = None,
@@ -41,7 +36,7 @@ def command(
 ) -> None:
     """Compare arms by global fault-tolerance measures, with confidence intervals.
 
-    An index at one configuration says little about the rest of an arm.
+    The measures cover the whole arm, because the index at one configuration does not characterise the rest.
 
     Example: holdfast compare-arms panda xarm7 --measures fraction-above
     """

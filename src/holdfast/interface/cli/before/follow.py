@@ -9,68 +9,56 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
-from holdfast.interface.cli.measure_options import OBJECTIVES_HELP
-from holdfast.interface.cli.options import (
-    ArmArgument,
-    DegreesOption,
-    DurationOption,
-    JsonOption,
-    MotionCsvOption,
-    PathArgument,
-    PathTaskOption,
-)
-from holdfast.interface.cli.values import check_path_units, read_configuration, read_objective, read_task
+from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions, PathOptions
+from holdfast.interface.cli.measure_options import MaximiseOption, MinimiseOption
+from holdfast.interface.cli.options import ArmArgument, DegreesOption, JsonOption, MotionCsvOption
+from holdfast.interface.cli.values import read_configuration, read_objective
 from holdfast.interface.presentation.results import current_command, print_result
 
 
 def command(
     arm: ArmArgument,
-    path: PathArgument,
-    minimise: Annotated[
-        str | None, f"What the self-motion makes small: {OBJECTIVES_HELP}; or a sum: '0.5*torque:effort + 0.1*acceleration'."
-    ] = None,
-    maximise: Annotated[str | None, "What it makes large: the same choices."] = None,
+    tracked: PathOptions,
+    minimise: MinimiseOption = None,
+    maximise: MaximiseOption = None,
     method: Annotated[
-        str, "gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, to compare)."
+        str, "Method: gradient-projection, extended-jacobian, augmented-jacobian or none (least-norm rates, for comparison)."
     ] = "gradient-projection",
-    task: PathTaskOption = None,
-    q: Annotated[str | None, "Where to start, rad and m. Default: the best configuration."] = None,
+    q: Annotated[str | None, "Start configuration in rad and m. Default: the best configuration of the first pose."] = None,
     degrees: DegreesOption = False,
-    gain: Annotated[float | None, "Feedback gain. Default: high enough to hardly lag."] = None,
-    wanted: Annotated[float | None, "Value the augmented Jacobian keeps. Default: that of the start."] = None,
-    rate_cap: Annotated[float | None, "Largest norm of the joint rates, rad/s; slows self-motion only."] = None,
-    samples: Annotated[int, "Samples over the duration."] = 501,
-    duration: DurationOption = None,
-    best: Annotated[bool, "Also the best of each pose (one or two degrees of redundancy)."] = False,
+    gain: Annotated[
+        float | None,
+        "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: enough to hardly lag.",
+    ] = None,
+    wanted: Annotated[float | None, "Value of the objective that augmented-jacobian keeps. Default: that of the start."] = None,
+    rate_cap: Annotated[float | None, "Largest norm of the joint rates in rad/s; slows only the self-motion."] = None,
+    samples: Annotated[int, "Number of samples over the duration."] = 501,
+    best: Annotated[bool, "Find also the best configuration of each pose (one or two degrees of redundancy)."] = False,
     torque_bound: Annotated[
-        float | None, "N m. How slow must the motion be for torques to stay this close to those of gravity?"
+        float | None,
+        "Allowed difference of torques from gravity torques in N m; the result states how slow the motion must then be.",
     ] = None,
     apart: ClearanceOptions = ClearanceOptions(),
-    no_limits: Annotated[bool, "Ignore joint limits while moving."] = False,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
+    no_limits: Annotated[bool, "Ignore joint limits during the motion."] = False,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start configuration.")] = 0,
     placement: MountingOptions = MountingOptions(),
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
     csv: MotionCsvOption = None,
-    parquet: Annotated[Path | None, "The same as Parquet (needs holdfast-arms[parquet])."] = None,
+    parquet: Annotated[Path | None, "Parquet file for the motion (needs holdfast-arms[parquet])."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Track a tool path while the null-space motion optimises fault tolerance.
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """
-    from holdfast.model.arm.task import default_path_task
-
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
     apart.check_consistency()
     model = placement.mount_arm(chain.resolve_arm(arm))
-    timed = hf.paths.TimedPath.load(path, duration)
-    check_path_units(model, timed.path, f"path '{path}'")
-    path_task = read_task(task or default_path_task(model, timed.path.oriented), arm, model)
+    timed, path_task = tracked.load_path(arm, model)
     option_and_text = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
-    objective = read_objective(model, *option_and_text, path_task)  # the other way round already, if that is meant
+    objective = read_objective(model, *option_and_text, path_task)  # negated already where necessary
     optimisation: dict[str, Any] = {"minimise" if objective.better == "smaller" else "maximise": objective}
     result = hf.follow(
         model,

@@ -8,17 +8,9 @@ import typer
 
 import holdfast as hf
 from holdfast.core.registry import SUSCEPTIBILITY_REGISTRY
-from holdfast.interface.cli.groups import ArmSourceOptions, MountingOptions, OutputOptions
+from holdfast.interface.cli.groups import ArmSourceOptions, MountingOptions, OutputOptions, TaskOptions
 from holdfast.interface.cli.measure_options import IndexOption
-from holdfast.interface.cli.options import (
-    ArmArgument,
-    DegreesOption,
-    FailuresOption,
-    JsonOption,
-    LengthOption,
-    QOption,
-    TaskOption,
-)
+from holdfast.interface.cli.options import ArmArgument, DegreesOption, JsonOption, QOption, TaskOption
 from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_task, read_weights
 from holdfast.interface.presentation.printing import print_evaluations
 
@@ -29,9 +21,7 @@ def index(
     arm: ArmArgument,
     q: QOption,
     index: IndexOption = "relative-manipulability",
-    task: TaskOption = None,
-    failures: FailuresOption = "single",
-    length: LengthOption = 1.0,
+    considered: TaskOptions = TaskOptions(),
     degrees: DegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
@@ -45,18 +35,19 @@ def index(
 
     model = chain.resolve_arm(arm)
     configurations = [read_configuration(model, text, degrees) for text in q]
-    measure = by_name(index, model, read_task(task, arm, model), failures=read_failures(model, failures), length=length)
+    task, failures = read_task(considered.task, arm, model), read_failures(model, considered.failures)
+    measure = by_name(index, model, task, failures=failures, length=considered.length)
     print_evaluations(measure, configurations, json_, index_values, show_index)
 
 
 def susceptibility(
     arm: ArmArgument,
     q: QOption,
-    measure: Annotated[str, f"{SUSCEPTIBILITY_REGISTRY.usage}."] = "torque",
+    measure: Annotated[str, f"Susceptibility: {SUSCEPTIBILITY_REGISTRY.usage}."] = "torque",
     weights: Annotated[
         str | None,
-        "effort, worst-case, one number per joint as 1,2,3, or a CSV file of them or of a square matrix. "
-        "Default: all joints alike.",
+        "Joint weights: effort, worst-case, one number per joint (1,2,3), or a CSV file with one number per joint or a square "
+        "matrix. Default: equal weights.",
     ] = None,
     placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
@@ -79,8 +70,8 @@ def susceptibility(
 def trade_off(
     arm: ArmArgument,
     task: TaskOption = None,
-    samples: Annotated[int, "Random configurations and directions."] = 2000,
-    allowed: Annotated[str, "Pre-failure errors, from 0 to below 1, increasing."] = ALLOWED_ERRORS,
+    samples: Annotated[int, "Number of random configurations and directions."] = 2000,
+    allowed: Annotated[str, "Allowed pre-failure errors: increasing fractions from 0 to below 1."] = ALLOWED_ERRORS,
     seed: Annotated[int, typer.Option("--seed", help="Seed of the samples.", min=0)] = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),

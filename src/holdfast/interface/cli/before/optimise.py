@@ -12,8 +12,8 @@ import typer
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
-from holdfast.interface.cli.measure_options import OBJECTIVES_HELP
-from holdfast.interface.cli.options import ArmArgument, FailuresOption, JsonOption, OutOption, TaskOption
+from holdfast.interface.cli.measure_options import MaximiseOption, MinimiseOption
+from holdfast.interface.cli.options import ArmArgument, AtDegreesOption, FailuresOption, JsonOption, OutOption, TaskOption
 from holdfast.interface.cli.values import (
     check_position_units,
     read_configuration,
@@ -31,33 +31,29 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    minimise: Annotated[str | None, f"{OBJECTIVES_HELP}; or a sum: '0.5*torque:effort + 0.1*acceleration'."] = None,
-    maximise: Annotated[
-        str | None, "The same choices. Maximising a torque, or minimising an index, gives the worst configuration."
-    ] = None,
+    minimise: MinimiseOption = None,
+    maximise: MaximiseOption = None,
     pose: Annotated[
         list[str] | None,
-        "Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
-        "x,y,z is enough if the task has no orientation. May be given again.",
+        "Tool pose in the world frame: x,y,z,roll,pitch,yaw in m and degrees (URDF: Rz(yaw) Ry(pitch) Rx(roll)), or x,y,z for "
+        "a task without orientation. Repeatable.",
     ] = None,
-    poses: Annotated[Path | None, "CSV file of poses; first line x,y,z,qx,qy,qz,qw (or x,y,z)."] = None,
-    at: Annotated[
-        list[str] | None,
-        "The pose of this configuration: joint values, rad and m, separated by commas or spaces. May be given again.",
-    ] = None,
-    any_pose: Annotated[bool, "Whatever the pose: the best configuration of all within the limits."] = False,
-    degrees: Annotated[bool, "--at is in degrees (prismatic joints stay in m)."] = False,
+    poses: Annotated[Path | None, "CSV file of tool poses in m; first line x,y,z,qx,qy,qz,qw (or x,y,z)."] = None,
+    at: Annotated[list[str] | None, "Configuration that defines the tool pose: joint values in rad and m. Repeatable."] = None,
+    any_pose: Annotated[bool, "Search all configurations within the joint limits instead of those of one pose."] = False,
+    degrees: AtDegreesOption = False,
     task: TaskOption = None,
     failures: FailuresOption = "single",
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random numbers.")] = 0,
     starts: Annotated[
-        int | None, "Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --any-pose."
+        int | None,
+        "Number of random starts per pose. Default: 128, or 32 for a redundancy of 2 or more; 10,000 with --any-pose.",
     ] = None,
     apart: ClearanceOptions = ClearanceOptions(),
     placement: MountingOptions = MountingOptions(),
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: OutOption = None,
-    csv: Annotated[Path | None, "Write the configurations to this file."] = None,
+    csv: Annotated[Path | None, "CSV file for the configurations."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Find the most fault-tolerant configuration of a tool pose, or of all poses (--any-pose).
@@ -105,7 +101,7 @@ def _read_target_poses(arm: Arm, task: Task, texts: Sequence[str], file: Path | 
 
         option, given_poses = "--poses", read_pose_table(file, "--poses")
     if not given_poses:
-        raise InputError(f"{option}: '{file}' holds no poses; give at least one row of them")
+        raise InputError(f"{option}: '{file}' contains no poses; give at least one row")
     check_position_units(arm, np.array([pose[:3, 3] if pose.shape == (4, 4) else pose for pose in given_poses]), option)
     targets = np.tile(np.eye(4), (len(given_poses), 1, 1))
     for target, given_pose in zip(targets, given_poses, strict=True):
@@ -113,8 +109,8 @@ def _read_target_poses(arm: Arm, task: Task, texts: Sequence[str], file: Path | 
             target[:] = given_pose
         elif task.angular:
             raise InputError(
-                f"{option}: a pose is given as x,y,z without orientation, but task '{task.name}' asks for one; give all of it, "
-                "or --task position"
+                f"{option}: a pose is given as x,y,z without orientation, and task '{task.name}' needs one; give the "
+                "orientation as well, or --task position"
             )
         else:
             target[:3, 3] = given_pose

@@ -9,37 +9,28 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
+from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions, PathOptions
 from holdfast.interface.cli.measure_options import OBJECTIVES_HELP
-from holdfast.interface.cli.options import (
-    ArmArgument,
-    DurationOption,
-    KeepOption,
-    MotionCsvOption,
-    PathArgument,
-    PathTaskOption,
-    SeedOption,
-    StartDegreesOption,
-)
-from holdfast.interface.cli.values import check_path_units, read_configuration, read_objective, read_task
+from holdfast.interface.cli.options import ArmArgument, KeepOption, MotionCsvOption, SeedOption, StartDegreesOption
+from holdfast.interface.cli.values import read_configuration, read_objective
 
 
 def command(
     arm: ArmArgument,
-    path: PathArgument,
-    rates: Annotated[Path | None, "File with how often each joint locks (YAML). Default: all alike."] = None,
-    mode: Annotated[str, "on-path, or detour: after a lock the tool may leave its path and come back."] = "on-path",
-    task: PathTaskOption = None,
-    start: Annotated[str | None, "Where the motion begins, rad and m. Default: anywhere."] = None,
+    tracked: PathOptions,
+    rates: Annotated[Path | None, "Failure-rate file (YAML): how often each joint locks. Default: all equal."] = None,
+    mode: Annotated[str, "Mode: on-path, or detour (after a lock, the tool may leave its path and come back)."] = "on-path",
+    start: Annotated[str | None, "Start configuration in rad and m. Default: any configuration of the first pose."] = None,
     degrees: StartDegreesOption = False,
-    samples: Annotated[int, "Poses, evenly spaced in time."] = 101,
-    spacing: Annotated[float, "Of the configurations of a pose, rad."] = 0.05,
-    duration: DurationOption = None,
+    samples: Annotated[int, "Number of poses, evenly spaced in time."] = 101,
+    spacing: Annotated[float, "Distance between neighbouring configurations of a pose in rad."] = 0.05,
     compare: Annotated[
         list[str] | None,
-        f"Another motion beside it: least-norm, or what gradient projection serves: {OBJECTIVES_HELP}. May be given again.",
+        f"Motion to compare with: least-norm, or by gradient projection for an objective: {OBJECTIVES_HELP}. Repeatable.",
     ] = None,
-    test_locks: Annotated[int, typer.Option("--test-locks", min=0, help="Try so many locks at random times.")] = 0,
+    test_locks: Annotated[
+        int, typer.Option("--test-locks", min=0, help="Number of random locks for a test of the motion.")
+    ] = 0,
     keep: KeepOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
     seed: SeedOption = 0,
@@ -51,20 +42,17 @@ def command(
 
     Example: holdfast plan-motion panda line.yaml --out endured
     """
-    from holdfast.model.arm.task import default_path_task
     from holdfast.response.lock_survival.given_motion import LEAST_NORM
 
     apart.check_consistency()
     model = chain.resolve_arm(arm)
-    timed = hf.paths.TimedPath.load(path, duration)
-    check_path_units(model, timed.path, f"path '{path}'")
-    rows = read_task(task or default_path_task(model, timed.path.oriented), arm, model)
+    timed, path_task = tracked.load_path(arm, model)
     result = hf.plan_motion(
         model,
         timed,
         rates=None if rates is None else hf.FailureRates.load(model, rates),
         mode=mode,  # type: ignore[arg-type]
-        task=rows,
+        task=path_task,
         samples=samples,
         spacing=spacing,
         start=None if start is None else read_configuration(model, start, degrees),
@@ -72,7 +60,9 @@ def command(
         clearance=apart.build_if_requested(model),
         margin=apart.margin or 0.0,
         keep=keep,
-        compare=[label if label == LEAST_NORM else read_objective(model, "--compare", label, rows) for label in compare or []],
+        compare=[
+            label if label == LEAST_NORM else read_objective(model, "--compare", label, path_task) for label in compare or []
+        ],
     )
     if test_locks:
         result = replace(result, injected=result.test_locks(test_locks, seed=seed))

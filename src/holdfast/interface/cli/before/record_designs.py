@@ -15,17 +15,15 @@ from holdfast.interface.cli.values import read_configuration
 from holdfast.interface.presentation.results import print_result, print_results
 
 command = typer.Typer(
-    name="record-designs",
-    help="Browse, check and submit the best known arms and null spaces.",
-    no_args_is_help=True,
+    name="record-designs", help="Browse, check and submit the best known arms and null spaces.", no_args_is_help=True
 )
 
-NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")]
+NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a record, or a record file.")]
 
 
 @command.command("list")
 def list_(
-    out: Annotated[Path | None, "Folder for a page with pictures, and each record as YAML and URDF."] = None,
+    out: Annotated[Path | None, "Folder for an HTML page with pictures, and for each record as YAML and URDF."] = None,
     json_: JsonOption = False,
 ) -> None:
     """List the best known arms with their upper bounds.
@@ -38,8 +36,7 @@ def list_(
 
 @command.command()
 def show(
-    record: NameArgument,
-    urdf: Annotated[bool, "Its arm as URDF, for simulators, instead."] = False,
+    record: NameArgument, urdf: Annotated[bool, "Print the arm as URDF, for simulators, instead of YAML."] = False
 ) -> None:
     """Print one record as YAML or URDF.
 
@@ -52,12 +49,12 @@ def show(
 @command.command()
 def new(
     arm: ArmArgument,
-    task: Annotated[str, "planar, position or pose."] = "pose",
-    failures: Annotated[int, "Joints that lock at once."] = 1,
-    at: Annotated[str | None, "Joint values, rad. Default: zeros."] = None,
-    name: Annotated[str, "Id of the record. Default: from the class."] = "",
-    by: Annotated[str, "Who found it."] = "anonymous",
-    how: Annotated[str, "How, so that others can follow. Default: not said."] = "",
+    task: Annotated[str, "Task of the record: planar, position or pose."] = "pose",
+    failures: Annotated[int, "Number of joints that lock at once."] = 1,
+    at: Annotated[str | None, "Joint values in rad, separated by commas or spaces. Default: zeros."] = None,
+    name: Annotated[str, "Id of the record. Default: derived from its class."] = "",
+    by: Annotated[str, "Name of the finder."] = "anonymous",
+    how: Annotated[str, "Method by which the arm was found, so that others can reproduce it. Default: not stated."] = "",
 ) -> None:
     """Create a record file for an arm.
 
@@ -70,18 +67,18 @@ def new(
 
 @command.command()
 def check(
-    record: Annotated[str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a file.")] = None,
-    all_: Annotated[bool, "All records of the book."] = False,
+    record: Annotated[str | None, typer.Argument(metavar="RECORD", help="Id of a record, or a record file.")] = None,
+    all_: Annotated[bool, "Check all stored records."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Recompute the value of a record with independent code.
 
-    The exit code is 3 if a claim does not hold. A file is also held against the current record of its class.
+    Exit code: 0 if every claim holds, else 3. A file is also compared with the current record of its class.
 
     Example: holdfast record-designs check pose-9R-k2-001
     """
     if (record is None) != all_:
-        raise InputError("give a record or --all, one of them")
+        raise InputError("give either a record or --all")
     checks = [
         entry.check() for entry in (hf.designs.record_designs().values() if all_ else [hf.designs.record_design(str(record))])
     ]

@@ -14,25 +14,26 @@ from holdfast.interface.presentation.results import print_result
 
 
 def command(
-    joints: Annotated[int | None, typer.Argument(metavar="JOINTS", help="Joints of the arm.")] = None,
-    rows: Annotated[str | None, typer.Argument(metavar="ROWS", help="Rows of the task, or its name.")] = None,
-    failures: Annotated[int, typer.Argument(metavar="FAILURES", help="Joints that fail at once.")] = 1,
-    table: Annotated[bool, "All sizes that are stored instead."] = False,
-    task: Annotated[str | None, "Those of one task in --table."] = None,
-    verify: Annotated[bool, "Compute the value of the stored null space again and compare it with the bound."] = False,
+    joints: Annotated[int | None, typer.Argument(metavar="JOINTS", help="Number of joints of the arm.")] = None,
+    rows: Annotated[str | None, typer.Argument(metavar="ROWS", help="Number of task components, or name of the task.")] = None,
+    failures: Annotated[int, typer.Argument(metavar="FAILURES", help="Number of joints that fail at once.")] = 1,
+    table: Annotated[bool, "Print the bounds of all stored sizes instead."] = False,
+    task: Annotated[str | None, "Restrict --table to this task or number of components. Default: all."] = None,
+    verify: Annotated[bool, "Recompute the value of the stored null space, and compare it with the bound."] = False,
     singular_value: Annotated[
         float | None,
         typer.Option(
             "--singular-value",
             metavar="LEVER",
-            help="Of the least singular value instead, for a mean lever of the joints, m (for a pose in lengths, or inf).",
+            help="Print the bound on the smallest singular value instead, for this mean distance of the tool from the joint "
+            "axes in m (for a pose: in characteristic lengths, or inf).",
         ),
     ] = None,
     json_: JsonOption = False,
 ) -> None:
     """Look up the upper bound on relative manipulability for an arm of a given size.
 
-    It holds for every arm of so many joints, revolute or prismatic: only these three numbers count.
+    The bound depends only on the three numbers. It holds for every arm of this size, with revolute and prismatic joints.
 
     Example: holdfast upper-bound 9 6 2
     """
@@ -40,7 +41,7 @@ def command(
         print_result(hf.index_bounds.bound_table(None if task is None else _read_row_count(task)), json_)
         return
     if joints is None or rows is None:
-        raise InputError("give the joints and the rows of the task, for example 9 6 2, or --table")
+        raise InputError("give the number of joints and of task components, for example 9 6 2, or --table")
     if singular_value is not None:
         mixed = rows in set(TASK_SIZES) - {"position", "planar"}  # lengths and angles
         m = _read_row_count(rows)
@@ -56,5 +57,5 @@ def _read_row_count(text: str) -> int:
     if text in TASK_SIZES:
         return TASK_SIZES[text]
     if not is_count(text):
-        raise InputError(f"'{text}' is neither a number of rows nor a task; tasks are {', '.join(TASK_SIZES)}")
+        raise InputError(f"'{text}' is neither a number of task components nor a task; tasks are {', '.join(TASK_SIZES)}")
     return int(text)

@@ -12,15 +12,17 @@ from holdfast.interface.cli.values import read_configuration, read_joint
 
 def command(
     arm: ArmArgument,
-    q: Annotated[str, "Joint values, rad and m, separated by commas or spaces."],
-    joint: Annotated[str, "The joint that swings free, by name or number from 1."],
+    q: Annotated[str, "Joint values at the failure in rad and m, separated by commas or spaces."],
+    joint: Annotated[str, "Free-swinging joint, by name or number from 1."],
     damping: Annotated[
         float | None,
-        "Viscous friction, N m s/rad or N s/m. Default: the joint's own, or 10 % of critical if it has next to none.",
+        "Viscous friction in N m s/rad or N s/m. Default: that of the joint, or 10 % of critical if it has almost none.",
     ] = None,
-    brake: Annotated[list[float] | None, "Brakes engage after so many ms. May be given again.", "50, 100 and 200"] = None,
-    limits: Annotated[bool, "The joint's limits stop it (those of prismatic joints always do)."] = False,
-    duration: Annotated[float | None, "Longest time, s. Default: until it is at rest."] = None,
+    brake: Annotated[list[float] | None, "Delay of the brake after the failure in ms. Repeatable.", "50, 100 and 200"] = None,
+    limits: Annotated[bool, "Stop the joint at its limits (prismatic joints always stop there)."] = False,
+    duration: Annotated[
+        float | None, "Longest duration in s. Default: until the joint is at rest, at most 60 to 300 s."
+    ] = None,
     touched: ContactOptions = ContactOptions(),
     degrees: DegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -29,8 +31,8 @@ def command(
 ) -> None:
     """Simulate a joint that swings freely under gravity (needs the extra 'physics').
 
-    This is a failed drive, not a power loss: a power loss frees all joints at once, and the tool drops further.
-    Brakes are assumed to stop the joint at once.
+    The command simulates a failed drive. A power loss would free all joints at once, and the tool would drop further. Brakes
+    are assumed to stop the joint immediately.
 
     Example: holdfast free-swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100
     """

@@ -12,7 +12,15 @@ import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import is_number, parse_quantities
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, TASK_HELP, ArmArgument, FailureOption, JsonOption, KeepOption
+from holdfast.interface.cli.options import (
+    NOT_MET_EXIT_CODE,
+    TASK_NAMES_HELP,
+    ArmArgument,
+    AtOption,
+    FailureOption,
+    JsonOption,
+    KeepOption,
+)
 from holdfast.interface.cli.values import (
     check_path_units,
     read_configuration,
@@ -32,53 +40,55 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     lock: Annotated[
-        list[str] | None, "JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again."
+        list[str] | None, "Locked joint: JOINT=VALUE, rad or m, or JOINT for its value in --at. Repeatable."
     ] = None,
     failure: FailureOption = None,
-    at: Annotated[str | None, "Current joint values, rad and m, by commas or spaces."] = None,
+    at: AtOption = None,
     goal: Annotated[
         str | None,
-        "home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several by "
-        "';'. Default: home; with --path none.",
+        "Goal: home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several poses "
+        "separated by ';'. Default: home; with --path, the end of the path.",
     ] = None,
     within: Annotated[
         str | None,
-        "Angle by which the tool's z axis may be off that of the goal, for example 30deg or 0.5rad; any turn about it will do.",
+        "Largest angle between the z axes of tool and goal, for example 30deg or 0.5rad; the rotation about the axis is free.",
     ] = None,
-    task: Annotated[str | None, f"{TASK_HELP} home and q: then mean the tool's pose there."] = None,
-    path: Annotated[Path | None, "Rest of the path (YAML file), to be finished first."] = None,
+    task: Annotated[
+        str | None,
+        f"{TASK_NAMES_HELP} The goals home and q: then mean their tool pose. Default: pose, or position if there is no "
+        "orientation.",
+    ] = None,
+    path: Annotated[Path | None, "Path file (YAML) with the rest of the path, which is finished first."] = None,
     keep: KeepOption = None,
-    degrees: Annotated[bool, "--at, --lock and q: are in degrees (prismatic joints stay in m)."] = False,
-    metric: Annotated[str, "Shortest by: travel (of the joints) or time (at the velocity limits)."] = "travel",
+    degrees: Annotated[bool, "Read --at, --lock and q: in degrees (prismatic joints: m)."] = False,
+    metric: Annotated[str, "Quantity to minimise: travel (length in joint space) or time (at the velocity limits)."] = "travel",
     region: Annotated[
-        Path | None, "Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm."
+        Path | None, "Region file (YAML) for the remaining workspace. Default: random poses of the healthy arm."
     ] = None,
-    samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
-    starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
-    tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
-    time_limit: Annotated[float | None, "s after which nothing more is searched for."] = None,
-    tolerance: Annotated[
-        str | None, "By which each row may be missed without harm, for example 1mm,0.5deg: proofs are tried for that too."
-    ] = None,
+    samples: Annotated[int, typer.Option("--samples", min=0, help="Poses for the remaining workspace; 0 skips it.")] = 1000,
+    starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for goal configurations.")] = 256,
+    tries: Annotated[int, typer.Option("--tries", min=0, help="Number of route searches if straight lines are blocked.")] = 4,
+    time_limit: Annotated[float | None, "Time limit of all searches in s. Default: none."] = None,
+    tolerance: Annotated[str | None, "Allowed error of goal and path in infeasibility proofs, for example 1mm,0.5deg."] = None,
     accelerations: Annotated[
         str | None,
-        "Limits, rad/s^2 and m/s^2, within which the motion is timed: a number, one per joint, or JOINT=NUMBER by commas.",
+        "Acceleration limits for timing the motion in rad/s^2 and m/s^2: one number, one per joint, or JOINT=NUMBER,...",
     ] = None,
-    period: Annotated[float, "s between the rows of a motion timed so."] = 0.01,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
+    period: Annotated[float, "Sampling period in s of a motion that is timed with --accelerations."] = 0.01,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random numbers.")] = 0,
     apart: ClearanceOptions = ClearanceOptions(),
-    check: Annotated[Path | None, "Plan nothing; check these waypoints (CSV) by a replay."] = None,
-    out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and pictures."] = None,
+    check: Annotated[Path | None, "CSV file of waypoints to check by a replay, instead of planning."] = None,
+    out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and figures."] = None,
     certificate: Annotated[
-        Path | None, "Write the proof that the goal has no configuration to this file, for holdfast certificate check."
+        Path | None, "File for the proof that no configuration meets the goal, for 'holdfast certificate check'."
     ] = None,
-    csv: Annotated[Path | None, "Write the waypoints to this file."] = None,
+    csv: Annotated[Path | None, "CSV file for the waypoints."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Plan a motion that finishes the task after a known failure, or prove that none exists.
 
-    Exit code 0 only if everything that was asked for is met; 3 if a row, a lock, a limit or the goal had to be dropped.
+    Exit code: 0 if the whole request is met, 3 if a task component, a lock, a limit or the goal had to be dropped.
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
@@ -106,7 +116,7 @@ def command(
         raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
     target_goal, positions = _read_goal(model, goal or ("home" if path is None else ""), degrees)
     if positions and within is not None:
-        raise InputError("--within is about the goal's z axis, and --goal has no orientation; give x,y,z,roll,pitch,yaw")
+        raise InputError("--within refers to the z axis of the goal, and --goal has no orientation; give x,y,z,roll,pitch,yaw")
     known_task = None if task is None else read_task(task, arm, model)
     tool_path = None if path is None else hf.paths.Path.load(path)
     if tool_path is not None:

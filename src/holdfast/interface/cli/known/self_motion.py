@@ -12,35 +12,35 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
-from holdfast.interface.cli.options import TARGET_HELP, ArmArgument, SeedOption, TaskOption
+from holdfast.interface.cli.laws import OptionalTargetOption
+from holdfast.interface.cli.options import ArmArgument, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_pose, read_target, read_task
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
 
-PoseOption = Annotated[str | None, "The target as x,y,z,roll,pitch,yaw of the tool, m and degrees."]
-TargetOption = Annotated[str | None, TARGET_HELP]
+PoseOption = Annotated[str | None, "Target pose of the tool: x,y,z,roll,pitch,yaw in m and degrees. Use instead of --target."]
 
 
 def command(
     arm: ArmArgument,
-    target: TargetOption = None,
+    target: OptionalTargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[bool, "Also report where each joint may lock without losing the target."] = False,
-    degrees: Annotated[bool, "--csv in degrees (prismatic joints stay in m)."] = False,
-    spacing: Annotated[float, "Spacing of the points, rad."] = 0.05,
+    bounds: Annotated[bool, "Find also the values at which each joint may lock without losing the target."] = False,
+    degrees: Annotated[bool, "Write --csv in degrees (prismatic joints: m)."] = False,
+    spacing: Annotated[float, "Distance between neighbouring points in rad."] = 0.05,
     seed: SeedOption = 0,
     apart: ClearanceOptions = ClearanceOptions(),
     chain: ArmSourceOptions = ArmSourceOptions(),
-    csv: Annotated[Path | None, "Write all points to this file."] = None,
+    csv: Annotated[Path | None, "CSV file for all points."] = None,
     output: OutputOptions = OutputOptions(),
 ) -> None:
     """Trace all configurations of a tool pose and the joint values at which a lock is harmless.
 
-    With one degree of redundancy they are curves, closed or ended by a joint limit; with more they are sampled. A lock keeps
-    the target within reach if and only if it lies in the range of its joint.
+    With one degree of redundancy, the configurations form curves that are closed or end at a joint limit; with more, they are
+    sampled. The target stays reachable after a lock if and only if the locked value lies in the range of its joint.
 
     Example: holdfast self-motion planar-3r --target 1.5,1.5 --bounds --plot self-motion.png
     """
@@ -50,7 +50,7 @@ def command(
     model = chain.resolve_arm(arm)
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
-        raise InputError("give the target by --target or by --pose, one of them")
+        raise InputError("give the target by either --target or --pose")
     target_value = read_target(model, rows, target) if target is not None else _read_task_pose(model, rows, str(pose))
     chooses = apart.margin is not None or apart.cell is not None
     clearance = apart.build_clearance(model, chooses_configurations=chooses)

@@ -9,7 +9,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
-from holdfast.interface.cli.options import ArmArgument, SeedOption
+from holdfast.interface.cli.options import TASK_NAMES_HELP, ArmArgument, SeedOption
 from holdfast.interface.cli.values import read_joint, read_numbers, read_task
 
 if TYPE_CHECKING:
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    task: Annotated[str | None, "planar, position, or with turns (see --rotation). Default: planar or position."] = None,
+    task: Annotated[str | None, f"{TASK_NAMES_HELP} Default: planar for an arm that moves in a plane, else position."] = None,
     limit: Annotated[
-        list[str] | None, "JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own."
+        list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable. Default: the joint limits."
     ] = None,
-    optimise: Annotated[bool, "Find the artificial limits that make the region largest."] = False,
-    rotation: Annotated[str | None, "Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg."] = None,
-    points: Annotated[int, "Points in the sample (not for planar arms of three joints)."] = 1000,
-    angles: Annotated[int, "Locked values tried per joint."] = 24,
+    optimise: Annotated[bool, "Search for the artificial limits that maximise the region."] = False,
+    rotation: Annotated[str | None, "Tool orientation, if the task has one: roll,pitch,yaw in degrees. Default: 0,0,0."] = None,
+    points: Annotated[int, "Number of sampled points (planar arms of three joints need none)."] = 1000,
+    angles: Annotated[int, "Number of locked values tried per joint."] = 24,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),

@@ -7,9 +7,8 @@ from typing import Annotated
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.laws import LawOption, read_law_for_arm
-from holdfast.interface.cli.options import ArmArgument, JsonOption, TaskOption
+from holdfast.interface.cli.laws import LawOptions
+from holdfast.interface.cli.options import ArmArgument, JsonOption
 from holdfast.interface.presentation.results import print_result
 
 EXPORT_LANGUAGES = ("c",)
@@ -17,14 +16,12 @@ EXPORT_LANGUAGES = ("c",)
 
 def command(
     arm: ArmArgument,
-    out: Annotated[Path, "Folder for the files; made if it is not there."],
-    law: LawOption = "failure-tolerant",
-    language: Annotated[str, "c: C99 that needs only math.h."] = "c",
-    name: Annotated[str | None, "Name of the function and the files. Default: the law's."] = None,
-    task: TaskOption = None,
-    monitor: Annotated[Path | None, "Bounds of calibrate: also a monitor of joint faults, NAME_monitor."] = None,
-    controller: Annotated[bool, "With --monitor: also a controller in C++17 that reacts to it, NAME_controller."] = False,
-    chain: ArmSourceOptions = ArmSourceOptions(),
+    out: Annotated[Path, "Folder for the files; it is created if necessary."],
+    controlled: LawOptions = LawOptions(law="failure-tolerant"),
+    language: Annotated[str, "Language: c, which is C99 that needs only math.h."] = "c",
+    name: Annotated[str | None, "Name of the function and the files. Default: that of the law."] = None,
+    monitor: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to export the monitor NAME_monitor."] = None,
+    controller: Annotated[bool, "Export the C++17 controller NAME_controller, which reacts to the monitor."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Export a control law, monitor or controller as C or C++ code.
@@ -34,8 +31,8 @@ def command(
     if language not in EXPORT_LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(EXPORT_LANGUAGES)}")
     if controller and monitor is None:
-        raise InputError("--controller needs --monitor BOUNDS, which 'holdfast calibrate' makes")
-    control_law = read_law_for_arm(law, arm, task, chain)
+        raise InputError("--controller needs a monitor; add --monitor BOUNDS, a file of 'holdfast calibrate'")
+    control_law = controlled.read_law(arm)
     files = control_law.export_c(out, name)
     monitor_files: list[Path] = []
     if monitor is not None:

@@ -20,25 +20,23 @@ from holdfast.interface.presentation.printing import make_console, print_json
 from holdfast.interface.presentation.results import print_result, print_results
 
 command = typer.Typer(
-    name="study",
-    help="Run parameter sweeps that can be stopped, resumed and distributed.",
-    no_args_is_help=True,
+    name="study", help="Run parameter sweeps that can be stopped, resumed and distributed.", no_args_is_help=True
 )
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.")]
-FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.")]
+FoldersArgument = Annotated[list[Path], typer.Argument(metavar="DIR", help="Folders that 'holdfast study run --out' wrote.")]
 
 
 @command.command()
 def new(
     file: FileArgument,
-    arm: Annotated[list[str], "Built-in name or arm file; may be given again."],
-    poses: Annotated[int, "Samples of each cell."] = 2000,
-    chunk: Annotated[int | None, "Samples computed and committed together.", "500, more above 500,000 samples"] = None,
-    seed: Annotated[int, "The same seed gives the same bits."] = 0,
-    index: Annotated[list[str] | None, "May be given again.", "relative-manipulability"] = None,
-    law: Annotated[list[str] | None, "Also maps of convergence under this control law; may be given again."] = None,
-    optimise: Annotated[bool, "Also the best configuration of each pose."] = False,
+    arm: Annotated[list[str], "Arm: built-in name or arm file. Repeatable."],
+    poses: Annotated[int, "Number of samples per combination."] = 2000,
+    chunk: Annotated[int | None, "Number of samples computed and stored together.", "500, more above 500,000 samples"] = None,
+    seed: Annotated[int, "Seed; the same seed gives bit-identical results."] = 0,
+    index: Annotated[list[str] | None, "Index, as in 'holdfast assess'. Repeatable.", "relative-manipulability"] = None,
+    law: Annotated[list[str] | None, "Control law of a convergence map to compute as well. Repeatable."] = None,
+    optimise: Annotated[bool, "Find also the best configuration of each pose."] = False,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
 ) -> None:
     """Write a commented study file.
@@ -57,18 +55,19 @@ def new(
 @command.command()
 def run(
     file: FileArgument,
-    out: Annotated[Path | None, "Folder for the results; a stopped study resumes."] = None,
+    out: Annotated[Path | None, "Folder for the results; the same command resumes a stopped study."] = None,
     scheduler: Annotated[
         str | None,
-        "Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
-        "worker processes of this machine.",
+        "Dask scheduler: its address (tcp://HOST:8786), its scheduler file, or local:4 for four worker processes on this "
+        "machine.",
         "threads of this process",
     ] = None,
     threads: Annotated[
-        int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
+        int | None,
+        typer.Option("--threads", min=1, help="Number of threads without --scheduler.", show_default="all processors"),
     ] = None,
-    part: Annotated[str, "1/3: only the first of three parts, for machines that share no folder; see merge."] = "1/1",
-    dry_run: Annotated[bool, "Say what would be computed, how long it takes and how large it is."] = False,
+    part: Annotated[str, "Part to compute, such as 1/3, for machines without a common folder; see 'study merge'."] = "1/1",
+    dry_run: Annotated[bool, "Print the combinations with their estimated time and size, without computing them."] = False,
     json_: JsonOption = False,
 ) -> None:
     """Compute the missing parts of a study.
@@ -90,7 +89,7 @@ def run(
     study_file = read_study_file(file)
     if dry_run:
         cell_estimates = []
-        with ProgressBar(json_, "cells") as progress, report_work("trying rows of each cell", progress) as advance:
+        with ProgressBar(json_, "cells") as progress, report_work("timing a sample of each combination", progress) as advance:
             for estimate in estimate_cells(study_file.cells, study_file.seed):
                 cell_estimates.append(estimate)
                 advance(len(cell_estimates), len(study_file.cells))
@@ -110,9 +109,7 @@ def run(
     if problems:
         name, problem = next(iter(problems.items()))
         others_note = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
-        raise InputError(
-            f"{len(problems)} of {len(study_file.cells)} cells were not computed: '{name}': {problem}{others_note}"
-        )
+        raise InputError(f"{len(problems)} of {len(study_file.cells)} cells failed; '{name}': {problem}{others_note}")
     if stop():
         raise KeyboardInterrupt
 
@@ -132,7 +129,7 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
 def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """Check the checksums of all chunks.
 
-    Damaged chunks are named, and the next run computes them again. DIR may also be a results folder, such as that of
+    Damaged chunks are listed, and the next run computes them again. DIR may also be a results folder, such as that of
     'holdfast assess --out'.
 
     Example: holdfast study verify tools
@@ -153,7 +150,7 @@ def merge(
 ) -> None:
     """Merge folders computed on different machines.
 
-    The first folder gets what it lacks from the others; it is made if it does not exist.
+    The first folder receives its missing parts from the others; it is created if it does not exist.
 
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
@@ -161,7 +158,7 @@ def merge(
 
     target, sources = (folders[0], folders[1:]) if out is None else (out, folders)
     if not sources:
-        raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
+        raise InputError("there is nothing to merge; give the folder to merge into, and at least one folder to merge")
     with show_chunk_progress(json_) as progress:
         merge_result = join(target, sources, progress)
     print_result(merge_result, json_)
@@ -170,19 +167,19 @@ def merge(
 @command.command()
 def report(
     folders: FoldersArgument,
-    to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
+    to: Annotated[Path | None, "HTML file for the report. Default: DIR/report.html."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Write the HTML report.
 
-    The page has a table of arms, indices and laws with intervals, distributions next to each other, and how they were computed.
+    The report contains a table of arms, indices and laws with intervals, their distributions, and how they were computed.
 
     Example: holdfast study report tools
     """
     from holdfast.core.sweeps.study import Study
 
     if to is not None and len(folders) > 1:
-        raise InputError(f"--to names one file and there are {len(folders)} folders; leave it out")
+        raise InputError(f"--to gives one file, and there are {len(folders)} folders; leave it out")
     pages = [Study.open(folder).report(to or folder / "report.html") for folder in folders]
     if json_:
         print_json({"reports": [str(written) for written in pages]})
@@ -216,10 +213,10 @@ def _open_runner(scheduler: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def stop_on_signal(notice: str = "stopping after the chunks in hand; again to stop at once") -> Iterator[Callable[[], bool]]:
-    """Stop the study and print a notice at the first Ctrl-C or SIGTERM (as cluster managers send it), and the program at the
-    second.
-    """
+def stop_on_signal(
+    notice: str = "stopping after the current chunks; press Ctrl-C again to stop at once",
+) -> Iterator[Callable[[], bool]]:
+    """Stop the study at the first Ctrl-C or SIGTERM (which cluster managers send), and the program at the second."""
     is_requested = False
 
     def request_stop(number: int, _: object) -> None:

@@ -15,27 +15,25 @@ from holdfast.interface.presentation.printing import make_console
 from holdfast.interface.presentation.results import print_result
 from holdfast.interface.presentation.teleop.console import show_allocation, show_experiment, show_protocol, show_subjects
 
-DIFFERS_EXIT_CODE = 3  # exit code: it worked, and not every trial came out as it was recorded
+DIFFERS_EXIT_CODE = 3  # exit code: the command worked, and a trial differs from its record
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the experiment.")]
 ProtocolArgument = Annotated[
-    str, typer.Argument(metavar="[PROTOCOL]", help="goel2003, goel2003-smooth, or a protocol file (YAML).")
+    str, typer.Argument(metavar="PROTOCOL", help="Protocol: goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
 
 command = typer.Typer(
-    no_args_is_help=True,
-    help="Run teleoperation experiments: tasks, sessions, records and statistics.",
-    add_completion=False,
+    no_args_is_help=True, help="Run teleoperation experiments: tasks, sessions, records and statistics.", add_completion=False
 )
 
 
 @command.command()
 def run(
-    out: Annotated[Path, "Folder for the records; a stopped experiment resumes."],
-    simulated: Annotated[bool, "With simulated people."] = False,
+    out: Annotated[Path, "Folder for the records; the same command resumes a stopped experiment."],
+    simulated: Annotated[bool, "Use simulated operators (required)."] = False,
     operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
-    protocol: Annotated[str, "goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed; the same seed gives the same experiment.")] = 0,
+    protocol: Annotated[str, "Protocol: goel2003, goel2003-smooth, or a file (YAML)."] = "goel2003",
 ) -> None:
     """Run an experiment with simulated operators.
 
@@ -44,9 +42,7 @@ def run(
     Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
     if not simulated:
-        raise InputError(
-            "people take part in a browser: use 'holdfast teleop serve --data DIR'; add --simulated for simulated ones"
-        )
+        raise InputError("--simulated is missing; add it, or use 'holdfast teleop serve --data DIR' for people in a browser")
     from holdfast.teleop import read_protocol, simulate_experiment
 
     with (
@@ -59,13 +55,13 @@ def run(
 @command.command()
 def analyse(
     folder: FolderArgument,
-    groups: Annotated[int, typer.Option("--groups", min=2, help="Number of groups of difficulty.")] = 3,
+    groups: Annotated[int, typer.Option("--groups", min=2, help="Number of difficulty groups.")] = 3,
     missing: Annotated[
         str,
-        "If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
-        "mixed model of single trials).",
+        "Treatment of subjects without a completed trial in a cell of the design: refuse, complete (exclude such subjects) or "
+        "mixed (a mixed model of single trials).",
     ] = "refuse",
-    difficulty: Annotated[str, "Whose CPM the tasks are sorted by: operators (their median) or computer."] = "operators",
+    difficulty: Annotated[str, "Source of the CPM that sorts the tasks: operators (their median) or computer."] = "operators",
 ) -> None:
     """Compute the statistics and write a report.
 
@@ -80,14 +76,14 @@ def analyse(
         update_status("drawing")
         report = result.save(folder, records.protocol, tool_paths(records))[0]
     print_result(result, False)
-    typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")
+    typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} CSV tables in the same folder")
 
 
 @command.command()
 def replay(folder: FolderArgument) -> None:
     """Replay recorded commands and compare the paths.
 
-    Exit code 0 if so; 3 if not.
+    Exit code: 0 if every path agrees with its record, else 3.
 
     Example: holdfast teleop replay experiment
     """
@@ -105,7 +101,7 @@ def replay(folder: FolderArgument) -> None:
 def verify(folder: FolderArgument) -> None:
     """Check all records against their digests.
 
-    Exit code 0 if so; 3 if not, and the first damaged trial is named first.
+    Exit code: 0 if all digests agree, else 3. The first damaged trial is printed first.
 
     Example: holdfast teleop verify experiment
     """
@@ -121,12 +117,11 @@ def verify(folder: FolderArgument) -> None:
 
 @command.command()
 def backup(
-    folder: FolderArgument,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")],
+    folder: FolderArgument, out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.")]
 ) -> None:
     """Copy an experiment and verify the copy.
 
-    The experiment may be served at the same time.
+    The server of the experiment may run at the same time.
 
     Example: holdfast teleop backup experiment experiment-2026-11-22
     """
@@ -141,7 +136,7 @@ def backup(
 def export(
     folder: FolderArgument,
     out: Annotated[Path | None, "Folder for the tables.", "DIR/export"] = None,
-    parquet: Annotated[bool, "Parquet in place of CSV; needs pyarrow."] = False,
+    parquet: Annotated[bool, "Write Parquet instead of CSV (needs pyarrow)."] = False,
 ) -> None:
     """Export all tables with a data dictionary.
 
@@ -160,9 +155,10 @@ def export(
 def allocation(
     protocol: ProtocolArgument = "goel2003",
     subjects: Annotated[
-        int | None, typer.Option("--subjects", min=1, help="How many sheets.", show_default="the protocol's number")
+        int | None,
+        typer.Option("--subjects", min=1, help="Number of sheets, one per subject.", show_default="the protocol's number"),
     ] = None,
-    out: Annotated[Path | None, "Write a sheet to print (HTML)."] = None,
+    out: Annotated[Path | None, "HTML file for sheets to print."] = None,
 ) -> None:
     """Print the task order of each subject.
 
@@ -182,8 +178,8 @@ def allocation(
 @command.command()
 def subjects(
     folder: FolderArgument,
-    drop: Annotated[str | None, "This subject will not come back: the row is given to someone else."] = None,
-    delete: Annotated[str | None, "Delete this subject and everything recorded, for good."] = None,
+    drop: Annotated[str | None, "Subject who will not come back; another subject gets the row."] = None,
+    delete: Annotated[str | None, "Subject to delete permanently, with all recorded trials."] = None,
 ) -> None:
     """List, drop or delete subjects.
 
@@ -197,21 +193,19 @@ def subjects(
         if delete is not None:
             count = len(records.entries(delete))
             records.delete_subject(delete)
-            typer.echo(
-                f"deleted: subject {delete} and {count} recorded trials; exports and reports written before still hold them"
-            )
+            typer.echo(f"deleted: subject {delete} and {count} recorded trials; older exports and reports still contain them")
         if drop is not None:
             from holdfast.teleop.records.entries import SubjectState
 
             records.set_state(drop, SubjectState.DROPPED)
-            typer.echo(f"dropped: subject {drop}; what was recorded stays")
+            typer.echo(f"dropped: subject {drop}; the recorded trials are kept")
         show_subjects(records, make_console())
 
 
 @command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
-    write: Annotated[Path | None, "Copy it to this file, to start from."] = None,
+    write: Annotated[Path | None, "File for a copy of the protocol, to be edited."] = None,
 ) -> None:
     """Check and summarise a protocol.
 

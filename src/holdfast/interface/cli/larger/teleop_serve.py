@@ -11,31 +11,33 @@ from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files import reading
 
 _TLS_INSTRUCTIONS = """\
-Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
+Use TLS between computers, because browsers allow gamepads and passwords only then; for example with Caddy in front:
   caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
-(start this command with --host 127.0.0.1, --behind-proxy, and a token then; the proxy must hand on the Host
-header, as Caddy does)"""
+(In this case, start this command with --host 127.0.0.1, --behind-proxy, and a token. The proxy must forward the
+Host header, as Caddy does.)"""
 
 
 def serve(
-    data: Annotated[Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.")],
-    protocol: Annotated[str | None, "goel2003, goel2003-smooth, or a file (YAML), for a new folder. Default: goel2003."] = None,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; 0 takes any free one.")] = 8000,
-    host: Annotated[str, "Address to listen at; others than this computer's need a token."] = "127.0.0.1",
+    data: Annotated[Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new folder starts one.")],
+    protocol: Annotated[
+        str | None, "Protocol of a new folder: goel2003, goel2003-smooth, or a YAML file. Default: goel2003."
+    ] = None,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port of the page; 0 selects a free one.")] = 8000,
+    host: Annotated[str, "Address to listen on; any address other than this computer's own needs a token."] = "127.0.0.1",
     token: Annotated[
         str | None,
         typer.Option(
             "--token",
-            help="Stations must show it: 12 random letters, digits, - or _, or more. Anyone who lists processes can read "
-            "it here; the environment or a file is safer.",
+            help="Secret that stations must show: at least 12 random letters, digits, - or _. Anyone who lists processes can "
+            "read it here; the environment variable or --token-file is safer.",
             envvar="HOLDFAST_TOKEN",
         ),
     ] = None,
     token_file: Annotated[Path | None, "File whose first line is the token."] = None,
-    texts: Annotated[Path | None, "Translation of the page's texts (YAML)."] = None,
-    tlx: Annotated[bool, "Ask for the NASA task load index."] = False,
+    texts: Annotated[Path | None, "Translation file (YAML) of the page texts. Default: English."] = None,
+    tlx: Annotated[bool, "Ask subjects for the NASA task load index."] = False,
     behind_proxy: Annotated[
-        bool, "Take addresses and https from the headers X-Forwarded-For and X-Forwarded-Proto of a proxy on this computer."
+        bool, "Read addresses and https from the headers X-Forwarded-For and X-Forwarded-Proto of a proxy on this computer."
     ] = False,
 ) -> None:
     """Serve the web pages of an experiment.
@@ -58,8 +60,8 @@ def serve(
     loopback = is_loopback_host(host)
     if not loopback and token is None:
         raise InputError(
-            f"--host {host} lets other computers in; add --token-file, or HOLDFAST_TOKEN, with a random secret of 12 "
-            "letters and digits or more"
+            f"--host {host} admits other computers; add --token-file, or HOLDFAST_TOKEN, with a random secret of at least 12 "
+            "letters and digits"
         )
     guard = Guard(token=token, loopback=loopback and token is None)
     options = app.ServerOptions(data, guard, texts, tlx, protocol=protocol, behind_proxy=behind_proxy)
@@ -71,7 +73,7 @@ def serve(
         typer.echo(f"experimenter: {base_url}/experimenter?key={guard.key}")
         if not loopback:
             typer.echo(_TLS_INSTRUCTIONS.format(host=host, port=bound_port))
-        typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")
+        typer.echo(f"records:      {data}; Ctrl-C ends the server, and acknowledged records are on the disk")
 
     app.serve_experiment(options, host, port, print_addresses)
 
@@ -81,7 +83,7 @@ def _read_token(option_token: str | None, file: Path | None) -> str | None:
     if file is None:
         return option_token
     if option_token is not None:
-        raise InputError("there is a token in --token or HOLDFAST_TOKEN, and a --token-file; give one of them")
+        raise InputError("--token (or HOLDFAST_TOKEN) and --token-file both give a token; give one of them")
     with reading.guard_reading(f"--token-file: '{file}'"), file.open("rb") as stream:
         first_line = stream.readline(1000)
     try:
@@ -90,9 +92,7 @@ def _read_token(option_token: str | None, file: Path | None) -> str | None:
         raise InputError(f"--token-file: the first line of '{file}' is not text; write the token there") from error
 
 
-def texts(
-    write: Annotated[Path | None, "Copy them to this file, to translate."] = None,
-) -> None:
+def texts(write: Annotated[Path | None, "File for a copy of the texts, to be translated."] = None) -> None:
     """Print or copy the page texts for translation.
 
     'holdfast teleop serve --texts FILE' uses the translation.

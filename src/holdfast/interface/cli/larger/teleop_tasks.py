@@ -18,23 +18,21 @@ if TYPE_CHECKING:
 
 
 def tasks(
-    arm: Annotated[str, typer.Argument(metavar="[ARM]", help="Built-in name, URDF or MJCF file, or DH table.")] = "planar-3r",
-    per_joint: Annotated[
-        int, typer.Option("--per-joint", min=1, help="Tasks in which this joint fails, for each joint.")
-    ] = 400,
-    distance: Annotated[float, "Distance from start to target, m."] = 2.0,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
-    select: Annotated[
-        int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")
-    ] = 22,
+    arm: Annotated[
+        str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table.")
+    ] = "planar-3r",
+    per_joint: Annotated[int, typer.Option("--per-joint", min=1, help="Number of tasks for each failed joint.")] = 400,
+    distance: Annotated[float, "Distance from start to target in m."] = 2.0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed; the same seed gives the same tasks.")] = 0,
+    select: Annotated[int, typer.Option("--select", min=1, help="Number of tasks to select, if possible one per cell.")] = 22,
     special: Annotated[
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Also the most disorienting task, and one in which the failed arm is drawn to an erroneous stationary point.",
+            help="Select also the most disorienting task, and one in which a wrong stationary point attracts the failed arm.",
         ),
     ] = True,
-    task: Annotated[str | None, "What the stick moves: planar or position.", "by the arm"] = None,
+    task: Annotated[str | None, "Task of the joystick: planar or position.", "planar for a planar arm, else position"] = None,
     out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:

@@ -28,10 +28,10 @@ def command(json_: JsonOption = False) -> None:
 def describe(
     arm: ArmArgument,
     chain: ArmSourceOptions = ArmSourceOptions(),
-    view: Annotated[Path | None, "Write a page with the arm in 3-D, its joints on sliders."] = None,
-    q: Annotated[str | None, "With --view: joint values, rad and m. Default: nothing special."] = None,
+    view: Annotated[Path | None, "HTML file for a 3-D view of the arm with a slider per joint."] = None,
+    q: Annotated[str | None, "Joint values in --view, rad and m. Default: a generic configuration."] = None,
     degrees: DegreesOption = False,
-    lock: Annotated[list[str] | None, "With --view: a joint that is locked. May be given again."] = None,
+    lock: Annotated[list[str] | None, "Locked joint in --view, by name or number from 1. Repeatable."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Print the joints, data problems and single points of failure of an arm.
@@ -46,7 +46,7 @@ def describe(
         configuration = None if q is None else read_configuration(model, q, degrees)
         written = model.show(configuration, locked=[read_joint(model, name) for name in lock or []]).save(view)
     elif q is not None or lock:
-        raise InputError("--q and --lock are of the arm in the page that --view writes; give it too")
+        raise InputError("--q and --lock need --view FILE, the page that shows them; add it")
     if json_:
         print_json(to_json_types(to_dict(model) | ({} if written is None else {"files": [str(written)]})))
     else:

@@ -10,9 +10,17 @@ import typer
 
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
-from holdfast.interface.cli.groups import ArmSourcesOptions, ClearanceOptions
+from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions, ClearanceOptions
 from holdfast.interface.cli.measure_options import IndexOption
-from holdfast.interface.cli.options import TASK_HELP, FailuresOption, JsonOption, LengthOption
+from holdfast.interface.cli.options import (
+    TASK_HELP,
+    FailuresOption,
+    JsonOption,
+    LengthOption,
+    RegionOption,
+    SeedOption,
+    ThreadsOption,
+)
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.start.candidates import TOOL_HELP, read_candidates
 from holdfast.interface.cli.values import read_failures, read_numbers_by_joint, read_task
@@ -25,39 +33,40 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 FailureRateOption = Annotated[
-    list[str] | None, "joint=how often it fails, to weigh what is left after a failure; may be given again."
+    list[str] | None, "Relative failure rate JOINT=RATE; weights the poses that remain reachable. Repeatable."
 ]
+AtLeastOption = Annotated[list[float] | None, "Threshold of the index, whose probability is estimated. Repeatable."]
 
 
 def command(
-    arm: Annotated[
-        list[str], typer.Argument(metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.")
-    ],
-    region: Annotated[Path | None, "Region file (YAML). Default: around the arm's home."] = None,
+    arm: ArmsArgument,
+    region: RegionOption = None,
     index: IndexOption = "relative-manipulability",
-    task: Annotated[list[str] | None, f"{TASK_HELP} May be given again, to compare."] = None,
+    task: Annotated[list[str] | None, f"{TASK_HELP} Repeatable, to compare tasks."] = None,
     tool: Annotated[list[str] | None, TOOL_HELP] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     poses: Annotated[int | None, "Number of poses. Default: 2000, or each pose of a list once."] = None,
-    seed: Annotated[int, "Seed of all random draws."] = 0,
-    sampling: Annotated[str, "random or sobol."] = "random",
-    restarts: Annotated[int, "Random starts per pose before it counts as not found."] = 100,
-    optimise: Annotated[bool, "Also find the best configuration of each pose."] = False,
-    after_lock: Annotated[bool, "Also find which poses can still be reached once each joint has locked."] = False,
-    lock: Annotated[list[str] | None, "JOINT=VALUE, rad or m, at which it locks; may be given again."] = None,
+    seed: SeedOption = 0,
+    sampling: Annotated[str, "Sampling: random or sobol."] = "random",
+    restarts: Annotated[int, "Number of random starts per pose before it counts as not found."] = 100,
+    optimise: Annotated[bool, "Find also the best configuration of each pose."] = False,
+    after_lock: Annotated[bool, "Find also the poses that remain reachable after each joint has locked."] = False,
+    lock: Annotated[
+        list[str] | None, "Value at which a joint locks, JOINT=VALUE, rad or m; implies --after-lock for it. Repeatable."
+    ] = None,
     failure_rate: FailureRateOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
-    at_least: Annotated[list[float] | None, "Threshold; may be given again."] = None,
-    out: Annotated[Path | None, "Folder for results and report; a stopped run resumes."] = None,
-    threads: Annotated[int | None, "Threads. Default: all processors."] = None,
+    at_least: AtLeastOption = None,
+    out: Annotated[Path | None, "Folder for results and report; the same command resumes a stopped run."] = None,
+    threads: ThreadsOption = None,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Estimate how likely an arm keeps its dexterity when any one joint locks.
 
-    Several arms, tools or tasks are compared over one region in one report, in every combination. (Control laws of one arm:
-    'holdfast compare-laws'.)
+    Several arms, tools or tasks are compared in every combination, over one region and in one report. To compare the control
+    laws of one arm, use 'holdfast compare-laws'.
 
     Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
 
@@ -80,13 +89,11 @@ def command(
     common_region = read_region(region, first_candidate.spec, first_candidate.arm)
     if is_comparison and failure_rate:
         raise InputError(
-            "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
-            "leave it out: a comparison counts every joint alike"
+            f"--failure-rate applies to one arm and there are {len(candidates)} candidates; assess each alone, or leave it out "
+            "(a comparison weights all joints equally)"
         )
     if apart.capsules is not None and len(arm) > 1:
-        raise InputError(
-            f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
-        )
+        raise InputError(f"--capsules describes one arm and there are {len(arm)}; assess each with its own, or give --radius")
     rates = _read_rates(first_candidate.arm, failure_rate, after_lock, lock)
     planned_runs = []
     for candidate in candidates:
@@ -109,14 +116,14 @@ def command(
             or False,
             "margin": apart.margin or 0.0,
         }
-        if is_comparison:  # what cannot run is said before the first candidate takes its time
+        if is_comparison:  # raises for a candidate that cannot run, before the first one takes its time
             make_plan(candidate.arm, common_region, measure, **options)
         planned_runs.append((measure, options))
     if is_comparison and out is not None and reading.path_exists(out / "run.json"):
-        raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
+        raise StoreError(f"'{out}' contains a single run; give another folder for the comparison")
     if is_comparison and region is None:
         make_console(stderr=True).print(
-            f"no --region: every candidate is tried in the default region of '{first_candidate.name}'",
+            f"--region is not given, so every candidate is assessed in the default region of '{first_candidate.name}'",
             markup=False,
             soft_wrap=True,
         )
@@ -147,8 +154,8 @@ def command(
 
 def report(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.")],
-    to: Annotated[Path | None, "HTML file. Default: DIR/report.html."] = None,
-    at_least: Annotated[list[float] | None, "Threshold; may be given again."] = None,
+    to: Annotated[Path | None, "HTML file for the report. Default: DIR/report.html."] = None,
+    at_least: AtLeastOption = None,
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -163,7 +170,7 @@ def report(
     page = to or folder / "report.html"
     if not reading.path_exists(folder / "run.json") and reading.path_exists(folder / COMPARISON_FILE):
         if failure_rate:
-            raise InputError(f"'{folder}' holds a comparison; give --failure-rate with the folder of one candidate in it")
+            raise InputError(f"'{folder}' contains a comparison; give --failure-rate with the folder of one candidate in it")
         comparison = load_comparison(folder, threshold)
         _print_with_report(comparison, json_, [comparison.report(page)], thresholds=at_least)
         return
@@ -181,7 +188,7 @@ def _print_with_report(result: Result, json_: bool, files: list[Path], **options
 
 
 def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock: list[str] | None) -> dict[str | int, float]:
-    """Read ``--failure-rate``, which needs a requested lock of each of its joints."""
+    """Read ``--failure-rate``, which needs a lock of each of its joints."""
     from holdfast.studies.assessment.upgrade import check_failure_rates
 
     rates = read_numbers_by_joint(arm, failure_rate, "--failure-rate")
@@ -202,7 +209,7 @@ def _read_report_threshold(at_least: list[float] | None) -> float | None:
 
 
 def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
-    """Read ``--region``, or return a region about the arm's home; for the arm of the paper the one of the paper."""
+    """Read ``--region``, or return a region around the arm's home; the arm of Abdi et al. gets their region."""
     from holdfast.kinematics.regions.region import Region, default_region
 
     return default_region(arm, spec) if path is None else Region.load(path)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from holdfast.model.arms.spec import ArmSpec
 
 TOOL_HELP = (
-    "Tool attachment NAME=x,y,z,roll,pitch,yaw in the last link's own frame: m, then degrees as in URDF, "
-    "Rz(yaw) Ry(pitch) Rx(roll). It replaces the arm's own tool. May be given again."
+    "Tool attachment NAME=x,y,z,roll,pitch,yaw in the frame of the last link: m, and degrees as in URDF, Rz(yaw) Ry(pitch) "
+    "Rx(roll). It replaces the tool of the arm. Repeatable."
 )
 
 
@@ -28,10 +28,10 @@ class Candidate:
     """Arm with a tool and a task.
 
     Attributes:
-        name: For reports, and of the folder.
-        spec: The arm as it was asked for.
-        arm: With the tool.
-        task: What ``--task`` says, or the arm's own.
+        name: Name in reports, and of the folder.
+        spec: Arm as given on the command line.
+        arm: Arm with the tool.
+        task: Task of ``--task``, or the arm's own.
         tool: Name of the tool, or None for the arm's own.
     """
 
@@ -46,7 +46,7 @@ def read_candidates(arm_specs: list[ArmSpec], tools: list[str], tasks: list[str]
     """Combine every arm with every tool and every task.
 
     Raises:
-        InputError: A tool that is not NAME and six numbers, or two candidates of one name.
+        InputError: A tool is not NAME and six numbers, or two candidates have the same name.
         ArmError: There is no such arm.
     """
     from holdfast.studies.assessment.comparison import check_names
@@ -82,5 +82,5 @@ def read_tool(text: str) -> tuple[str, NDArray[np.float64]]:
     if len(numbers) != 6:
         raise InputError(f"--tool {name} has {len(numbers)} numbers; give 6: x,y,z in m and roll,pitch,yaw in degrees")
     if not np.isfinite(numbers).all():
-        raise InputError(f"--tool {name} holds NaN or infinity; give 6 finite numbers")
+        raise InputError(f"--tool {name} contains NaN or infinity; give 6 finite numbers")
     return name, tool_pose_from_numbers(numbers)

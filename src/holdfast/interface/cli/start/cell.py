@@ -12,24 +12,20 @@ from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, JsonOption, OutOption
 from holdfast.interface.presentation.results import print_result, write_outputs
 
-command = typer.Typer(
-    name="cell",
-    help="Inspect the environment around an arm.",
-    no_args_is_help=True,
-)
+command = typer.Typer(name="cell", help="Inspect the environment around an arm.", no_args_is_help=True)
 
 
 @command.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Cell file (YAML), URDF or MJCF file.")],
-    arm: Annotated[str | None, "Built-in name or arm file: what it touches."] = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Environment file (YAML), URDF or MJCF file.")],
+    arm: Annotated[str | None, "Arm whose contacts are checked: built-in name or arm file. Default: none."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Check an environment file: unreadable shapes, permanent contacts, grid resolution.
 
-    The exit code is 3 if something touches the base or in every configuration.
+    Exit code: 3 if an object touches the base, or the arm in every configuration; else 0.
 
     Example: holdfast cell check bench.yaml --arm panda
     """

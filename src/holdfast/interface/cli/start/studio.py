@@ -10,7 +10,8 @@ import typer
 from holdfast.core.errors import InputError
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REGISTRY, unknown_name_message
 from holdfast.interface.cli.groups import ArmSourceOptions, CellOption, MeshesOption
-from holdfast.interface.cli.options import TARGET_HELP, ArmArgument, DegreesOption, TaskOption
+from holdfast.interface.cli.laws import OptionalTargetOption, read_law
+from holdfast.interface.cli.options import ArmArgument, DegreesOption, TaskOption
 from holdfast.interface.cli.values import default_task, read_configuration, read_joint, read_numbers, read_target, read_task
 
 if TYPE_CHECKING:
@@ -22,28 +23,30 @@ DEFAULT_PORT = 8123
 
 def command(
     arm: ArmArgument,
-    port: Annotated[int, "Port of the page; 0 takes any free one."] = DEFAULT_PORT,
-    host: Annotated[str, "Address to listen on. Let other machines in only among people you trust."] = "127.0.0.1",
-    q: Annotated[str | None, "Joint values, rad and m. Default: near home, in no special place."] = None,
+    port: Annotated[int, "Port of the page; 0 selects a free one."] = DEFAULT_PORT,
+    host: Annotated[str, "Address to listen on. Admit other machines only in a network of people you trust."] = "127.0.0.1",
+    q: Annotated[str | None, "Joint values in rad and m. Default: a generic configuration near home."] = None,
     degrees: DegreesOption = False,
     task: TaskOption = None,
-    lock: Annotated[list[str] | None, "A joint that is locked. May be given again."] = None,
-    free: Annotated[list[str] | None, "A joint that swings freely. May be given again."] = None,
+    lock: Annotated[list[str] | None, "Locked joint, by name or number from 1. Repeatable."] = None,
+    free: Annotated[list[str] | None, "Free-swinging joint, by name or number from 1. Repeatable."] = None,
     index: Annotated[str, f"Index shown by the bars: a built-in one, {OWN_INDEX}."] = "relative-manipulability",
     susceptibility: Annotated[str, f"Susceptibility shown by the bars: {SUSCEPTIBILITY_REGISTRY.usage}."] = ("torque"),
-    objective: Annotated[str, f"Index or susceptibility for best and worst, {OWN_INDEX}."] = "relative-manipulability",
+    objective: Annotated[
+        str, f"Objective of the view best-worst: index, susceptibility, {OWN_INDEX}."
+    ] = "relative-manipulability",
     law: Annotated[
-        list[str] | None, f"Two laws side by side: {LAW_REGISTRY.usage}. Give it twice.", "pseudoinverse and failure-tolerant"
+        list[str] | None,
+        f"Control law; give it twice to compare two laws: {LAW_REGISTRY.usage}.",
+        "pseudoinverse and failure-tolerant",
     ] = None,
-    target: Annotated[str | None, TARGET_HELP] = None,
-    file: Annotated[str | None, "A motion that follow, simulate or recover wrote: CSV or folder."] = None,
-    region: Annotated[str | None, "A results folder that assess wrote."] = None,
+    target: OptionalTargetOption = None,
+    file: Annotated[str | None, "Motion to play: a CSV file or folder that follow, simulate or recover wrote."] = None,
+    region: Annotated[str | None, "Results folder that assess wrote."] = None,
     cell: CellOption = None,
     meshes: MeshesOption = None,
-    move: Annotated[
-        list[str] | None, "An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again."
-    ] = None,
-    time: Annotated[float, "Time at which the motion is shown, s."] = 0.0,
+    move: Annotated[list[str] | None, "Object of the environment to move: NAME=x,y,z[,qx,qy,qz,qw], m. Repeatable."] = None,
+    time: Annotated[float, "Time in the motion of --file that is shown first, s."] = 0.0,
     show: Annotated[
         str | None, "View to open: arm, best-worst, laws, swing, region or file.", "file or region if given, else arm"
     ] = None,
@@ -57,7 +60,6 @@ def command(
     """
     from pathlib import Path
 
-    from holdfast.interface.cli.laws import read_law
     from holdfast.interface.studio.server import serve
     from holdfast.interface.studio.state import DISPLAY_MODES, State
     from holdfast.model.arm.poses import pose_numbers
@@ -121,7 +123,7 @@ def command(
         typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
 
     if move and cell is None:
-        raise InputError("--move takes an object of a cell elsewhere, and there is no cell; add --cell FILE")
+        raise InputError("--move moves an object of an environment, and there is none; add --cell FILE")
     environment = None if cell is None else Cell.load(cell)
     with serve(model, state, host, port=port, task=studio_task, cell=environment, ready=print_address) as running_studio:
         running_studio.wait()

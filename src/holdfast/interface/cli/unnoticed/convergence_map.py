@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import holdfast as hf
-from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import LawOption, TargetsOption, read_law_for_arm, read_position_sampling, read_targets
-from holdfast.interface.cli.options import ArmArgument, JsonOption, SeedOption, TaskOption
+from holdfast.interface.cli.groups import ContactOptions
+from holdfast.interface.cli.laws import SeededLawOptions, TargetsOption, read_position_sampling, read_targets
+from holdfast.interface.cli.options import ArmArgument, JsonOption
 from holdfast.interface.cli.progress import ProgressBar
 from holdfast.interface.cli.unnoticed.measures import MapOptions, MapTimeOption
 from holdfast.interface.presentation.results import current_command, print_result
@@ -17,12 +17,9 @@ def command(
     arm: ArmArgument,
     target: TargetsOption,
     mapped: MapOptions = MapOptions(),
-    law: LawOption = "pseudoinverse",
-    task: TaskOption = None,
+    controlled: SeededLawOptions = SeededLawOptions(),
     time_limit: MapTimeOption = None,
     touched: ContactOptions = ContactOptions(),
-    seed: SeedOption = 0,
-    chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
     """Map how motions end with each joint locked from the start.
@@ -31,11 +28,11 @@ def command(
 
     Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
     """
-    control_law = read_law_for_arm(law, arm, task, chain)
+    control_law = controlled.read_law(arm)
     targets, places = read_targets(control_law, target), read_position_sampling(mapped.starts)
     clearance = touched.build_contact_clearance(control_law.arm)
     with ProgressBar(json_, "runs") as progress:
-        map_options: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": seed}
+        map_options: dict[str, Any] = {"configurations": mapped.configurations, "over": mapped.over, "seed": controlled.seed}
         result = hf.convergence_map(
             control_law, targets, places, time_limit=time_limit, clearance=clearance, progress=progress, **map_options
         )

@@ -9,7 +9,7 @@ import typer
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.options import JsonOption
+from holdfast.interface.cli.options import ArmOption, JsonOption
 from holdfast.interface.presentation.results import print_result
 
 command = typer.Typer(name="faults", help="Generate timed joint faults for simulators.", no_args_is_help=True)
@@ -22,11 +22,11 @@ def _describe_group() -> None:
 
 @command.command()
 def draw(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Faults file (YAML).")],
-    arm: Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."],
-    episodes: Annotated[int, "So many, from number 0 on."] = 1,
-    horizon: Annotated[float | None, "Length of an episode, s. Default: endless."] = None,
-    seed: Annotated[int | None, "In place of the file's."] = None,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Fault file (YAML).")],
+    arm: ArmOption,
+    episodes: Annotated[int, "Number of episodes, starting with episode 0."] = 1,
+    horizon: Annotated[float | None, "Length of an episode in s. Default: infinite."] = None,
+    seed: Annotated[int | None, "Seed that replaces that of the fault file. Default: that of the file."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:

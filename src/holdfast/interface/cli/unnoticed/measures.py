@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 FolderOption = Annotated[Path | None, "Folder for report, figures, table and summary."]
-MeasureTimeOption = Annotated[float | None, "Time limit, s.", "2000/gain s"]
-PlacesOption = Annotated[Literal["starts", "targets"], "What the places of the map are: starts or targets."]
-MapTimeOption = Annotated[float | None, "Time limit, s.", "500/gain s"]
+MeasureTimeOption = Annotated[float | None, "Time limit of each motion in s.", "2000/gain s"]
+PlacesOption = Annotated[Literal["starts", "targets"], "Positions of the map: starts or targets."]
+MapTimeOption = Annotated[float | None, "Time limit of each motion in s.", "500/gain s"]
 
 
 @dataclass(frozen=True)
@@ -19,24 +19,25 @@ class MeasureOptions:
     out: FolderOption = None
     starts: Annotated[
         str | None,
-        "grid:52, a lattice over the workspace of a planar arm, or a number of random places.",
-        "grid:52, or 100; over targets 20",
+        "Start positions: grid:52, which is a lattice over the workspace of a planar arm, or a number of random ones.",
+        "grid:52 in a plane, else 100; over targets 20",
     ] = None
     configurations: Annotated[
         int | None,
-        "Configurations per start: on each curve of its self-motion, or random ones.",
-        "36, or 8; over targets 8, or 4",
+        "Number of configurations per start, on each curve of its self-motion or at random.",
+        "36 in a plane, else 8; over targets 8 and 4",
     ] = None
     points: Annotated[
-        int | None, "Failures of each joint on each motion; 0 for the ranges only.", "10, or 3; over targets 2"
+        int | None, "Number of failures per joint and motion; 0 skips the measures F.", "10 in a plane, else 3; over targets 2"
     ] = None
     method: Annotated[
         Literal["brute", "procedure", "sampled"] | None,
-        "Simulate all failures, only those where a sink exists, or all failures of random configurations.",
+        "Failures to simulate: brute (all), procedure (only where a sink exists), or sampled (all, of random configurations).",
         "brute in a plane, else sampled",
     ] = None
     relative_to: Annotated[
-        Literal["inside", "whole"], "F as a fraction of the part of the path within the joints' ranges, or of the whole path."
+        Literal["inside", "whole"],
+        "Reference of the measures F: inside (the path within the joints' ranges) or whole (the whole path).",
     ] = "inside"
 
     def library_arguments(self) -> dict[str, Any]:
@@ -49,6 +50,6 @@ class MapOptions:
     """Options for the positions and motions of a convergence map."""
 
     out: FolderOption = None
-    starts: Annotated[str, "A number of random places, or a lattice as grid:52."] = "1000"
-    configurations: Annotated[int, "Motions for each place."] = 20
+    starts: Annotated[str, "Start positions: a number of random ones, or a lattice such as grid:52."] = "1000"
+    configurations: Annotated[int, "Number of motions per position."] = 20
     over: PlacesOption = "starts"

@@ -10,19 +10,18 @@ import typer
 import holdfast as hf
 from holdfast.core.files.output import make_folder
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, JsonOption, SeedOption
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, ArmOption, JsonOption, SeedOption
 from holdfast.interface.presentation.printing import make_console, print_written_files
 from holdfast.interface.presentation.results import print_result
 
-ArmOption = Annotated[str, "Built-in name, URDF or MJCF file, or DH table (YAML)."]
-ColumnsOption = Annotated[Path | None, "Names and units of the columns (YAML), where they are not a log's."]
-LatencyOption = Annotated[float, "By which the tool's pose is recorded late, s."]
+ColumnsOption = Annotated[Path | None, "Column file (YAML): names and units of the columns, if they are not the default ones."]
+LatencyOption = Annotated[float, "Latency of the tool-pose measurement in s."]
 
 
 def diagnose(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Record (.npz, .csv or .parquet).")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Log (.npz, .csv or .parquet).")],
     arm: ArmOption,
-    bounds: Annotated[Path, "File that calibrate wrote."],
+    bounds: Annotated[Path, "Threshold file of 'holdfast calibrate'."],
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -30,7 +29,7 @@ def diagnose(
 ) -> None:
     """Detect and identify a joint fault in a log.
 
-    Exit code 0 if nothing was found, 3 if there is an alarm.
+    Exit code: 0 if no fault is detected, 3 if there is an alarm.
 
     Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
@@ -44,13 +43,13 @@ def diagnose(
 
 
 def calibrate(
-    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Records (.npz, .csv or .parquet).")],
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Logs of the healthy arm (.npz, .csv or .parquet).")],
     arm: ArmOption,
-    out: Annotated[Path, "File of the bounds (JSON)."],
-    factor: Annotated[float | None, "On the largest healthy residual. Default: 1.5, without torques 2.5."] = None,
-    coulomb: Annotated[float, "Dry friction of each joint, N m (N), if known."] = 0.0,
-    viscous: Annotated[float | None, "Viscous friction, N m s/rad (N s/m). Default: the arm's own."] = None,
-    fit: Annotated[bool, "Fit masses and friction to the records first."] = False,
+    out: Annotated[Path, "File for the thresholds (JSON)."],
+    factor: Annotated[float | None, "Multiple of the largest healthy residual. Default: 1.5, or 2.5 without torques."] = None,
+    coulomb: Annotated[float, "Dry friction of each joint in N m (N), if known."] = 0.0,
+    viscous: Annotated[float | None, "Viscous friction in N m s/rad (N s/m). Default: that of the arm."] = None,
+    fit: Annotated[bool, "Fit masses and friction to the logs first."] = False,
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -67,9 +66,9 @@ def calibrate(
 
 
 def predict_detection(
-    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Record (.npz, .csv), or motion as follow writes it.")],
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Log (.npz, .csv), or motion that 'holdfast follow' wrote.")],
     arm: ArmOption,
-    bounds: Annotated[Path | None, "File that calibrate wrote: how soon a lock is noticed."] = None,
+    bounds: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to predict also the detection time."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),
 ) -> None:
@@ -86,17 +85,17 @@ def predict_detection(
 
 def simulate_logs(
     arm: ArmArgument,
-    out: Annotated[Path, "Folder of the records."],
-    records: Annotated[int, typer.Option("--records", min=1, help="So many, each with a motion of its own.")] = 1,
-    duration: Annotated[float, "Of each, s."] = 6.0,
-    faults: Annotated[Path | None, "Faults file (YAML); record k is episode k."] = None,
-    robot: Annotated[int, "Which robot: records of one have one."] = 0,
+    out: Annotated[Path, "Folder for the logs."],
+    records: Annotated[int, typer.Option("--records", min=1, help="Number of logs, each with a different motion.")] = 1,
+    duration: Annotated[float, "Duration of each log in s."] = 6.0,
+    faults: Annotated[Path | None, "Fault file (YAML); log k is episode k. Default: no faults."] = None,
+    robot: Annotated[int, "Seed of the simulated robot. Use one value for all logs of the same robot."] = 0,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
 ) -> None:
     """Simulate sensor logs of an arm, with or without faults.
 
-    Masses and friction of a robot are off by up to 20 % of the arm's model (needs the extra 'physics').
+    Masses and friction of the simulated robot differ by up to 20 % from the arm model. Needs the extra 'physics'.
 
     Example: holdfast simulate-logs panda --records 2 --out healthy
     """

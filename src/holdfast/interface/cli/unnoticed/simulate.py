@@ -11,21 +11,13 @@ import numpy as np
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities
-from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
-from holdfast.interface.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TimeLimitOption, read_law_for_arm
-from holdfast.interface.cli.options import (
-    TARGET_HELP,
-    ArmArgument,
-    FailureOption,
-    JsonOption,
-    MotionCsvOption,
-    StartDegreesOption,
-    TaskOption,
-)
+from holdfast.interface.cli.groups import ContactOptions
+from holdfast.interface.cli.laws import ClosedLoopOptions, LawOptions, OptionalTargetOption
+from holdfast.interface.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption
 from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.interface.presentation.results import print_result, write_outputs
 
-_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by how a number of --error-limit ends
+_LIMIT_UNITS = {"deg": "rad", "rad": "rad", "m": "m"}  # by the ending of a number of --error-limit
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
@@ -34,79 +26,62 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[str | None, "Joint values at the start, rad and m, by commas or spaces."] = None,
-    target: Annotated[str | None, TARGET_HELP] = None,
+    start: Annotated[str | None, "Start configuration in rad and m, separated by commas or spaces."] = None,
+    target: OptionalTargetOption = None,
     motion: Annotated[
         Path | None,
-        "Play this motion in MuJoCo, in place of --start and --target: a CSV file of joints over time or the folder that "
-        "recover, follow or endure wrote with --out, or a record (.npz).",
+        "Motion to play in MuJoCo, instead of --start and --target: a CSV file of joints over time, the folder that recover, "
+        "follow or plan-motion wrote with --out, or a log (.npz).",
     ] = None,
-    error_limit: Annotated[
-        str | None, "With --motion: largest distance of a joint from the motion, for example 2deg or 2deg,1mm."
-    ] = None,
+    error_limit: Annotated[str | None, "Largest deviation of a joint from --motion, for example 2deg or 2deg,1mm."] = None,
     lock: Annotated[
         list[str] | None,
-        "JOINT or JOINT@TIME: it locks at the start, or then (s or cycles); with --monitor a fault. May be given again.",
+        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, it must be detected. Repeatable.",
     ] = None,
     failure: FailureOption = None,
-    law: LawOption = "pseudoinverse",
-    task: TaskOption = None,
-    gain: GainOption = 1.0,
-    speed_limit: SpeedLimitOption = None,
-    cycles: CyclesOption = False,
-    time_limit: TimeLimitOption = None,
+    controlled: LawOptions = LawOptions(),
+    loop: ClosedLoopOptions = ClosedLoopOptions(),
     physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
-    servo_bandwidth: Annotated[float, "With --physics: bandwidth of the joint servos, Hz."] = 10.0,
-    faults: Annotated[Path | None, "Faults file (YAML): what fails when is drawn from it."] = None,
-    episode: Annotated[int, "With --faults: which episode is drawn, from 0."] = 0,
+    servo_bandwidth: Annotated[float, "Bandwidth of the joint servos in Hz, with --physics or --motion."] = 10.0,
+    faults: Annotated[Path | None, "Fault file (YAML), from which the faults are sampled."] = None,
+    episode: Annotated[int, "Number of the episode of --faults, from 0."] = 0,
     monitor: Annotated[
         Path | None,
-        "With --physics: bounds that calibrate wrote; a monitor names the joint, and the controller reacts, clear of --cell.",
+        "Threshold file of 'holdfast calibrate', with --physics: a monitor identifies the joint, and the controller reacts "
+        "and avoids --cell.",
     ] = None,
     record: Annotated[
-        Path | None, "With --physics: write what the sensors told (.npz, .csv or .parquet), for calibrate and diagnose."
+        Path | None, "File for the sensor log (.npz, .csv or .parquet), with --physics, for calibrate and diagnose."
     ] = None,
     touched: ContactOptions = ContactOptions(),
-    stop_at_contact: Annotated[bool, "With --cell: the run ends where the arm first touches an object."] = False,
+    stop_at_contact: Annotated[bool, "End the run at the first contact with an object of --cell."] = False,
     degrees: StartDegreesOption = False,
-    chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
-    plot: Annotated[Path | None, "Draw the motion into this PNG file."] = None,
-    out: Annotated[Path | None, "Folder for report.html with the arm moving, run.png and run.csv."] = None,
+    plot: Annotated[Path | None, "PNG file for a figure of the motion."] = None,
+    out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate the closed loop with locked joints that the controller does not know of.
 
-    With --motion a planned motion is played instead, and the output says when a joint first exceeds --error-limit.
+    With --motion, a planned motion is played instead, and the output states when a joint first exceeds --error-limit.
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
     if motion is not None:
-        other_options = {
-            "--start": start,
-            "--target": target,
-            "--failure": failure,
-            "--task": task,
-            "--speed-limit": speed_limit,
-        }
-        other_options |= {
-            "--cycles": cycles,
-            "--time-limit": time_limit,
-            "--faults": faults,
-            "--monitor": monitor,
-            "--record": record,
-        }
-        _reject_options(other_options | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
+        others: dict[str, Any] = {"--start": start, "--target": target, "--failure": failure, "--task": controlled.task}
+        others |= {"--speed-limit": loop.speed_limit, "--cycles": loop.cycles, "--time-limit": loop.time_limit}
+        others |= {"--faults": faults, "--monitor": monitor, "--record": record}
+        _reject_options(others | {"--stop-at-contact": stop_at_contact, "--degrees": degrees}, "--motion")
         execution = _play_motion(
-            chain.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
+            controlled.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
         )
         print_result(execution, json_, write_outputs(execution, plot, out) + ([] if csv is None else [execution.to_csv(csv)]))
         return
     if error_limit is not None:
-        raise InputError("--error-limit is of a motion that is played; add --motion")
+        raise InputError("--error-limit applies to a played motion; add --motion")
     if start is None or target is None:
         raise InputError(f"{'--start' if start is None else '--target'} is missing; give --start and --target, or --motion")
-    control_law = read_law_for_arm(law, arm, task, chain, gain=gain, speed_limit=speed_limit)
+    control_law = controlled.read_law(arm, gain=loop.gain, speed_limit=loop.speed_limit)
     target_value = read_target(control_law.arm, control_law.task, target)
     locked_joints, lock_times = (
         zip(*[_read_timed_lock(control_law.arm, text) for text in lock or []], strict=True) if lock else ((), ())
@@ -114,7 +89,7 @@ def command(
     q0 = read_configuration(control_law.arm, start, degrees, "--start")
     drawn_faults = None if faults is None else hf.faults.load(faults)
     if physics and (drawn_faults is not None or monitor is not None or record is not None):
-        _reject_options({"--failure": failure, "--cycles": cycles, "--stop-at-contact": stop_at_contact})
+        _reject_options({"--failure": failure, "--cycles": loop.cycles, "--stop-at-contact": stop_at_contact})
         if lock and drawn_faults is not None:
             _reject_options({"--lock": lock})
         locks = [
@@ -130,7 +105,7 @@ def command(
             episode=episode,
             monitor=fault_monitor,
             clearance=touched.build_contact_clearance(control_law.arm),
-            time_limit=12.0 if time_limit is None else time_limit,
+            time_limit=12.0 if loop.time_limit is None else loop.time_limit,
             servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if fault_monitor is None else fault_monitor.bounds.rate),
         )
         records = [] if record is None else [fault_run.log().save(record)]
@@ -140,27 +115,33 @@ def command(
         return
     for name, file in {"--monitor": monitor, "--record": record}.items():
         if file is not None:
-            raise InputError(f"{name} is of an arm with bodies, motors and sensors; add --physics")
+            raise InputError(f"{name} needs bodies, motors and sensors; add --physics")
     if drawn_faults is not None:
         _reject_options({"--lock": lock, "--failure": failure})
     sampled_events = None if drawn_faults is None else drawn_faults.draw(control_law.arm, episode=episode)
     clearance = touched.build_contact_clearance(control_law.arm)
     if stop_at_contact and clearance is None:
-        raise InputError("--stop-at-contact has nothing to stop at; add --cell")
+        raise InputError("--stop-at-contact needs objects to touch; add --cell")
     locked_spec = read_locks(control_law.arm, lock, degrees, failure=failure) if failure else locked_joints
     common_options: dict[str, Any] = {
         "locked": locked_spec,
-        "time_limit": time_limit,
+        "time_limit": loop.time_limit,
         "time": lock_times or 0.0,
         "clearance": clearance,
     }
     runs = hf.simulate(
-        control_law, q0, target_value, cycles=cycles, faults=sampled_events, stop_at_contact=stop_at_contact, **common_options
+        control_law,
+        q0,
+        target_value,
+        cycles=loop.cycles,
+        faults=sampled_events,
+        stop_at_contact=stop_at_contact,
+        **common_options,
     )
     result: Result = runs
     if physics:
-        if cycles:
-            raise InputError("--physics has a control rate of its own; leave out --cycles")
+        if loop.cycles:
+            raise InputError("--physics has its own control rate; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
         result = hf.simulate_physics(control_law, q0, target_value, servos=servos, **common_options)
     files = write_outputs(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
@@ -202,7 +183,7 @@ def _play_motion(
 
 
 def _read_error_limit(text: str) -> tuple[float, float]:
-    """Read ``--error-limit`` in rad and m; a unit that is missing has no limit."""
+    """Read ``--error-limit`` as limits in rad and m; infinite for a unit that is not given."""
     limits = {"rad": np.inf, "m": np.inf}
     for part in text.split(","):
         unit = next((unit_kind for suffix, unit_kind in _LIMIT_UNITS.items() if part.strip().endswith(suffix)), None)

@@ -273,14 +273,14 @@ def _one_to_n(arm: Arm, task: object) -> FloatArray:
     return np.arange(1.0, arm.n + 1)
 
 
-Weights = Annotated[WeightSpec, Parameter("1", "one number of 0 or more for each joint", example="_one_to_n")]
+Weights = Annotated[WeightSpec, Parameter("1", "one number per joint, 0 or larger", example="_one_to_n")]
 
 
 @constructor(needs=("inertia",))
 def torque(
     arm: Arm,
     weights: Annotated[
-        WeightSpec, Parameter("1", "effort, worst-case, or one number of 0 or more for each joint", example="_one_to_n")
+        WeightSpec, Parameter("1", "effort, worst-case, or one number per joint, 0 or larger", example="_one_to_n")
     ] = None,
 ) -> Susceptibility:
     """The torque or force that holds each joint against gravity; English and Maciejewski 1998, eq. (7), (8), (12).
