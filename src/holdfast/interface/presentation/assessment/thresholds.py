@@ -50,9 +50,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         return []
     threshold_values = choose_thresholds(facts.axis_values, facts.is_logarithmic, facts.threshold)
     option = "at_least" if facts.larger_is_better else "at_most"
-    samples = [
-        (f"over all {facts.noun}s" if facts.assessment.region.kind == "joints" else "at the configurations found", False)
-    ]
+    samples = [("over all configurations" if facts.noun == "configuration" else "at the configurations found", False)]
     samples += [("at the best configuration of each pose", True)] * (facts.assessment.optimised is not None)
     answers = {
         f"Probability {label}": [

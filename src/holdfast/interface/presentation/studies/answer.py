@@ -74,10 +74,7 @@ def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
             leader_suffix = "" if best.median[0] == name else f" ({best.median[0]})"
             sentences[-1] += f"; in the best configurations {best.median[1]}{leader_suffix}"
         sentences[-1] += f". Its worst failure is most often a lock of {standing.worst}." if standing.worst else "."
-    sentences += [
-        f"{name} keeps nothing: once {joint} locks, the task is singular in every configuration."
-        for name, joint in standing.ended.items()
-    ]
+    sentences += [f"{name} is singular in every configuration once {joint} locks." for name, joint in standing.ended.items()]
     return " ".join(sentences)
 
 
@@ -110,9 +107,7 @@ def _describe_best_design(swept: DesignSweep) -> str:
         f"{format_number(float(swept.guaranteed[best]))} at {fraction} of the poses, and a reach of {swept.reach[best]:.3f} m"
     )
     if swept.start is not None:
-        text += (
-            f"; the baseline arm has {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m"
-        )
+        text += f" (baseline arm {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m)"
     return f"{text}. {describe_farther_design(swept.guaranteed, swept.reach, best)}".rstrip()
 
 

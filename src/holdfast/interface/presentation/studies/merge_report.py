@@ -24,9 +24,7 @@ def present(merge: MergeReport) -> Presentation:
         packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
         lines.append(f"Computed on {maker['processor']}: Python {maker['python']}, {packages}.")
     if len(merge.study.makers) > 1:
-        lines.append(
-            "Versions or processors differ, so the study agrees with one computed on a single machine to 1e-12, not bit for bit."
-        )
+        lines.append("Versions or processors differ: values agree with those of a single machine to 1e-12, not bit for bit.")
     progress = present_study(merge.study)
     answer = f"{merge.study.path}: {merge.added} chunks added; {merge.both} already existed and are identical bit for bit"
     return replace(progress, answer=answer, lines=[*lines, progress.answer])

@@ -205,9 +205,7 @@ def _build_rerun_blocks(study: Study) -> list[Block]:
 
     from holdfast.interface.report.page import Code, Text
 
-    blocks: list[Block] = [
-        Text("The same file, versions and kind of processor give results that are identical bit for bit.", quiet=True)
-    ]
+    blocks: list[Block] = [Text("The same file, versions and kind of processor give the same bits.", quiet=True)]
     if study.source:
         lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]
         commands = [

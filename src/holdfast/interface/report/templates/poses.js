@@ -1,5 +1,5 @@
-// Poses that can be pointed at in the figure above: index, worst joint, configuration, and the command that opens it in the
-// studio. A click pins one; the slider goes through all of them, from the worst to the best.
+// Poses that can be selected in the figure above: index, worst joint, configuration, and the command that opens it in the
+// studio. A click pins a pose; the slider selects any pose, from the worst to the best.
 extras.poses = function (box, data) {
   const figure = box.previousElementSibling.querySelector("svg"), slider = box.querySelector("input");
   const bytes = Uint8Array.from(atob(data.rows), function (c) { return c.charCodeAt(0); });
@@ -28,7 +28,7 @@ extras.poses = function (box, data) {
   function show(k) {
     const row = numbers.subarray(k * wide, (k + 1) * wide), failure = data.failures[row[2]], q = Array.from(row.subarray(6));
     const told = data.noun + " " + row[0].toLocaleString("en") + ": index " + short(row[1]) + ", " +
-      (failure ? "worst if " + failure.name + " locks" : "singular");
+      (failure ? "worst failure " + failure.name : "singular");
     box.querySelector(".told").textContent = told;
     box.querySelector(".where").textContent = "tool at " + Array.from(row.subarray(3, 6), function (x) { return x.toFixed(3); })
       .join(", ").replace(/-/g, "\u2212") + "\u00a0m";
