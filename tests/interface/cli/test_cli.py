@@ -171,7 +171,7 @@ def test_a_singular_configuration_is_said(index, ask, cli):
     code, out, _ = cli("index", "pa10-9dof", "--q", "0 0 0 0 0 0 0 0 0", "--index", index)
     assert code == 0
     assert "singular" in out
-    assert "outside its limits: joint4" in " ".join(out.split())
+    assert "Joints outside their limits: joint4." in " ".join(out.split())
 
 
 # ---- assess and report ---------------------------------------------------------------------------------------------
@@ -281,7 +281,7 @@ def test_assess_locks_at_given_angles_and_failure_rates(cli, ask, tmp_path):
     assert ask("report", folder)["expected_survival"] is None
     code, out, _ = cli(*common, "--after-lock", "--lock", "2=0.5", *rates)
     assert code == 0
-    for part in ("28.6 deg (0.5 rad)", "where it was at another pose", "poses still reached after a failure,"):
+    for part in ("28.6 deg (0.5 rad)", "at its position for another pose", "poses still reached after a failure,"):
         assert part in " ".join(out.split()), part
 
 

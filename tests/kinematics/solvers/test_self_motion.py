@@ -199,7 +199,7 @@ def test_poses_out_of_reach_and_nan(unit3):
     status = [m.status for m in fibres(unit3, poses, "planar")]
     assert status == [Status.NOT_FOUND, Status.OK, Status.BAD_INPUT]
     assert fibres(unit3, poses, "planar")[0].q.shape == (0, 3)
-    assert "does not prove that there is none" in fibres(unit3, poses, "planar")[0].describe()[0]
+    assert "does not prove that none exists" in fibres(unit3, poses, "planar")[0].describe()[0]
     assert fibres(unit3, np.zeros((0, 4, 4)), "planar") == []
 
 

@@ -159,12 +159,12 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
     for x, text in zip(data["values"], answers.get("Largest probability", []), strict=False):
         each = sorted((run.interval(at_least=x) for run in runs[some]), key=lambda p: -p.value)
         if each[0].value == each[-1].value:
-            assert text == "all alike"
+            assert text == "all equal"
         elif each[0].value == each[1].value:
-            assert text.endswith(" alike")
+            assert text.endswith(", equal")
         else:
             best = max(names, key=lambda name: runs[names.index(name)].interval(at_least=x).value)
-            assert text == best + ("; its interval overlaps with the next" if each[1].high >= each[0].low else "")
+            assert text == best + ("; its interval overlaps with that of the next" if each[1].high >= each[0].low else "")
 
 
 def test_the_page(comparison, runs, tmp_path):
@@ -173,7 +173,7 @@ def test_the_page(comparison, runs, tmp_path):
     words = re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL).replace("\u00a0", " ")
     assert "nan" not in words.lower()
     assert "The tasks differ" in words
-    assert words.index("How the index is distributed") < words.index("In numbers")
+    assert words.index("Distribution of the index") < words.index("Numbers")
     for r in comparison.table:
         assert format_percent(r["probability"]) in words
     u = comparison.upgrades("straight")[0]
@@ -209,7 +209,7 @@ def test_what_it_says_in_sentences(comparison):
     answer, notes = comparison.describe()
     assert f"pose, {comparison.best('pose')} with {format_interval(comparison.interval(comparison.best('pose')))}; " in answer
     assert f"position, position with {format_interval(comparison.interval('position'))}." in answer
-    assert notes == f"Before comparing: {' '.join(comparison.notes)}"
+    assert notes == f"Before you compare: {' '.join(comparison.notes)}"
 
 
 def test_six_numbers_of_a_tool(rng):

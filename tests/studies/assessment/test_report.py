@@ -173,7 +173,8 @@ def test_a_manipulability_of_less_than_1e_9_after_a_lock_is_none(turned, nothing
     left, healthy = (np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j))
     assert a.distribution.highest == pytest.approx(turned / 1e-4 * (left / healthy).max(), rel=1e-3)
     assert (
-        facts.AssessmentFacts(a, None).headline.startswith("No configuration of the region tolerates every failure") == nothing
+        facts.AssessmentFacts(a, None).headline.startswith("No configuration found in the region tolerates every failure")
+        == nothing
     )
 
 
@@ -216,8 +217,8 @@ def test_bound_and_threshold_are_those_of_the_arm(tmp_path: Path) -> None:
 
 def test_structural_failure_is_said_first() -> None:
     html = text("structural")
-    assert "No pose of the region tolerates every failure" in headline(html)
-    assert html.index('class="callout bad"') < html.index("<h2>In numbers")
+    assert "No pose found in the region tolerates every failure" in headline(html)
+    assert html.index('class="callout bad"') < html.index("<h2>Numbers")
     assert "once joint4 (joint 4) locks" in html
     rows = re.findall(r"<tr><th[^>]*>([\w() ]+)</th>(.*?)</tr>", html)
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}
@@ -241,8 +242,8 @@ def test_before_and_after_optimisation() -> None:
         assert f"Seen from the side, {name}" in html
         u = a.upgrades(0.29, optimised)[0]
         assert f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" in html
-    assert "after: worst of all" in html
-    assert "Which joint deserves a redundant motor or brake" in html
+    assert "best: is the worst" in html
+    assert "Gain from a redundant motor or brake" in html
 
 
 def test_names_are_escaped() -> None:

@@ -210,7 +210,9 @@ def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
     text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(text)
     words = unescape(text).replace("\u00a0", " ")
-    assert f"The best design has guaranteed {format_percent(float(found.measures['guaranteed'][found.best]))}" in words
+    assert (
+        f"The measure 'guaranteed' is {format_percent(float(found.measures['guaranteed'][found.best]))} for the best" in words
+    )
     assert "--maximise convergence --law pseudoinverse" in text
     assert "--keep-reach" in text
 

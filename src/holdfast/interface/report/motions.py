@@ -63,11 +63,7 @@ class TimePanel:
 
 
 def motion_figure(
-    panels: Sequence[TimePanel],
-    caption: str,
-    xlabel: str = "time since the failure, s",
-    *,
-    panel_width: float = WIDTH_IN / 2.4,
+    panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s", *, panel_width: float = WIDTH_IN / 2.4
 ) -> Figure:
     """Plot panels side by side over time, each ``panel_width`` inches wide, with one line of text below."""
     with style():

@@ -52,9 +52,7 @@ def present(curve: TradeOff) -> Presentation:
             f"A velocity error of the healthy arm does not reduce the error after an undetected lock: the median peak error "
             f"is that of the pseudoinverse for all allowed errors up to {curve.allowed[-1]:.2g}."
         )
-        facts = [
-            Fact("", float(curve.allowed[-1]), phrase="largest allowed error tested, as a fraction of the commanded speed")
-        ]
+        facts = [Fact("", float(curve.allowed[-1]), phrase="of the commanded speed, the largest allowed error tested")]
     else:
         half_index = int((1 - median_gain >= largest_gain / 2).argmax())
         half_gain = 1 - median_gain[half_index]
@@ -67,12 +65,7 @@ def present(curve: TradeOff) -> Presentation:
         gain_phrase = f"smaller median peak error for an allowed error of {curve.allowed[half_index]:.2g}; {interval_text}"
         facts = [
             Fact("", half_gain, phrase=gain_phrase, style="percent"),
-            Fact(
-                "",
-                healthy_error[half_index],
-                phrase="of the speed is then the median error of the healthy arm",
-                style="percent",
-            ),
+            Fact("", healthy_error[half_index], phrase="of the speed, median error of the healthy arm", style="percent"),
             Fact("", largest_gain, phrase=f"largest reduction found, for {curve.allowed[best_index]:.2g}", style="percent"),
         ]
     low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
@@ -91,9 +84,7 @@ def present(curve: TradeOff) -> Presentation:
         about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
         facts=facts,
         tables=[TableSpec("Medians over the samples", columns, rows)],
-        figures={
-            "trade-off": FigureSpec(partial(_draw_figure, curve), "Errors after and before a lock", _FIGURE_FIGURE_CAPTION)
-        },
+        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Trade-off", _FIGURE_FIGURE_CAPTION)},
         method=[
             ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
             ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),

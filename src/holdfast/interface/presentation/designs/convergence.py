@@ -90,7 +90,7 @@ def present(designs: ConvergenceDesigns) -> Presentation:
         "all designs; a joint locks at its position in a random configuration of the target, and the arm starts at random"
     )
     caption = (
-        "All designs, plotted against one parameter each; the other parameters also vary. Local searches end near the best."
+        "Each panel shows all designs against one parameter; the others vary too. Local searches end near the best design."
     )
     can_rerun = designs.exact or (settings["targets"], settings["failures"]) == (DEFAULT_TARGETS, FAILURES_PER_JOINT)
     return Presentation(
@@ -142,22 +142,14 @@ def _compose_answer(designs: ConvergenceDesigns) -> str:
             f"{format_value(best, 'percent')} of the held-out failures, and the baseline arm in "
             f"{format_value(baseline, 'percent')}. The difference is {format_points(difference)} percentage points."
         )
-        return (
-            text
-            if difference.low > 0
-            else f"No gain was found that holds on held-out failures. {text} Search with more targets."
-        )
+        return text if difference.low > 0 else f"No gain was found on held-out failures. {text} Search with more targets."
     name = designs.objective if designs.exact else "converged"
     baseline_text, best_text = (format_percent(float(designs.measures[name][design])) for design in (0, designs.best))
     if designs.best == 0:
-        return (
-            f"No design better than the baseline arm was found. Its measure '{name}' is {baseline_text}, the "
-            f"{_MEASURE_MEANINGS[name]}."
-        )
-    return (
-        f"The measure '{name}' is {best_text} for the best design and {baseline_text} for the baseline arm. It is the "
-        f"{_MEASURE_MEANINGS[name]}."
-    )
+        text = f"No design better than the baseline arm was found. Its measure '{name}' is {baseline_text}."
+    else:
+        text = f"The measure '{name}' is {best_text} for the best design and {baseline_text} for the baseline arm."
+    return f"{text} It is the {_MEASURE_MEANINGS[name]}."
 
 
 def _draw_parameters(designs: ConvergenceDesigns) -> Figure:

@@ -143,9 +143,9 @@ def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> 
     if not restricted:
         return "the target stays within reach wherever a single joint locks"
     worst = min(restricted, key=lambda joint_name: restricted[joint_name])
-    anywhere = f" wherever {list_alternatives(free)} locks, but" if free else ""
+    anywhere = f"the target stays within reach wherever {list_alternatives(free)} locks; " if free else ""
     return (
-        f"the target stays within reach{anywhere} only if {worst}, the most restricted joint, locks in "
+        f"{anywhere}the most restricted joint is {worst}, whose locks keep the target within reach in "
         f"{format_percent(restricted[worst])} of its range"
     )
 
@@ -164,7 +164,7 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
         lock_rows = [
             (
                 joint.name,
-                "any position" if _may_lock_anywhere(motion, index) else format_ranges(ranges, joint) if ranges else "none",
+                "anywhere" if _may_lock_anywhere(motion, index) else format_ranges(ranges, joint) if ranges else "nowhere",
             )
             for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]

@@ -28,7 +28,7 @@ extras.poses = function (box, data) {
   function show(k) {
     const row = numbers.subarray(k * wide, (k + 1) * wide), failure = data.failures[row[2]], q = Array.from(row.subarray(6));
     const told = data.noun + " " + row[0].toLocaleString("en") + ": index " + short(row[1]) + ", " +
-      (failure ? "worst failure " + failure.name : "singular");
+      (failure ? "worst if " + failure.name + " locks" : "singular");
     box.querySelector(".told").textContent = told;
     box.querySelector(".where").textContent = "tool at " + Array.from(row.subarray(3, 6), function (x) { return x.toFixed(3); })
       .join(", ").replace(/-/g, "\u2212") + "\u00a0m";

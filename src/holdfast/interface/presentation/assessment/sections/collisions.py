@@ -122,7 +122,7 @@ def _describe_ignored_pairs(clearance: Clearance) -> str:
     """Describe the pairs that are not checked, with the reasons."""
     if not clearance.ignored:
         return "none"
-    phrases = {"adjacent links": "adjacent links", "to be ignored": "excluded in the capsule file"}
+    phrases = {"adjacent links": "adjacent links", "to be ignored": "excluded by the capsules"}
     groups = Counter(phrases.get(pair.reason, "") for pair in clearance.ignored)
     parts = [
         f"{count} of {reason}" if reason == "adjacent links" else f"{count} {reason}"

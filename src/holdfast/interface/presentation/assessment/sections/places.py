@@ -105,7 +105,7 @@ def _tabulate_worst_poses(facts: AssessmentFacts, distribution: Distribution, po
     suffix = f", {sample_name}" if facts.assessment.optimised is not None else ""
     caption = f"The {len(chosen)} worst of {len(reached):,} {facts.reached_noun}{suffix}; R = Rz(yaw) Ry(pitch) Rx(roll)."
     if distribution.unreached:
-        caption += f" {format_count(distribution.unreached, 'pose')} without a configuration found count as worse; not listed."
+        caption += f" The {format_count(distribution.unreached, 'pose')} without a configuration are worse, and not listed."
     return Table(cells, header, frozenset(range(8)), caption=caption, wide=True)
 
 

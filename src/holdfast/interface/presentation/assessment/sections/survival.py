@@ -34,7 +34,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         for joint, angle in locks.items()
     }
     bar_labels = [f"{joint + 1} {names[joint]}{position}" for joint, position in positions.items()]
-    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached once the joint has locked"
+    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached after a lock of the joint"
     figure = figures.bar_figure(
         bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
     )
