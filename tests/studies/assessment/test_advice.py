@@ -174,7 +174,7 @@ def test_the_axes_of_a_gen3_miss_a_point_by_12_mm():
     text = explain(arm, structure(arm, "pose"), structures(arm))
     assert "joint_4 (joint 4) nearly is" in text
     assert "by 12 mm" in text
-    assert text.endswith("A task that every single lock leaves possible: position.")
+    assert text.endswith("Possible after every single lock: position.")
 
 
 def test_the_report_warns_of_the_elbow_of_a_gen3(tmp_path):

@@ -92,7 +92,7 @@ def _are_links_unchecked(shape: CollisionModel, owners: list[str], others: list[
 def _describe_cover(shape: CollisionModel, arm: Arm, count: int, mean_excess: float, max_excess: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
     text = (
-        f"{COVER_PREFIX}{shape.source}: {capsules}, {1e3 * mean_excess:.0f} mm beyond their hulls in the mean, "
+        f"{COVER_PREFIX}{shape.source}: {capsules}, {1e3 * mean_excess:.0f} mm beyond their hulls on average, "
         f"{1e3 * max_excess:.0f} mm at most"
     )
     if shape.missing:

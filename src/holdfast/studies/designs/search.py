@@ -370,21 +370,21 @@ class _DesignSearch:
     def describe_method(self, designs: int, local_searches: int, check_poses: int) -> list[tuple[str, str]]:
         """Return the method of the computation, for reports."""
         return [
-            ("Designs", f"the given arm and {designs:,} scrambled Sobol points within the bounds, one compiled kernel for all"),
+            ("Designs", f"the baseline arm and {designs:,} scrambled Sobol points within the bounds, one kernel for all"),
             (
                 "Configurations",
                 "the best found for each design and pose, from the configurations of the two nearest designs and a few random "
-                "starts; those of the given arm and of the climbs' ends from many",
+                "starts; many random starts for the baseline arm and the results of local searches",
             ),
             (
-                "Climbs",
+                "Local searches",
                 f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
-                "exact gradients; half of them for the greatest value, half for the greatest beyond a given reach",
+                "exact gradients; half of them maximise the quantile, half maximise it beyond a given reach",
             ),
             (
-                "Poses that are not reached",
-                "count as 0; in the climbs as less than 0, by 1 per metre and radian of the nearest miss",
+                "Unreached poses",
+                "count as 0; in the local searches as minus the norm of the smallest pose error found, m and rad",
             ),
-            ("Check", f"{check_poses:,} fresh random poses; interval of the quantile by order statistics"),
-            ("Not looked at", "whether links run through one another, and what they weigh"),
+            ("Check", f"{check_poses:,} held-out random poses; interval of the quantile by order statistics"),
+            ("Not checked", "self-collision, and the masses of the links"),
         ]

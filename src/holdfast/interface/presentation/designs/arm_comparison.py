@@ -44,7 +44,7 @@ def present(comparison: ArmComparison) -> Presentation:
     names, columns = [arm.name for arm in comparison.arms], comparison.columns
     if len(names) > 1:
         front = ", ".join(names[arm_index] for arm_index in comparison.front())
-        answer = f"Pareto-optimal arms, to which no other of the {len(names)} arms is superior in all measures: {front}."
+        answer = f"Pareto-optimal among the {len(names)} arms: {front}."
     else:
         first = int(np.argmax(comparison.values[0] > 0))
         value_text = format_value(float(comparison.values[0, first]), "number", columns[first].unit)

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 _MEASURE_MEANINGS = {
     "guaranteed": "fraction of the targets, by area, that the arm reaches after every lock that leaves them within reach",
-    "free": "fraction of the locks with the target within reach after which no sink or singular trap stops the arm elsewhere",
-    "converged": "fraction of all locks after which the arm reaches its target (not reached if the target is out of reach)",
+    "free": "fraction of the locks with the target within reach after which no sink or trap stops the arm elsewhere",
+    "converged": "fraction of all locks after which the arm reaches its target; a target out of reach counts as 0",
     "reached": "fraction of the targets within reach of the healthy arm",
 }
 
