@@ -341,7 +341,7 @@ def _collect_collision_numbers(result: Assessment) -> dict[str, Any] | None:
 
 
 def _collect_upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
-    """Collect the gains of joints that never fail, at the first threshold; None if the poses were not kept."""
+    """Collect the gains of joints that never fail, at the first threshold; None if the poses were not stored."""
     if not result.has_rows or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()
