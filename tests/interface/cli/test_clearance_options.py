@@ -165,7 +165,7 @@ def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
     assert data["best_barred_by"] is None
     assert data["cell"]["sha256"] == cell.digest
     text = " ".join(cli(*common, "--radius", 0.02)[1].split())
-    assert f"collisions with the cell at most {format_percent(run.collisions.found / run.collisions.reached)} of the" in text
+    assert f"at most {format_percent(run.collisions.found / run.collisions.reached)} of the configurations found" in text
     assert "cell 'bench' with 2 objects" in text
     slender = (*BEST, "--radius", 0.02)
     free = ask(*slender)["poses"][0]

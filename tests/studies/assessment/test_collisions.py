@@ -147,7 +147,7 @@ def test_a_folder_from_before_there_was_a_clearance_still_loads(arm, call, tmp_p
     back = load(tmp_path / "old")
     assert back.collisions is None
     assert back.optimised.reached == old.optimised.reached
-    assert "Not checked" in back.report(tmp_path / "old.html").read_text()
+    assert "Self-collision was not checked" in back.report(tmp_path / "old.html").read_text()
 
 
 @pytest.fixture(scope="module")

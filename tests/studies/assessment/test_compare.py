@@ -130,7 +130,7 @@ def test_an_empty_headline_says_who_is_nearest_and_why(runs):
     line = present(two).answer
     assert "No candidate keeps" in line
     straight = two.table[0]
-    assert f"Nearest is straight. A lock of {straight['worst_joint']} is the worst failure" in line
+    assert f"straight has the best median. A lock of {straight['worst_joint']} is the worst failure" in line
     assert f"The median of the reached poses is {straight['median']:.3f}" in line
     assert f"at the best configuration of each pose it is {straight['optimised_median']:.3f}" in line
 
@@ -182,7 +182,7 @@ def test_the_page(comparison, runs, tmp_path):
     loose = [hf.assess(PANDA, CELL, "condition-number", poses=8, keep=False) for _ in range(2)]
     html = hf.compare_assessments(loose, ["<a>", "$b$"]).report(tmp_path / "s.html").read_text(encoding="utf-8")
     check(html)
-    assert "were not kept" in html
+    assert "were not stored" in html
     nothing = hf.Region.box([5, 0, 0], 0.1)
     lost = [hf.assess(arm, nothing, poses=4, restarts=1) for arm in (PANDA, SEVEN)]
     html = hf.compare_assessments(lost).report(tmp_path / "t.html").read_text(encoding="utf-8")

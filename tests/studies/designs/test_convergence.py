@@ -162,7 +162,7 @@ def test_sampled_search(tmp_path):
     text = page.read_text(encoding="utf-8")
     check(text)
     words = unescape(re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)).replace("\u00a0", " ")
-    assert "simulation: 4 targets, 1 failures of each joint" in words
+    assert "simulation of 4 targets with 1 failures of each joint" in words
     for share in (found.checked[1].value, found.measures["converged"][found.best], found.measures["reached"][0]):
         assert format_percent(float(share)) in words
 

@@ -70,7 +70,7 @@ def test_its_figures_are_given(found):
     assert list(found.figures()) == ["front", "arms"]
     assert list(replace(found, best=0).figures()) == ["front"]
     check_card(found)
-    assert "relative manipulability, 95\u00a0% of poses" in found._repr_html_()
+    assert "relative manipulability of 95\u00a0% of the poses" in found._repr_html_()
 
 
 def test_the_page_says_what_to_build(found):

@@ -58,7 +58,7 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     text = render(Page("t", compose_answer([first, second]), [Section("s", build_ranking_blocks([first, second]))])).replace(
         "\u00a0", " "
     )
-    assert "not distinguishable from a" in text
+    assert "overlaps with a" in text
     assert "a reaches its target most often, under damped:0.1" in text
     none = compose_answer(rank_arms([], [driven("a", 0.0), driven("b", 0.0)], {}))
     assert "hardly any motion reaches its target under any law: the largest fraction of 200 motions × 2 joints is 0.00" in none
