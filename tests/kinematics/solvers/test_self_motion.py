@@ -69,7 +69,7 @@ def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the
     seen = np.abs(wrapped(curve.q - [0.7, 0, 0])).max(axis=0)
     assert (seen <= np.array([first, other, other]) + 1e-9).all()
     np.testing.assert_allclose(seen, [first, other, other], atol=SPACING**2)
-    assert "form 1 curve, closed" in motion.describe()[0]
+    assert "form 1 closed curve" in motion.describe()[0]
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.5, 0.9])

@@ -64,10 +64,12 @@ def present(motion: SelfMotion) -> Presentation:
     elif count:
         closed_count = sum(component.closed for component in motion.components)
         collision_text = "" if motion.clearance is None else f", collisions with {motion.clearance.others}"
-        ends_text = f"{closed_count} of them closed"
-        if closed_count in (0, count):
-            ends_text = "closed" if closed_count else f"bounded by joint limits{collision_text} or singular configurations"
-        answer = f"The configurations found for the target form {format_count(count, 'curve')}, {ends_text}"
+        curves_text = format_count(count, "closed curve" if closed_count == count else "curve")
+        if not closed_count:
+            curves_text += f", bounded by joint limits{collision_text} or singular configurations"
+        elif closed_count < count:
+            curves_text += f", {closed_count} of them closed"
+        answer = f"The configurations found for the target form {curves_text}"
     else:
         answer = (
             f"The configurations of the target form a manifold of dimension {motion.redundancy}, of which "
