@@ -261,7 +261,7 @@ def test_what_is_missing_is_said() -> None:
     html = text("none reached")
     assert headline(html).startswith("No configuration within the joint limits was found for any of the 20 poses")
     html = text("joints")
-    assert "a random 20,000 are drawn" in html
+    assert "A random 20,000 of " in html
     assert "No configuration found" not in html
 
 

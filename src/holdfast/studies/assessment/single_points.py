@@ -194,7 +194,7 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
     ]
     instead = f" Possible after every single lock: {', '.join(survivors)}." if survivors else ""
     if found.never:
-        return f"'{arm.name}' cannot do task '{found.task}', for which it is singular in every configuration.{instead}"
+        return f"'{arm.name}' can never do task '{found.task}', for which it is singular in every configuration.{instead}"
     if found.redundancy <= 0:
         return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
     if found.weak:
