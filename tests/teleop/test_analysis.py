@@ -415,7 +415,7 @@ def test_unwritable_folders_and_unknown_tasks(table, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(StoreError, match=r"choose another folder"):
         a.save(tmp_path / "file")
-    with pytest.raises(InputError, match=r"no task 99 to show; there are 1 to 9"):
+    with pytest.raises(InputError, match=r"no task 99; the tasks are 1 to 9"):
         a.save(tmp_path, show=[99])
 
 

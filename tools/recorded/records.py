@@ -22,11 +22,11 @@ VARIES = tuple(
     for pattern, constant in (
         (r"\b\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?)?\b", "<time>"),
         (rf"(seconds\"?)(=|: ){NUMBER}", r"\g<1>\g<2>0"),
-        (rf"(that ended took |chunks in |>Time</th><td class=\"\">){LASTS}", r"\1<time>"),
-        (rf"{LASTS}(of one thread|with the \d+ of this machine)", r"<time> \1"),
+        (rf"(completed runs took |chunks in |>Time</th><td class=\"\">){LASTS}", r"\1<time>"),
+        (rf"{LASTS}(of one thread|with the \d+ threads of this machine)", r"<time> \1"),
         (r"(of one thread  a chunk) +", r"\1  "),  # as wide as the times below
         (rf"(  \d+|\d+ of \d+)  +{LASTS}(?:{LASTS})?($|\d)", r"\1 <time> \2"),  # tables of studies
-        (rf"(On the disk</th><td class=\"\">){NUMBER}", r"\1<size>"),  # times are in it
+        (rf"(Size on disk</th><td class=\"\">){NUMBER}", r"\1<size>"),  # times are in it
         (
             r"\b(holdfast|[Pp]ython|numpy|scipy|casadi|llvmlite|xarray|zarr|mujoco)( |\": \"|: )\d+(\.\d+)+[\w.]*",
             r"\1\2<version>",

@@ -21,7 +21,7 @@ def test_the_command_writes_what_the_function_finds(tmp_path, cli, refused):
     assert list(told["objects"]) == ["table", "hood", "scan"]
     page = (tmp_path / "out" / "report.html").read_text()
     assert "Check of a cell" in page
-    assert "seems nearer by at most" in page
+    assert "largest distance error" in page
     code, out, _ = cli("cell", "check", file)
     assert code == 0
     assert "point cloud of 1 point" in out

@@ -54,12 +54,12 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
     text = " ".join(out.split())
     assert code == 0
     for part in (
-        f"collides with itself {format_percent(found.found / found.reached)} of the configurations found",
-        "the best configurations keep a clearance of 0.01 m",
+        f"collisions with itself {format_percent(found.found / found.reached)} of the configurations found collide",
+        "the best configurations have a clearance of at least 0.01 m",
         "given radius 0.13 m along each link",
     ):
         assert part in text, part
-    assert "collides with itself" not in cli(*common, "--no-clearance")[1]
+    assert "collisions with itself" not in cli(*common, "--no-clearance")[1]
 
 
 def test_a_run_that_is_not_optimised_looks_if_told_to(ask, close):
@@ -165,7 +165,7 @@ def test_assess_and_optimise_keep_clear_of_a_cell(cli, ask, close, bench):
     assert data["best_barred_by"] is None
     assert data["cell"]["sha256"] == cell.digest
     text = " ".join(cli(*common, "--radius", 0.02)[1].split())
-    assert f"collides with the cell at most {format_percent(run.collisions.found / run.collisions.reached)} of the" in text
+    assert f"at most {format_percent(run.collisions.found / run.collisions.reached)} of the configurations found" in text
     assert "cell 'bench' with 2 objects" in text
     slender = (*BEST, "--radius", 0.02)
     free = ask(*slender)["poses"][0]

@@ -59,7 +59,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     # The report says what was found, and the command in it is one that the program takes.
     page = (out / "report.html").read_text().replace("\u00a0", " ")
     check(page)
-    for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--check-poses 60"):
+    for words in ("Best design", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--check-poses 60"):
         assert words in page, words
     # A search that lost its last parts makes only those, with the same bits; one that is complete is not made again.
     memory = out / MEMORY_FILE

@@ -188,7 +188,7 @@ def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
     code, text, err = cli(*arguments)
     words = " ".join(text.split())
     assert (code, err) == (0, "")
-    for part in ("pose before best agreeing of starts", "not found: no solution was found", "first configuration found"):
+    for part in ("pose before best same optimum of searches", "not found: no solution was found", "first configuration found"):
         assert part in words, part
 
 
@@ -209,7 +209,7 @@ def test_a_person_reads_joints_in_rad_and_degrees(cli):
         "Maximise relative-manipulability",
         "(the configuration given)",
         "0.3000 rad (17.19 deg)",
-        "agree",
+        "searches that found this optimum",
     ):
         assert part in words, part
     assert "position error" in words
@@ -221,7 +221,7 @@ def test_the_best_of_all_poses(ask, cli):
     assert row["value"] == pytest.approx(1 / np.sqrt(3), abs=1e-6)
     words = " ".join(cli(*given)[1].split())
     assert "(the best random configuration)" in words
-    assert "starts that were climbed from 50" in words
+    assert "completed local searches 50" in words
     assert "position error" not in words
 
 

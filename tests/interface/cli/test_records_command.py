@@ -15,7 +15,7 @@ def test_a_submission_is_held_against_the_current_record(tmp_path, cli):
     file.write_text(text.replace("id: pose-9R-k2-001", "id: mine"), encoding="utf-8")
     code, out, _ = cli("record-designs", "check", str(file))
     assert code == 0
-    assert "does not beat pose-9R-k2-001" in out
+    assert "is not better than pose-9R-k2-001" in out
     file.write_text(text.replace("0.24742", "0.26742"), encoding="utf-8")
     code, out, _ = cli("record-designs", "check", str(file))
     assert code == 3
@@ -85,7 +85,7 @@ def test_arms_are_judged_on_the_command_line(tmp_path, cli):
     assert found["columns"][0]["values"] == mine.values[:, 0].tolist()
     assert cli(*words, "--out", str(tmp_path))[0] == 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "planar-3r: judged as a whole" in page
+    assert "Global fault tolerance of planar-3r" in page
     assert "measure 'speed' is not known; use" in cli("compare-arms", "planar-3r", "--task", "planar", "--measures", "speed")[2]
 
 

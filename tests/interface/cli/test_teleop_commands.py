@@ -59,14 +59,14 @@ def test_tasks_writes_a_bank_and_a_protocol_that_runs(cli, tmp_path):
     code, text, err = cli(*call, "--out", out)
     assert (code, err) == (0, "")
     assert "Arm planar-3r: 18 tasks in 4 scenarios" in text
-    assert "Most disorienting of the others" in text
+    assert "Most disorienting of the other tasks" in text
     assert {f.name for f in out.iterdir()} == {"bank.csv", "bank.png", "protocol.yaml"}
     bank = table(out / "bank.csv")
     assert len(bank) == 18
     protocol = read_protocol(out / "protocol.yaml")
     data = json.loads(cli(*call, "--json")[1])
     special = [data["most_disorienting"], *([data["trapped"]] if data["trapped"] else [])]
-    assert (data["trapped"] is None) == ("No task of the bank draws" in text)
+    assert (data["trapped"] is None) == ("In no task of the bank" in text)
     assert len(data["chosen"]) == 4
     for k, number in enumerate([*data["chosen"], *special]):
         row = bank[number - 1]
@@ -128,7 +128,7 @@ def test_from_run_to_report(cli, tiny, tmp_path):
     out = tmp_path / "experiment"
     code, text, err = cli("teleop", "run", "--simulated", "--operators", "6", "--seed", "1", "--protocol", tiny, "--out", out)
     assert (code, err) == (0, "")
-    assert "6 simulated operators" in text
+    assert "6 of 6 simulated operators" in text
     code, text, err = cli("teleop", "analyse", out)
     assert (code, err) == (0, "")
     assert "law x difficulty" in text

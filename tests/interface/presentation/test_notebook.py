@@ -205,7 +205,7 @@ def test_a_figure_is_plotted_by_its_name():
     assert isinstance(choice.plot("trade-off"), Figure)
     with pytest.raises(InputError, match="TradeOff has no figure 'x'; it has trade-off"):
         choice.plot("x")
-    with pytest.raises(InputError, match=r"WaypointCheck has no figure; ask result.describe\(\) instead"):
+    with pytest.raises(InputError, match=r"WaypointCheck has no figure; use result.describe\(\) instead"):
         MADE["WaypointCheck"]().plot()
 
 

@@ -257,11 +257,11 @@ def test_the_theme_is_the_systems_until_it_is_chosen(small):
 
 def test_contents_lead_to_the_sections_and_stay_in_sight(report):
     report.set_viewport_size({"width": 390, "height": 800})
-    report.locator("nav a", has_text="The same run again").click()
+    report.locator("nav a", has_text="Repeat this run").click()
     report.wait_for_url("**#again")
     top = report.locator("#again").bounding_box()["y"]
     assert report.locator("nav").bounding_box()["height"] <= top < 800
-    assert report.locator("nav a[aria-current]").text_content() == "The same run again"
+    assert report.locator("nav a[aria-current]").text_content() == "Repeat this run"
 
 
 def test_on_paper_tables_are_whole_and_pages_have_numbers(small):

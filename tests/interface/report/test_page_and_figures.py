@@ -163,7 +163,7 @@ def test_a_folder_and_its_page_hold_the_same_figure_drawn_once(tmp_path: Path, m
     assert int.from_bytes(picture.read_bytes()[16:20]) == 1200  # 8 inches
     html = page.read_text(encoding="utf-8")
     check(html)
-    assert str(svg(told.draw(), "bars", "Told: what was found")) in html
+    assert str(svg(told.draw(), "bars", "Told: results")) in html
     assert html.index("The answer.") < html.index("More.") < html.index("<svg") < html.index("<pre>holdfast arms")
 
 

@@ -117,7 +117,7 @@ def test_a_mesh_that_is_there_and_cannot_be_read_is_not_called_missing_and_noted
     (tmp_path / "camera.stl").write_text("solid camera")
     arm = hf.arms.resolve(str(file))
     _, note = build_body(arm, 1.0)
-    assert note.startswith("of the file's meshes 1 found but not readable, such as camera.stl (")
+    assert note.startswith("of the meshes in the file, 1 found but not readable, such as camera.stl (")
     shown = scene(arm, [0.0] * arm.n)
     page = embed_viewer_library(f"<head></head><body>{shown.to_html('one', 'a')}{shown.to_html('two', 'b')}</body>")
     assert page.count("found but not readable") == 1

@@ -69,7 +69,7 @@ def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the
     seen = np.abs(wrapped(curve.q - [0.7, 0, 0])).max(axis=0)
     assert (seen <= np.array([first, other, other]) + 1e-9).all()
     np.testing.assert_allclose(seen, [first, other, other], atol=SPACING**2)
-    assert "1 curve of configurations, closed" in motion.describe()[0]
+    assert "form 1 closed curve" in motion.describe()[0]
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.5, 0.9])
@@ -199,7 +199,7 @@ def test_poses_out_of_reach_and_nan(unit3):
     status = [m.status for m in fibres(unit3, poses, "planar")]
     assert status == [Status.NOT_FOUND, Status.OK, Status.BAD_INPUT]
     assert fibres(unit3, poses, "planar")[0].q.shape == (0, 3)
-    assert "does not prove that there is none" in fibres(unit3, poses, "planar")[0].describe()[0]
+    assert "does not prove that none exists" in fibres(unit3, poses, "planar")[0].describe()[0]
     assert fibres(unit3, np.zeros((0, 4, 4)), "planar") == []
 
 

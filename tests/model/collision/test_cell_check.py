@@ -70,7 +70,7 @@ def test_a_sound_cell_without_and_with_an_arm(cell):
     alone = hf.check_cell(hf.Cell(cell.objects[2:]))
     assert alone.ok
     assert math.isnan(alone.colliding)
-    assert alone.describe()[1] == "Give an arm to see what it touches."
+    assert alone.describe()[1] == "Use --arm to check an arm for contacts with these objects."
     found = hf.check_cell(hf.Cell(cell.objects[2:]), hf.arms.load("panda"))
     assert found.ok
     assert 0 < found.colliding < 0.5

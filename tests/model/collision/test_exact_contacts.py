@@ -70,7 +70,7 @@ def test_without_a_library_nothing_is_said_of_it(panda, monkeypatch):
     assert contacts
     assert all(c.exact_time is None for c in contacts)
     assert contacts[0].confirmation() == ""
-    assert "exactly at" not in tabulate_contacts(contacts).texts().head
+    assert "exact time, s" not in tabulate_contacts(contacts).texts().head
 
 
 def test_words():

@@ -174,13 +174,13 @@ def test_the_axes_of_a_gen3_miss_a_point_by_12_mm():
     text = explain(arm, structure(arm, "pose"), structures(arm))
     assert "joint_4 (joint 4) nearly is" in text
     assert "by 12 mm" in text
-    assert text.endswith("A task that every single lock leaves possible: position.")
+    assert text.endswith("Possible after every single lock: position.")
 
 
 def test_the_report_warns_of_the_elbow_of_a_gen3(tmp_path):
     _, run, _ = case("gen3")
     page = run.report(tmp_path / "report.html").read_text()
-    assert '<div class="callout warn"><p><strong>The lock of joint_4 nearly ends this task</strong>' in page
+    assert '<div class="callout warn"><p><strong>A lock of joint_4 nearly ends this task</strong>' in page
     left = run.survival()["joint_4"].value
     assert f"Once joint_4 has locked, {format_percent(left)} of the poses" in page.replace("\u00a0", " ")
 

@@ -599,7 +599,7 @@ def test_what_it_says_in_sentences(three, tmp_path):
         assess(three, THREE, task="planar", poses=10, store=tmp_path / "run", progress=stop)
     headline, *_, notice = load(tmp_path / "run").describe()
     assert headline == "Nothing has been computed yet."
-    assert notice.startswith("This run is not complete: 0 of 10 configurations are computed")
+    assert notice.startswith("This run is not complete: 0 of 10 configurations have been evaluated")
 
 
 def test_the_region_of_an_arm_is_that_of_the_command_line():

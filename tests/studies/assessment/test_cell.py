@@ -166,12 +166,12 @@ def test_the_report_and_the_numbers_say_what_is_in_the_way(run, cell, tmp_path):
     assert said["reached_clear"]["value"] == run.reached_clear().value
     page = " ".join(run.report(tmp_path / "report.html").read_text().split())
     for part in (
-        "Does the arm collide with the cell?",
+        "Collisions of the arm with the cell",
         f"cell &#39;discs&#39; with 2 objects ({cell.digest[:12]}), distances from it are lower bounds",
-        "What the arm touches",
-        "clear of the cell",
+        "Objects that the arm touches",
+        "without collision with the cell",
         "--cell cell.yaml --no-clearance",
-        "held there, clear of the cell (distances: lower bounds); so the fractions are lower bounds",
+        "starts without collision with the cell (distances: lower bounds), so the fractions are lower bounds",
     ):
         assert part in page, part
 

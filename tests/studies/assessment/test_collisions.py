@@ -147,7 +147,7 @@ def test_a_folder_from_before_there_was_a_clearance_still_loads(arm, call, tmp_p
     back = load(tmp_path / "old")
     assert back.collisions is None
     assert back.optimised.reached == old.optimised.reached
-    assert "Not checked" in back.report(tmp_path / "old.html").read_text()
+    assert "Self-collision was not checked" in back.report(tmp_path / "old.html").read_text()
 
 
 @pytest.fixture(scope="module")
@@ -190,30 +190,30 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
     text = run.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
     found = run.collisions
     for part in (
-        "Does the arm collide with itself?",
+        "Collisions of the arm with itself",
         "comes closer than 0.01 m to itself",
         thick.pair_names[0],
         "given radius 0.13 m",
     ):
         assert part in text.replace("&amp;", "&"), part
-    table = next(s for s in present(run).sections() if s.title.startswith("Does the arm")).blocks[0]
+    table = next(s for s in present(run).sections() if s.title.startswith("Collisions of the arm")).blocks[0]
     cells = dict(table.rows)
     for name, count in (
-        ("Configurations found that bring the arm into collision with itself", found.found),
-        ("Poses at whose best configuration the arm comes closer than 0.01 m to itself", found.blocked),
-        ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
+        ("Configurations found in which the arm collides with itself", found.found),
+        ("Poses at whose best configuration the arm otherwise comes closer than 0.01 m to itself", found.blocked),
+        ("… and another configuration was chosen instead", found.blocked - found.hopeless),
     ):
         assert cells[name].startswith(f"{count} ("), name
     line = summarize_collisions(ThresholdAnswer(run, None))
     assert "given radius" in line
-    assert f"{found.hopeless} poses cannot" in line
-    assert "is an assumption" not in text
+    assert f"{found.hopeless} poses without such a configuration" in line
+    assert "shape of the arm is assumed" not in text
 
 
 def test_an_assumed_shape_is_called_one(arm, tmp_path):
     guess = assess(arm, CLOSE, task="planar", poses=30, clearance=True)
     text = guess.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
-    assert "The shape of the arm is an assumption" in text
+    assert "The shape of the arm is assumed" in text
     assert "assumed radius" in text
 
 

@@ -130,7 +130,7 @@ def test_an_empty_headline_says_who_is_nearest_and_why(runs):
     line = present(two).answer
     assert "No candidate keeps" in line
     straight = two.table[0]
-    assert f"Nearest is straight. A lock of {straight['worst_joint']} is the worst failure" in line
+    assert f"straight has the best median. A lock of {straight['worst_joint']} is the worst failure" in line
     assert f"The median of the reached poses is {straight['median']:.3f}" in line
     assert f"at the best configuration of each pose it is {straight['optimised_median']:.3f}" in line
 
@@ -159,12 +159,12 @@ def test_the_threshold_of_the_page_has_the_answers_that_python_gives(runs, some)
     for x, text in zip(data["values"], answers.get("Largest probability", []), strict=False):
         each = sorted((run.interval(at_least=x) for run in runs[some]), key=lambda p: -p.value)
         if each[0].value == each[-1].value:
-            assert text == "all alike"
+            assert text == "all equal"
         elif each[0].value == each[1].value:
-            assert text.endswith(" alike")
+            assert text.endswith(", equal")
         else:
             best = max(names, key=lambda name: runs[names.index(name)].interval(at_least=x).value)
-            assert text == best + ("; its interval overlaps with the next" if each[1].high >= each[0].low else "")
+            assert text == best + ("; its interval overlaps with that of the next" if each[1].high >= each[0].low else "")
 
 
 def test_the_page(comparison, runs, tmp_path):
@@ -173,7 +173,7 @@ def test_the_page(comparison, runs, tmp_path):
     words = re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL).replace("\u00a0", " ")
     assert "nan" not in words.lower()
     assert "The tasks differ" in words
-    assert words.index("How the index is distributed") < words.index("In numbers")
+    assert words.index("Distribution of the index") < words.index("Numbers")
     for r in comparison.table:
         assert format_percent(r["probability"]) in words
     u = comparison.upgrades("straight")[0]
@@ -182,7 +182,7 @@ def test_the_page(comparison, runs, tmp_path):
     loose = [hf.assess(PANDA, CELL, "condition-number", poses=8, keep=False) for _ in range(2)]
     html = hf.compare_assessments(loose, ["<a>", "$b$"]).report(tmp_path / "s.html").read_text(encoding="utf-8")
     check(html)
-    assert "were not kept" in html
+    assert "were not stored" in html
     nothing = hf.Region.box([5, 0, 0], 0.1)
     lost = [hf.assess(arm, nothing, poses=4, restarts=1) for arm in (PANDA, SEVEN)]
     html = hf.compare_assessments(lost).report(tmp_path / "t.html").read_text(encoding="utf-8")
@@ -209,7 +209,7 @@ def test_what_it_says_in_sentences(comparison):
     answer, notes = comparison.describe()
     assert f"pose, {comparison.best('pose')} with {format_interval(comparison.interval(comparison.best('pose')))}; " in answer
     assert f"position, position with {format_interval(comparison.interval('position'))}." in answer
-    assert notes == f"Before comparing: {' '.join(comparison.notes)}"
+    assert notes == f"Before you compare: {' '.join(comparison.notes)}"
 
 
 def test_six_numbers_of_a_tool(rng):

@@ -124,7 +124,7 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     name = PANDA.joint_names[worst[counts.argmax()]]
     assert f"A lock of {name} is the worst failure at {100 * counts.max() / counts.sum():.1f} %" in line
     assert f"The median of the reached poses is {np.quantile(value[reached], 0.5, method='inverted_cdf'):.3f}" in line
-    assert "would gain, a run that optimises says" in line
+    assert "a run with --optimise (optimise=True in Python) also evaluates" in line
     assert "A lock of" not in facts.AssessmentFacts(a, 0.01).headline  # which says enough
     best = facts.AssessmentFacts(case("optimised"), 0.47).headline
     median = np.nanquantile(case("optimised").dataset["optimised_index"].values, 0.5, method="inverted_cdf")
@@ -136,7 +136,7 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     for threshold in (0.01, 0.57):
         assert facts.AssessmentFacts(case("weighted"), threshold).headline.startswith(first)
     assert headline(text("panda")).startswith(
-        "Hardly any pose" if case("panda").probability(0.19) else "None of the 250 poses drawn keeps"
+        "Hardly any pose" if case("panda").probability(0.19) else "None of the 250 sampled poses keeps"
     )
 
 
@@ -154,7 +154,7 @@ def test_one_configuration_in_a_hundred_is_a_probability_and_less_is_hardly_any(
     a = hf.assess(three, hf.Region.joints([-2] * 3, [2] * 3), poses=100, task="planar")
     top = a.distribution.highest
     assert facts.AssessmentFacts(a, top).headline.startswith("With probability 0.01 ")
-    assert facts.AssessmentFacts(a, np.nextafter(top, 1)).headline.startswith("None of the 100 configurations drawn")
+    assert facts.AssessmentFacts(a, np.nextafter(top, 1)).headline.startswith("None of the 100 sampled configurations")
 
 
 @pytest.mark.parametrize(("turned", "nothing"), [(1e-9, True), (1e-8, False)])
@@ -173,7 +173,8 @@ def test_a_manipulability_of_less_than_1e_9_after_a_lock_is_none(turned, nothing
     left, healthy = (np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j))
     assert a.distribution.highest == pytest.approx(turned / 1e-4 * (left / healthy).max(), rel=1e-3)
     assert (
-        facts.AssessmentFacts(a, None).headline.startswith("No configuration of the region tolerates every failure") == nothing
+        facts.AssessmentFacts(a, None).headline.startswith("No configuration found in the region tolerates every failure")
+        == nothing
     )
 
 
@@ -216,8 +217,8 @@ def test_bound_and_threshold_are_those_of_the_arm(tmp_path: Path) -> None:
 
 def test_structural_failure_is_said_first() -> None:
     html = text("structural")
-    assert "No pose of the region tolerates every failure" in headline(html)
-    assert html.index('class="callout bad"') < html.index("<h2>In numbers")
+    assert "No pose found in the region tolerates every failure" in headline(html)
+    assert html.index('class="callout bad"') < html.index("<h2>Numbers")
     assert "once joint4 (joint 4) locks" in html
     rows = re.findall(r"<tr><th[^>]*>([\w() ]+)</th>(.*?)</tr>", html)
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}
@@ -241,8 +242,8 @@ def test_before_and_after_optimisation() -> None:
         assert f"Seen from the side, {name}" in html
         u = a.upgrades(0.29, optimised)[0]
         assert f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" in html
-    assert "after: worst of all" in html
-    assert "Which joint deserves a redundant motor or brake" in html
+    assert "best: is the worst" in html
+    assert "Gain from a redundant motor or brake" in html
 
 
 def test_names_are_escaped() -> None:
@@ -255,12 +256,12 @@ def test_names_are_escaped() -> None:
 
 def test_what_is_missing_is_said() -> None:
     html = text("no rows")
-    assert "were not kept" in html
+    assert "were not stored" in html
     assert "The 10 worst" not in html
     html = text("none reached")
     assert headline(html).startswith("No configuration within the joint limits was found for any of the 20 poses")
     html = text("joints")
-    assert "a random 20,000 are drawn" in html
+    assert "A random 20,000 of " in html
     assert "No configuration found" not in html
 
 
@@ -274,7 +275,7 @@ def test_an_interrupted_run_says_so(tmp_path: Path) -> None:
     html = hf.load(tmp_path / "run").report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(html)
     assert html.index('class="headline"') < html.index("This run is not complete") < html.index("<h2>")
-    assert "131,072 of 140,000 configurations are computed" in html
+    assert "131,072 of 140,000 configurations have been evaluated" in html
 
 
 @pytest.mark.parametrize("region", [JOINTS, PAPER])

@@ -89,8 +89,8 @@ def test_axes_that_would_meet_but_for_the_digits_of_a_file(turned, shifted):
     sizes = [np.linalg.svd(x, compute_uv=False).prod(axis=1) for x in (np.delete(j, 3, axis=2), j)]
     assert left == pytest.approx((sizes[0] / sizes[1]).max(), rel=1e-5)
     text = explain(near, found, structures(near))
-    assert "All but a single point of failure by structure: once lbr_iiwa_joint_4 (joint 4) locks" in text
-    assert text.endswith("A task that every single lock leaves possible: position.")
+    assert "Nearly a single point of failure by structure: once lbr_iiwa_joint_4 (joint 4) locks" in text
+    assert text.endswith("Possible after every single lock: position.")
     if turned:  # sets of joints, too
         assert (3, 4, 5) in structure(near, "position").together
 
@@ -137,7 +137,7 @@ def test_sets_of_joints_that_end_a_task_together(name, task, sets):
     arm = arms.load(name)
     found = structure(arm, task)
     assert set(sets) <= {"+".join(arm.joint_names[k] for k in some) for some in found.together}
-    assert "Sets whose locks together end it" in explain(arm, found, [])
+    assert "Sets of joints whose locks make it singular" in explain(arm, found, [])
     j = oracles.task_jacobian(arm, np.random.default_rng(98).uniform(-3, 3, (40, arm.n)), task)
     for some in found.together:
         left = np.linalg.svd(np.delete(j, some, axis=2), compute_uv=False)

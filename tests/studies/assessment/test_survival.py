@@ -114,7 +114,7 @@ def test_threads_and_folders_do_not_matter(arm, region, tmp_path):
     np.testing.assert_array_equal(first.dataset["survives"].values, second.dataset["survives"].values)
     again = hf.load(tmp_path / "run")
     np.testing.assert_array_equal(again.survivors, first.survivors)
-    assert "What survives a locked joint" in again.report(tmp_path / "report.html").read_text()
+    assert "Poses still reached after a lock" in again.report(tmp_path / "report.html").read_text()
 
 
 def test_sentences(arm, region):
@@ -144,7 +144,7 @@ def test_optimised_runs_through_the_folder(arm, region, tmp_path):
     assert (run.cdf(h, optimised=True) <= run.cdf(h)).all()
     with pytest.raises(hf.InputError, match="optimise=True"):
         plain.cdf(0.1, optimised=True)
-    assert "What choosing configurations gains" in again.report(tmp_path / "report.html").read_text()
+    assert "Gain from choosing the best configurations" in again.report(tmp_path / "report.html").read_text()
 
 
 def test_rows_hold_the_angle_of_the_lock(arm):
@@ -239,7 +239,7 @@ def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_l
     run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, locked={2: -1.25})
     html = run.report(tmp_path / "report.html").read_text().replace("\u00a0", " ")
     assert "−71.6 deg (−1.25 rad)" in html
-    assert ("where it was at another pose" in html) == after_lock
+    assert ("at its position for another pose" in html) == after_lock
     assert "Right: with joint" in html
     assert "--lock joint3=-1.25" in html
     command, _ = rerun.build_command_line(run)

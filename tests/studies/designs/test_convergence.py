@@ -162,7 +162,7 @@ def test_sampled_search(tmp_path):
     text = page.read_text(encoding="utf-8")
     check(text)
     words = unescape(re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)).replace("\u00a0", " ")
-    assert "simulation: 4 targets, 1 failures of each joint" in words
+    assert "simulation of 4 targets with 1 failures of each joint" in words
     for share in (found.checked[1].value, found.measures["converged"][found.best], found.measures["reached"][0]):
         assert format_percent(float(share)) in words
 
@@ -210,7 +210,9 @@ def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
     text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(text)
     words = unescape(text).replace("\u00a0", " ")
-    assert f"The best design has guaranteed {format_percent(float(found.measures['guaranteed'][found.best]))}" in words
+    assert (
+        f"The measure 'guaranteed' is {format_percent(float(found.measures['guaranteed'][found.best]))} for the best" in words
+    )
     assert "--maximise convergence --law pseudoinverse" in text
     assert "--keep-reach" in text
 

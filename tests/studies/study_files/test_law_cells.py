@@ -114,7 +114,7 @@ def test_a_dask_worker_changes_no_bit(tmp_path, straight):
 
 def test_their_report_has_a_row_for_each_law(straight, tmp_path):
     text = straight.report(tmp_path / "r.html").read_text().replace("\u00a0", " ")
-    for words in ("Starts that still reach the target", "Tasks that the computer drives", "pseudoinverse"):
+    for words in ("Start positions from which the target is", "Tasks under computer control", "pseudoinverse"):
         assert words in text, words
 
 

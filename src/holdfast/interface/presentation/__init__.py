@@ -1,4 +1,4 @@
-"""Pages, figures, and console text for the results of the packages below."""
+"""Console text, notebook views, pages, and figures of the results of all other packages."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-# The module that presents a class, by the class with its module.
+# Module that presents each class, by the class name with its module.
 PRESENTER_MODULES = {
     "model.arm.model.Arm": "arm.console",
     "model.arm.task.Task": "arm.task",
@@ -74,9 +74,12 @@ PRESENTER_MODULES = {
 
 
 def find_presenter(presented: type, function: str) -> Callable[..., Any]:
-    """Return the function that presents the results of a class; its module is imported on this call.
+    """Return the function, by name, that presents objects of a class, and import its module.
 
-    The module of a class need only have ``present``; :mod:`holdfast.interface.presentation.renderers` derives the rest from it.
+    The module of a class needs only ``present``; :mod:`holdfast.interface.presentation.renderers` derives the others from it.
+
+    Raises:
+        AttributeError: Neither the module of the class nor ``renderers`` has this function.
     """
     names = [f"{base.__module__}.{base.__name__}".removeprefix("holdfast.") for base in presented.__mro__]
     own_modules = [PRESENTER_MODULES[name] for name in names if name in PRESENTER_MODULES][:1]
@@ -88,5 +91,5 @@ def find_presenter(presented: type, function: str) -> Callable[..., Any]:
 
 
 def call_presenter(presented: object, function: str, *arguments: Any, **options: Any) -> Any:
-    """Call the function that presents an object, for example ``show`` or ``present``."""
+    """Call the function, by name, that presents an object, for example ``show`` or ``present``, and return its result."""
     return find_presenter(type(presented), function)(presented, *arguments, **options)

@@ -1,6 +1,6 @@
 """Notebook view of a result: the answer, a table of its key numbers, and the main figure.
 
-Colours are those of the notebook, light or dark; only a figure brings its own white ground.
+The view uses the colours of the notebook, light or dark; only figures have a white background.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_TABLE_ROWS = 12
-_PIXEL_DENSITY = 1.5  # dots for each of the screen's
+_PIXEL_DENSITY = 1.5  # image pixels per screen pixel
 _PIXELS_PER_INCH = 96  # px
 
 
 def format_table(table: TextTable) -> str:
-    """Format a table as HTML, at most twelve rows of it."""
+    """Format a table as HTML, with at most twelve rows."""
     if not table.rows:
         return ""
     header = "".join(f'<th style="text-align:left">{_escape_cell(text)}</th>' for text in table.head) if any(table.head) else ""
@@ -65,6 +65,6 @@ def render_png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
 
 
 def show_once(figure: Figure) -> Figure:
-    """Return the figure so that a cell that ends with it shows it once, with ``%matplotlib inline`` or without."""
+    """Return the figure, prepared so that a notebook cell shows it once, with or without ``%matplotlib inline``."""
     vars(figure)["_repr_png_"] = partial(render_png, figure)
     return figure

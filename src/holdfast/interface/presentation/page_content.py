@@ -1,4 +1,4 @@
-"""Method section of a page: what was computed, the provenance of the arm, and the package versions."""
+"""Method section of a page: description of the computation, provenance of the arm, and package versions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any], arm_word: str = "arm") -> list[Any]:
-    """Build the method section of a page: the given rows, the provenance of the arm, and the package versions."""
+    """Build the method section of a page from the given rows, the provenance of the arm, and the package versions."""
     from markupsafe import Markup
 
     from holdfast.core.provenance import versions

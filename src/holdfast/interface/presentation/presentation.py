@@ -1,8 +1,8 @@
-"""One description of a result, from which the console, JSON, notebooks, pages, and files are rendered.
+"""Description of a result from which its console text, JSON, notebook view, page, and files are rendered.
 
-The presenter of a class is a module with one function ``present(result, **options) -> Presentation``, and ``to_dict`` where the
-JSON document is more than its facts and tables. The options are what the caller asks about the result, for example thresholds.
-Whatever takes time (figures, views of an arm, long tables) is given as a function that is called only where it is shown.
+The presenter of a class is a module with a function ``present(result, **options) -> Presentation``, and ``to_dict`` if the JSON
+document contains more than the facts and tables. The options are parameters of the presentation, for example thresholds.
+Parts that take time (figures, views of an arm, long tables) are given as functions, which are called only if they are shown.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Style = Literal["number", "percent", "text", "angle"]  # angle: rad is also give
 
 
 def format_value(value: Any, style: Style = "number", unit: str = "", digits: int = 4) -> str:
-    """Format a value of a fact or a cell, with its unit: a text, a flag, a count, a number, an interval, or a range."""
+    """Format a value of a fact or a cell with its unit; it can be a text, flag, count, number, interval, or range (a tuple)."""
     if value is None or isinstance(value, str):
         return value or ""
     if isinstance(value, (bool, np.bool_)):
@@ -62,16 +62,16 @@ def _format_probability(estimate: Probability, style: Style) -> str:
 
 @dataclass(frozen=True)
 class Fact:
-    """One number of a result, or one word.
+    """Number or word of a result.
 
     Attributes:
-        label: Its name on the console, in notebooks, and in the table of the page; empty: it is only at the top of the page.
+        label: Name on the console, in notebooks, and in the table of the page; empty if only the top of the page shows it.
         value: A number, text, flag, interval (:class:`~holdfast.Interval`), or range (a tuple).
         unit: Unit of the value, for example ``"mm"``.
-        phrase: What the number is, after it, at the top of the page; empty: it is in the table of the page instead.
-        style: Percent for fractions.
+        phrase: Explanation next to the number at the top of the page; empty if the table of the page contains it instead.
+        style: Format of the value: ``percent`` for fractions, ``angle`` for rad with the value in degrees added.
         digits: Significant digits.
-        key: Its name in JSON, where the presenter has no ``to_dict``.
+        key: Name in JSON, used if the presenter has no ``to_dict``.
     """
 
     label: str
@@ -85,15 +85,15 @@ class Fact:
 
     @property
     def text(self) -> str:
-        """The value with its unit."""
+        """Formatted value with its unit."""
         return format_value(self.value, self.style, self.unit, self.digits)
 
 
 @dataclass(frozen=True)
 class Header:
-    """Head of a column of a table: its key in JSON, its label, and the unit of its values, if need be one for each row.
+    """Head of a column of a table: its key in JSON, its label, and the unit of its values, or one unit for each row.
 
-    Numbers of one unit share one precision where their magnitudes allow it; ``aligned=False`` formats each by itself.
+    Numbers with the same unit share one precision if their magnitudes allow it; ``aligned=False`` formats each separately.
     """
 
     key: str
@@ -123,14 +123,14 @@ class Header:
 
 @dataclass(frozen=True)
 class TableSpec:
-    """Table of typed values: rendered on the console, on pages, and as JSON records.
+    """Table of typed values, rendered on the console, on pages, and as JSON records.
 
     Attributes:
-        title: Above the table.
-        columns: See :class:`Header`.
-        rows: Values, a sequence for each row.
-        key: Its name in JSON, where the presenter has no ``to_dict``.
-        on_console, on_page: Where it is shown.
+        title: Text above the table.
+        columns: Heads of the columns.
+        rows: Values of each row, one for each column.
+        key: Name in JSON, used if the presenter has no ``to_dict``.
+        on_console, on_page: Whether the console and the generic part of the page show the table.
     """
 
     title: str
@@ -153,14 +153,14 @@ class TableSpec:
 
 @dataclass(frozen=True)
 class FigureSpec:
-    """Figure: the function that draws it, the title of its section on the page, and its caption.
+    """Figure with the function that draws it, the title of its section on the page, and its caption.
 
-    ``on_page=False``: it is a file and a plot, and the page does not show it, or shows it in a section of its own.
-    ``preview`` draws it faster, for notebooks. ``saved=False``: it is not written into the folder of the results.
+    With ``on_page=False``, the generic part of the page does not contain the figure; a section of the page may contain it.
+    ``preview`` draws a faster version for notebooks. With ``saved=False``, the results folder does not contain the figure.
     """
 
     draw: Callable[[], Figure]
-    title: str = "What was found"
+    title: str = "Results"
     caption: str = ""
     on_page: bool = True
     preview: Callable[[], Figure] | None = None
@@ -169,7 +169,7 @@ class FigureSpec:
 
 @dataclass(frozen=True)
 class Notice:
-    """Remark that must not be overlooked: in colour on the console, and a highlighted paragraph on the page."""
+    """Important remark, printed in colour on the console and as a highlighted paragraph on the page."""
 
     text: str
     tone: Literal["bad", "warn", "good", "note"] = "warn"
@@ -177,7 +177,7 @@ class Notice:
 
     @property
     def sentence(self) -> str:
-        """The text after its title."""
+        """Title and text in one line."""
         return f"{self.title}: {self.text}" if self.title else self.text
 
 
@@ -186,18 +186,18 @@ class Presentation:
     """Description of a result, from which every renderer takes its content.
 
     Attributes:
-        title: What was asked.
-        answer: The answer in one or two sentences; never an uninformative zero: why nothing is left, then what there is.
-        about: What was given: the arm, the task, the law.
-        lines: Sentences after the answer: the reason, the checks, what to do.
-        notices: See :class:`Notice`.
-        facts: The answer in numbers.
-        tables: Tables of the result, or the function that builds them, if that takes time; see :meth:`list_tables`.
-        figures: Figures by name; the first is the main one.
-        sections: Further sections of the page, before the figures (views of the arm that can be turned, for example).
-        method: How it was computed, by name; the arm and the versions follow by themselves.
-        arm: The arm, for the method.
-        again: Blocks that repeat the run; the command, if not given.
+        title: Title of the page, which names the question.
+        answer: The answer in one or two sentences; instead of a bare zero, the reason and the next informative number.
+        about: Subject of the result: the arm, the task, the law.
+        lines: Sentences after the answer: the reason, the checks, the next steps.
+        notices: Important remarks.
+        facts: Numbers of the answer.
+        tables: Tables of the result, or a function that builds them if that takes time; see :meth:`list_tables`.
+        figures: Figures by name; the first one is the main figure.
+        sections: Function that builds further sections of the page, before the figures (for example 3-D views of the arm).
+        method: Description of the computation, by name; the arm and the versions are added automatically.
+        arm: Arm that the method section describes; None if there is none.
+        again: Function that builds the blocks that repeat the run; None for the command line alone.
         exports: Further files of a results folder, by name, each with the function that writes it to a path.
     """
 

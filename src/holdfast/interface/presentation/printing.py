@@ -1,4 +1,4 @@
-"""Output of all commands: tables and lines for people, JSON for machines."""
+"""Output functions of all commands: text tables and lines, and JSON."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from holdfast.core.typing import FloatArray
 
-_ROUNDING_ERROR = 2e-9  # a number below it beside larger ones is 0
+_ROUNDING_ERROR = 2e-9  # smaller numbers in a column with larger ones are printed as 0
 
 
 class TextTable(NamedTuple):
@@ -30,7 +30,7 @@ class TextTable(NamedTuple):
 
 
 def to_json_types(value: Any) -> Any:
-    """Convert NumPy types to JSON types; infinity and NaN become null, complex numbers become their two parts."""
+    """Convert NumPy types to JSON types; infinity and NaN become None, complex numbers a dictionary of their two parts."""
     if isinstance(value, dict):
         return {str(key): to_json_types(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -47,12 +47,12 @@ def to_json_types(value: Any) -> Any:
 
 
 def print_json(data: Any) -> None:
-    """Print one JSON document on stdout; the data have JSON types only (:func:`to_json_types` converts them)."""
+    """Print one JSON document on stdout; the data must have JSON types only (see :func:`to_json_types`)."""
     typer.echo(json.dumps(data, indent=2, allow_nan=False))
 
 
 def format_column(values: Iterable[float], units: str | Sequence[str] = "", digits: int = 4) -> list[str]:
-    """Format a column of values: values of one unit share one precision, unless their magnitudes differ too much."""
+    """Format a column of values; values with the same unit share one precision unless their magnitudes differ too much."""
     numbers = np.array([float(value) for value in values])
     units_by_row = np.array([units] * numbers.size if isinstance(units, str) else units)
     texts = [format_number(value, digits) for value in numbers]
@@ -71,13 +71,13 @@ def format_column(values: Iterable[float], units: str | Sequence[str] = "", digi
 
 
 def format_position(value: float, unit: str, digits: int = 4) -> str:
-    """Format a joint position, an angle, or another measure with its unit; an angle in rad is also given in degrees."""
+    """Format a joint position, an angle, or another quantity with its unit; for rad, degrees are added in parentheses."""
     text = f"{format_number(value, digits)} {unit}" if unit not in ("", "1") else format_number(value, digits)
     return f"{text} ({format_number(np.degrees(value), digits)} deg)" if unit == "rad" else text
 
 
 def format_positions(values: Sequence[float] | FloatArray, units: Sequence[str], digits: int = 5) -> list[str]:
-    """Format a column of positions, or of measures of joints; angles are also given in degrees."""
+    """Format a column of joint positions or other joint quantities; for rad, degrees are added in parentheses."""
     degrees = iter(
         format_column(np.degrees([value for value, unit in zip(values, units, strict=True) if unit == "rad"]), "deg")
     )
@@ -111,7 +111,7 @@ def print_written_files(out: Console, files: Iterable[Path | None]) -> None:
 def print_evaluations(
     measure: Any, configurations: Sequence[Any], as_json: bool, data: Callable[..., Any], show: Callable[..., None]
 ) -> None:
-    """Print the values of a measure at each configuration: one JSON document (a list where there are several) or tables."""
+    """Print a measure at each configuration, as tables or as one JSON document (a list for several configurations)."""
     if as_json:
         documents = [to_json_types(data(measure, q)) for q in configurations]
         print_json(documents if len(documents) > 1 else documents[0])
@@ -122,7 +122,7 @@ def print_evaluations(
 
 
 def make_console(stderr: bool = False) -> Console:
-    """Return the console for tables; it is wide when the width of the terminal is unknown."""
+    """Return the console for text and tables; it is wide if the width of the terminal is unknown."""
     from holdfast.interface.presentation.terminal import WrappingConsole
 
     return WrappingConsole(stderr)

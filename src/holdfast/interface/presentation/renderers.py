@@ -1,4 +1,4 @@
-"""Renderers of a presentation: console, JSON, notebook, page, figures, and results folder."""
+"""Renderers of a presentation as console text, JSON, notebook view, page, figures, and results folder."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _TONE_COLORS = {"bad": "red", "warn": "yellow", "good": "green", "note": "defaul
 
 
 def present(thing: Presentable, **options: Any) -> Presentation:
-    """Return the presentation of an object; for a class without a presenter the sentences of its ``describe``."""
+    """Return the presentation of an object; without a presenter for its class, it contains the sentences of ``describe``."""
     presenter = find_presenter(type(thing), "present")
     if presenter is present:
         answer, *lines = thing.describe()  # type: ignore[attr-defined]
@@ -40,7 +40,7 @@ def present(thing: Presentable, **options: Any) -> Presentation:
 
 
 def sentences(thing: Presentable) -> list[str]:
-    """Return the answer and the sentences after it."""
+    """Return the answer, the sentences after the answer, and the notices."""
     return _list_sentences(present(thing))
 
 
@@ -56,7 +56,7 @@ def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
 
 
 def to_dict(result: Result, **options: Any) -> dict[str, Any]:
-    """Return the arm, the facts and the tables that have a key."""
+    """Return the arm, and the facts and tables that have a key, as JSON data."""
     presentation = present(result, **options)
     arm_entry = {} if presentation.arm is None else presentation.arm.entry()
     facts = {fact.key: fact.value for fact in presentation.facts if fact.key}
@@ -64,7 +64,7 @@ def to_dict(result: Result, **options: Any) -> dict[str, Any]:
 
 
 def show(result: Result, out: Console, **options: Any) -> None:
-    """Print the question, the answer, its reasons, the numbers, and the tables."""
+    """Print the subject of the result, the answer, the reasons and notices, the numbers, and the tables."""
     from rich.markup import escape as escape_markup
 
     from holdfast.interface.presentation.terminal import BandedTable
@@ -88,7 +88,7 @@ def show(result: Result, out: Console, **options: Any) -> None:
 
 
 def _list_facts(presentation: Presentation) -> list[list[str]]:
-    """List the facts with a label as rows of texts."""
+    """List the facts that have a label as rows of two texts."""
     return [[fact.label, fact.text] for fact in presentation.facts if fact.label]
 
 
@@ -96,7 +96,7 @@ def _list_facts(presentation: Presentation) -> list[list[str]]:
 
 
 def in_notebook(thing: Presentable) -> str:
-    """Return the answer, the key numbers, and the main figure as HTML without scripts, for the end of a cell."""
+    """Return the answer, the key numbers, and the main figure as HTML without scripts, for the output of a notebook cell."""
     from holdfast.interface.presentation.notebook import format_table
 
     presentation = present(thing)
@@ -130,12 +130,16 @@ def figures(result: Result, **options: Any) -> dict[str, Figure]:
 
 
 def plot(result: Result, name: str = "", **options: Any) -> Figure:
-    """Draw one figure of the result, the first if none is named; a notebook shows it with or without pyplot."""
+    """Draw one figure of the result, the first one if ``name`` is empty; a notebook shows it with or without pyplot.
+
+    Raises:
+        InputError: The result has no figure, or none with this name.
+    """
     from holdfast.interface.presentation.notebook import show_once
 
     specs: Mapping[str, FigureSpec] = present(result, **options).figures
     if not specs:
-        raise InputError(f"{type(result).__name__} has no figure; ask result.describe() instead")
+        raise InputError(f"{type(result).__name__} has no figure; use result.describe() instead")
     if name and name not in specs:
         raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(specs)}")
     return show_once(specs[name or next(iter(specs))].draw())
@@ -146,14 +150,14 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
 
 @reports_progress("drawing the report")
 def write(result: Result, path: Path, command: str = "", **options: Any) -> Path:
-    """Write the report: the answer, its evidence, the method, and the command that reproduces the run."""
+    """Write the HTML report: the answer, the evidence, the method, and the command that reproduces the run."""
     from holdfast.interface.report import page
 
     return page.write(build_page(present(result, **options), command), path)
 
 
 def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Any:
-    """Build the page of a presentation, with figures that are drawn already, if given."""
+    """Build the page of a presentation; ``drawn`` contains figures, by name, that need not be drawn again."""
     from holdfast.interface.report.page import Callout, Page, Picture, Section, Text
 
     figure_blocks: dict[str, list[Block]] = {}
@@ -171,7 +175,7 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         Section("", [Text(sentence) for sentence in presentation.lines]),
         *presentation.sections(),
         *[Section(title, blocks) for title, blocks in figure_blocks.items()],
-        Section("In numbers", [build_table_block(table) for table in tables]),
+        Section("Numbers", [build_table_block(table) for table in tables]),
     ]
     return Page(
         presentation.title,
@@ -186,12 +190,12 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
 
 
 def _is_uninformative(text: str) -> bool:
-    """Return whether a number is zero or missing, so that the top of the page leaves it out."""
+    """Return whether a number is zero or missing and therefore omitted at the top of the page."""
     return text.partition(" ")[0] in ("0", "–", "none")
 
 
 def build_table_block(table: TextTable) -> Any:
-    """Convert a table to a block of a page; columns of words are left-aligned."""
+    """Convert a table to a block of a page; columns that contain words are left-aligned."""
     from holdfast.interface.report.page import Table
 
     head = table.head if any(table.head) else ()
@@ -207,20 +211,20 @@ def build_table_block(table: TextTable) -> Any:
 
 
 def _flatten_cell(cell: str) -> str:
-    """Return a two-line cell as one line: the second line (an interval) follows in parentheses."""
+    """Return a two-line cell as one line, with the second line (an interval) in parentheses."""
     value, _, second_line = cell.partition("\n")
     return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
 
 
 def render_svg(figure: Figure, name: str, description: str) -> Any:
-    """Render a figure for a page."""
+    """Render a figure as SVG for a page."""
     from holdfast.interface.report.figures import svg
 
     return svg(figure, name, description)
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100, **options: Any) -> list[Path]:
-    """Write the figures as PNG files, the other files of the result, and the page."""
+    """Write the figures as PNG files, the exported files, and the report into a folder; return all written paths."""
     from holdfast.interface.report import page
 
     folder, presentation = make_folder(folder), present(result, **options)

@@ -16,9 +16,14 @@ from holdfast.interface.presentation.printing import make_console, print_json, p
 def print_result(
     result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any
 ) -> None:
-    """Print a result: JSON for machines, with the files if they are listed; or text for people, and the files.
+    """Print a result as JSON or as text, and the written files.
 
-    The options, for example thresholds, go to ``to_dict`` and ``show`` of the result.
+    Args:
+        result: Result to print.
+        as_json: Print JSON instead of text.
+        files: Written files; None entries are ignored.
+        listed: Add the files to the JSON document.
+        options: Parameters of ``to_dict`` and ``show`` of the result, for example thresholds.
     """
     if as_json:
         print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))
@@ -29,7 +34,7 @@ def print_result(
 
 
 def print_results(results: Sequence[Result], as_json: bool) -> None:
-    """Print several results: one JSON document (a list where there are several), or text."""
+    """Print several results as text, or as one JSON document, which is a list if there are several results."""
     if as_json:
         data = [result.to_dict() for result in results]
         print_json(data if len(data) > 1 else data[0])
@@ -39,12 +44,12 @@ def print_results(results: Sequence[Result], as_json: bool) -> None:
 
 
 def current_command() -> str:
-    """Return the current command line for the report."""
+    """Return the current command line, as the report prints it."""
     return f"holdfast {shlex.join(sys.argv[1:])}"
 
 
 def write_outputs(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
-    """Write the first figure of the result as PNG, and the folder of its report, each if requested."""
+    """Write the first figure of the result as the PNG file ``plot``, and its report into the folder ``out``, if given."""
     files = []
     if plot is not None:
         from holdfast.interface.report.figures import save_png

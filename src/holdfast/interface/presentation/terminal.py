@@ -1,4 +1,4 @@
-"""Console and tables that cut no text and break no word, however narrow the window is."""
+"""Console and tables that do not truncate text or break words in narrow windows."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
 
-_DEFAULT_WIDTH = 140  # where no terminal says how wide it is
+_DEFAULT_WIDTH = 140  # characters, if the width of the terminal is unknown
 _COLUMN_GAP = 2  # between columns
 _NUMBER_PATTERN = re.compile(r"[<>≥≤±~+−-]*(\d[\d,.]*(e[+−-]?\d+)?|inf(inite)?|∞) ?%?")
-_QUALIFIER_PATTERN = re.compile(r"to|of|none|–|[A-Za-z%°²^/*·0-9-]{1,7}")  # words in a cell of numbers: units most of all
+_QUALIFIER_PATTERN = re.compile(r"to|of|none|–|[A-Za-z%°²^/*·0-9-]{1,7}")  # words in a cell of numbers, mostly units
 
 
 class WrappingConsole(Console):
-    """Console that wraps sentences between words on a terminal, and keeps them on one line in a file or a pipe."""
+    """Console that wraps sentences between words on a terminal, and prints them on one line into a file or a pipe."""
 
     def __init__(self, stderr: bool = False) -> None:
         super().__init__(stderr=stderr, highlight=False, emoji=False)
@@ -25,14 +25,14 @@ class WrappingConsole(Console):
             self.width = _DEFAULT_WIDTH
 
     def print(self, *objects: Any, soft_wrap: bool | None = None, **options: Any) -> None:
-        """Print as rich does; a text that may be one long line stays one line only where no window cuts it."""
+        """Print as rich does, except that ``soft_wrap`` has no effect on a terminal, where long lines would be cut."""
         super().print(*objects, soft_wrap=bool(soft_wrap) and not self.is_terminal, **options)
 
 
 class BandedTable(Table):
-    """Table without lines: numbers are right-aligned, and columns that do not fit are printed below each other, in bands.
+    """Table without lines, with right-aligned numbers; columns that do not fit the width are printed in bands below.
 
-    Without a head it holds facts: a name and a value in each row.
+    Without a head, each row contains a name and a value.
     """
 
     def __init__(self, *head: str) -> None:
@@ -72,7 +72,7 @@ class BandedTable(Table):
     def _split_into_bands(
         self, columns: list[list[Text]], are_numeric: list[bool], min_widths: list[int], max_width: int
     ) -> list[BandedTable]:
-        """Return tables of some columns each, after the columns that name the row; none where not even one column fits."""
+        """Return tables with some of the columns each, after those that name the row; empty if not even one column fits."""
         name_columns = max(next((column for column, is_numeric in enumerate(are_numeric) if is_numeric), 1), 1)
         name_width = sum(min_widths[:name_columns]) + _COLUMN_GAP * name_columns
         if name_columns == len(columns) or name_width + max(min_widths[name_columns:]) > max_width:
@@ -107,7 +107,7 @@ def _longest_word_width(text: Text) -> int:
 
 
 def _contain_numbers(cells: list[str]) -> bool:
-    """Return whether the cells contain numbers, or nothing, with or without units."""
+    """Return whether the cells contain numbers, with or without units, or are empty."""
     return any(map(_is_number, cells)) and all(
         not cell_text or _is_number(cell_text) or _QUALIFIER_PATTERN.fullmatch(cell_text) for cell_text in cells
     )

@@ -1,4 +1,4 @@
-"""Figures of stationary points: their curves over a locked value, and the basins around them."""
+"""Figures of stationary points: their curves as functions of the locked value, and their basins."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ KIND_STYLES: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
     "degenerate": (INK, 1.3, ":", "s"),
 }
 _REACHABLE_COLOR = "#e3f1ec"
-# Of basins: pale, and told apart by hue and by lightness.
+# Pale colours of basins, which differ in hue and lightness.
 _SOLUTION_COLORS = ("#bfe3d6", "#7fb8a8", "#d9edf9", "#93c4e3", "#f3e3b3", "#dcc46f")
 _STUCK_COLORS = ("#f4c7ab", "#e39a6f", "#f7dccb", "#c98058")
 _OUTCOME_COLORS = {"moving": "#c9a3bb", "undecided": "#d4d9de", "target": "#bfe3d6", "stuck": "#f4c7ab"}
@@ -50,9 +50,9 @@ class StationaryCurve:
     """Connected piece of a curve of stationary points of one kind.
 
     Attributes:
-        kind: A key of :data:`KINDS`.
-        locked_values: (K,) the locked value.
-        panel_values: One (K,) per panel.
+        kind: Kind of the stationary points, a key of :data:`KIND_STYLES`.
+        locked_values: (K,) locked value of the joint, in the unit of the axis.
+        panel_values: (K,) values of each panel.
     """
 
     kind: str
@@ -69,16 +69,16 @@ def stationary_curves_figure(
     reachable_intervals: Sequence[tuple[float, float]],
     caption: str,
 ) -> Figure:
-    """Plot the curves of stationary points over the locked value, with one panel for each quantity.
+    """Plot the curves of stationary points as functions of the locked value, one panel for each quantity.
 
     Args:
-        curves: Stretches of curves.
-        isolated_points: Points that make no curve.
-        ylabels: One per panel.
-        xlabel: The locked value.
-        limits: Of the locked value.
-        reachable_intervals: Locked values at which the target can be reached, shaded.
-        caption: One line below.
+        curves: Pieces of curves.
+        isolated_points: Points that do not belong to a curve.
+        ylabels: Label of the vertical axis of each panel, with the unit.
+        xlabel: Label of the axis of the locked value, with the unit.
+        limits: Lower and upper end of the axis of the locked value.
+        reachable_intervals: Intervals of locked values for which the target is within reach; they are shaded.
+        caption: Line below the figure.
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 0.9 + 2.5 * len(ylabels)))
@@ -135,17 +135,16 @@ def basin_map_figure(
     labels: tuple[str, str],
     caption: str,
 ) -> Figure:
-    """Plot the basins over two joints: each cell has the colour of the end of a motion from its center; stationary points and
-    basin boundaries on top.
+    """Plot the basins over two joints: the colour of a cell is the outcome of a motion that starts at its centre.
 
     Args:
-        cells: (A, B) index into ``names`` of each cell, first axis to the right.
-        names: What starts end at; ``solution 1`` for example.
-        extent: Of the cells: left, right, lower, upper.
-        points: Kind, place and name of each stationary point.
-        lines: Boundaries.
-        labels: Of the axes.
-        caption: One line below.
+        cells: (A, B) index into ``names`` of the outcome of each cell; the first axis points to the right.
+        names: Names of the outcomes, for example ``solution 1``.
+        extent: Left, right, lower, and upper edge of the cells, in the units of the axes.
+        points: Kind, coordinates, and name of each stationary point.
+        lines: Coordinates (K,) and (K,) of each basin boundary.
+        labels: Labels of the axes, with units.
+        caption: Line below the figure.
     """
     colors = _choose_basin_colors(names)
     with style():
@@ -171,7 +170,7 @@ def basin_map_figure(
             for kind in unnamed
         ]
         if lines:
-            handles.append(Line2D([], [], color=INK, linewidth=0.9, label="into a saddle"))
+            handles.append(Line2D([], [], color=INK, linewidth=0.9, label="basin boundary (into a saddle)"))
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 5))
         for axis, label in zip((axes.xaxis, axes.yaxis), labels, strict=True):
             if label.endswith("deg"):
@@ -202,7 +201,7 @@ def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float,
                 f"{percentage:.1f} %", (bar_end, position), (6, 0), textcoords="offset points", va="center", fontsize=9
             )
         axes.set_yticks(positions, [format_label(name, 40) for name in names])
-        axes.set(xlabel="fraction of starts, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
+        axes.set(xlabel="fraction of start configurations, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
         axes.grid(axis="y", visible=False)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
         return settle_layout(figure)
@@ -224,6 +223,6 @@ def _choose_basin_colors(names: Sequence[str]) -> list[str]:
 
 
 def _break_at_angle_wraps(x: FloatArray, y: FloatArray, period: float = 360.0) -> tuple[FloatArray, FloatArray]:
-    """Insert NaN where a value wraps around, so that no line runs across the figure."""
+    """Insert NaN where a value wraps around, so that no line crosses the figure."""
     jumps = np.flatnonzero((np.abs(np.diff(x)) > 0.5 * period) | (np.abs(np.diff(y)) > 0.5 * period)) + 1
     return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)

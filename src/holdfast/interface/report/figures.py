@@ -1,6 +1,6 @@
-"""Distributions and bars in one plain style, without pyplot, as SVG text or PNG files.
+"""Figures of distributions and bars, in one style and without pyplot, as SVG text or PNG files.
 
-Text that comes from files (names) goes through :func:`format_label`, so that a dollar sign does not start a formula.
+Names from files must pass through :func:`format_label`, so that a dollar sign does not start a formula.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from holdfast.interface.report.palette import PURPLE as PURPLE
 from holdfast.interface.report.palette import SKY as SKY
 from holdfast.interface.report.palette import SOFT as SOFT
 
-# Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
+# Up to 28 curves differ pairwise in colour, line style, or both.
 CURVE_COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
 _CURVE_DASHES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
 WIDTH_IN = 10.0  # inches: 960 px in a page
@@ -83,11 +83,9 @@ _lock = threading.RLock()
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Apply the figure style inside the block, independent of the caller's matplotlib settings, and restore these
-    afterwards.
-    """
+    """Apply the figure style inside the block, regardless of the caller's matplotlib settings, which are restored after."""
     with _lock, matplotlib.style.context(["default", _FIGURE_STYLE]), warnings.catch_warnings():
-        # A browser finds the letters of a name that the fonts here lack.
+        # The browser substitutes glyphs that the fonts on this machine lack.
         warnings.filterwarnings("ignore", message="Glyph .* missing", category=UserWarning)
         yield
 
@@ -97,16 +95,16 @@ def format_label(text: str, max_letters: int = 60) -> str:
     return shorten_to_one_line(text, max_letters).replace("$", r"\$")
 
 
-# ---- out -----------------------------------------------------------------------------------------------------------------
+# ---- output -----------------------------------------------------------------------------------------------------------------
 
 
 def svg(figure: Figure, name: str, about: str) -> Markup:
     """Convert the figure to an ``<svg>`` element for an HTML page.
 
     Args:
-        figure: The figure.
-        name: Unique in the page; ids inside begin with it.
-        about: What it shows, for people who cannot see it.
+        figure: Figure to convert.
+        name: Name that is unique in the page; all ids inside begin with it.
+        about: Text alternative of the figure.
     """
     buffer = io.StringIO()
     with style():
@@ -117,7 +115,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     text = re.sub(r"<style type=\"text/css\">.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
     old_ids = re.findall(r'\bid="([^"]+)"', text)
-    # Equal ids have equal content: refer to the first.
+    # Elements with equal ids have equal content, so references use the first one.
     new_ids = {old_id: f"{name}-{number}" for number, old_id in reversed(list(enumerate(old_ids)))}
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
@@ -130,7 +128,8 @@ def locate_axes(axes: Axes) -> dict[str, Any]:
     """Locate the axes of a finished figure in its ``<svg>``, for scripts that draw on it.
 
     Returns:
-        ``box``: left, top, right and bottom in units of the SVG; ``edge`` and ``limit``: both ends; ``log``: the x axis is.
+        ``box``: left, top, right and bottom in units of the SVG; ``x`` and ``y``: limits of the axes; ``log``: True if the x
+        axis is logarithmic.
     """
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -147,7 +146,7 @@ def locate_axes(axes: Axes) -> dict[str, Any]:
 
 
 def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
-    """Write the figure as a PNG file.
+    """Write the figure as a PNG file with ``dpi`` dots per inch, and return its path.
 
     Raises:
         StoreError: The file cannot be written.
@@ -155,9 +154,9 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     file = Path(path)
     data, previous_dpi = io.BytesIO(), figure.dpi
     with style():
-        figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
+        figure.dpi = dpi  # savefig would draw the figure twice to compute its layout
         FigureCanvasAgg(figure).print_png(data)
-        figure.dpi = previous_dpi  # of what is rasterised if it is drawn as SVG next
+        figure.dpi = previous_dpi  # resolution of rasterised parts if the figure is converted to SVG next
     replace_file(file, data.getvalue(), "picture")
     count_finished_part("figure")
     return file
@@ -168,7 +167,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
 
 @dataclass(frozen=True)
 class Curve:
-    """Cumulative distribution: ``share`` at ``x``, with a band of half width ``band`` if that is above 0."""
+    """Cumulative distribution: ``share`` (K,) at ``x`` (K,), and a band of half width ``band`` if that is above 0."""
 
     x: FloatArray
     share: FloatArray
@@ -180,7 +179,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Mark:
-    """Vertical line at ``x``: a requested threshold, or a bound that cannot be exceeded."""
+    """Vertical line at ``x`` that marks a threshold, or an upper bound of the index."""
 
     x: float
     label: str
@@ -189,7 +188,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Bin:
-    """Histogram: edges (B + 1,) and heights (B,)."""
+    """Histogram with edges (B + 1,) and heights (B,)."""
 
     edges: FloatArray
     heights: FloatArray
@@ -201,7 +200,7 @@ class Bin:
 def draw_cdf(
     axes: Axes, curves: Sequence[Curve], marks: Sequence[Mark], *, xlabel: str, ylabel: str, log: bool = False
 ) -> None:
-    """Draw cumulative distributions with their bands, and marks."""
+    """Draw cumulative distributions with their bands, and vertical marks, into axes; ``log`` makes the x axis logarithmic."""
     for curve in curves:
         color = ORANGE if curve.second else BLUE
         if curve.band > 0:
@@ -217,7 +216,7 @@ def draw_cdf(
 
 
 def draw_histogram(axes: Axes, histogram: Bin, marks: Sequence[Mark], xlabel: str, log: bool = False) -> None:
-    """Draw a histogram, and marks."""
+    """Draw a histogram, and vertical marks, into axes."""
     axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY, label=histogram.label)
     axes.stairs(histogram.heights, histogram.edges, color=BLUE, linewidth=0.8)
     _draw_marks(axes, marks)
@@ -295,10 +294,7 @@ def compare_cdf_figure(
     ylabel: str,
     log: bool = False,
 ) -> Figure:
-    """Plot many cumulative distributions without their bands, with one panel per title.
-
-    A curve looks the same in every panel that has its label.
-    """
+    """Plot many cumulative distributions without bands, one panel for each title; equal labels have the same line style."""
     labels = list(dict.fromkeys(curve.label for _, curves in panels for curve in curves))
     with style():
         legend_rows = -(-(len(labels) + len(marks)) // 3)
@@ -319,7 +315,7 @@ def compare_cdf_figure(
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
-    """Draw the legend of the axes under the figure."""
+    """Draw the legend of the axes below the figure, in ``columns`` columns."""
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=columns, columnspacing=2.5)
 
@@ -338,11 +334,11 @@ def bar_figure(
     """Plot horizontal bars, the first one on top, each with its count and fraction.
 
     Args:
-        names: One per bar.
-        counts: One per bar; sums of weights are written with four digits.
-        xlabel: What is counted.
-        total: What the shares are of; the sum of the counts if not given.
-        stress: Which bar is drawn darker.
+        names: Name of each bar.
+        counts: Count of each bar; counts that are not integers (sums of weights) are printed with four digits.
+        xlabel: Label of the count axis.
+        total: Count that corresponds to 100 %; the sum of the counts if None.
+        stress: Draw the longest bar (``most``) or the shortest bar (``least``) darker.
     """
     denominator = sum(counts) if total is None else total
     max_count = max(counts, default=0) or 1
@@ -375,10 +371,10 @@ def bar_figure(
 
 
 def settle_layout(figure: Figure) -> Figure:
-    """Settle the layout of a figure and create its ticks while the figure style is active."""
+    """Compute the layout and the ticks of a figure while the figure style is active, and return the figure."""
     FigureCanvasAgg(figure)
     engine = figure.get_layout_engine()
     if engine is not None:
-        engine.execute(figure)  # drawing it would do the same, and then draw for nobody
-    figure.set_layout_engine("none")  # it is settled: doing it again would double the time
+        engine.execute(figure)  # avoids drawing the figure, which would also compute the layout
+    figure.set_layout_engine("none")  # computing the layout again would double the time
     return figure

@@ -1,4 +1,4 @@
-"""Figures of the reach of an arm: joint values along self-motion manifolds, and maps of a region of the workspace."""
+"""Figures of reachability: joint values along self-motion manifolds, and maps of a region of the workspace."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from holdfast.interface.report.figures import (
 from holdfast.interface.report.motions import draw_chain, show_view
 from holdfast.interface.report.views import View
 
-_CURVE_GAP_FRACTION = 0.04  # of the whole length, between two curves
+_CURVE_GAP_FRACTION = 0.04  # gap between two curves, as a fraction of the total length
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class JointPanel:
 
     Attributes:
         label: Name and unit.
-        arcs: The values that it takes.
-        value_range: The values between which it can be.
+        arcs: Intervals of the values that the joint takes, in this unit.
+        value_range: Lower and upper limit of the joint, in this unit.
     """
 
     label: str
@@ -53,14 +53,15 @@ def self_motion_figure(
     views: Sequence[View],
     caption: str,
 ) -> Figure:
-    """Plot the arm next to one row per joint, with its values along the consecutive curves and its arcs as bands.
+    """Plot the arm, and for each joint its values along consecutive curves with its arcs as bands.
 
     Args:
-        joints: From base to tip.
-        curves: Arc length (K,) and joint values (K, n) in the units of the panels; none if the manifold is not made of curves.
-        chains: (C, K, 3) the arm in several configurations, m.
-        views: How it is seen.
-        caption: One line.
+        joints: Joints from base to tip.
+        curves: Arc length (K,), rad, and joint values (K, n), in the units of the panels, of each curve; empty if the
+            manifold has a higher dimension.
+        chains: (C, K, 3) base, joint, and tool positions in C configurations, m.
+        views: Projections in which the arm is drawn.
+        caption: Line below the figure.
     """
     with style():
         height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
@@ -90,7 +91,7 @@ def self_motion_figure(
             show_view(axes, view, 0.1)
         has_bands = any(panel.arcs for panel in joints)
         handles = [
-            *([Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target")] if has_bands else []),
+            *([Patch(facecolor=SKY, alpha=0.55, label="lock keeps the target within reach")] if has_bands else []),
             *([Line2D([], [], color=BLUE, linewidth=1.6, label="on the curve")] if len(curves) else []),
         ]
         figure.legend(handles=handles, loc="outside upper right", ncols=2)
@@ -104,7 +105,7 @@ def _draw_joint(
     lower, upper = panel.value_range
     period = upper - lower
     for arc_start, arc_end in panel.arcs:
-        # An arc that runs on beyond the end of a circle goes on at its beginning.
+        # An arc that exceeds the upper limit of an unlimited joint continues at the lower limit.
         for shift in (0.0, -period):
             band_top, band_bottom = min(arc_end + shift, upper), max(arc_start + shift, lower)
             if band_top >= band_bottom:
@@ -134,11 +135,11 @@ class RegionMap:
     """Points (N, 2) of a view, m, in three nested sets.
 
     Attributes:
-        points: Where.
-        view: How they are seen.
-        healthy_reach, limited_reach, lock_tolerant: (N,) reached by the healthy arm; within its artificial limits; and after
-            any lock.
-        grid_size: Points along each edge, if they are a square grid, row by row from below; None for a sample.
+        points: (N, 2) projected points, m.
+        view: Projection of the points.
+        healthy_reach, limited_reach, lock_tolerant: (N,) flags of points reached by the healthy arm, within its artificial
+            limits, and after any lock.
+        grid_size: Points along each edge of a square grid, in rows from below; None for a random sample.
     """
 
     points: FloatArray
@@ -155,11 +156,11 @@ def region_figure(
     """Plot maps of a region inside the reach of the healthy arm, and bars of the sizes.
 
     Args:
-        maps: One panel each.
-        bars: Names and sizes, the region last.
-        unit: Of the sizes.
-        error: (2,) how far the size of the region may lie below and above.
-        caption: One line.
+        maps: Map of each panel.
+        bars: Names and sizes; the last one is the failure-tolerant region.
+        unit: Axis label of the sizes, with the unit.
+        error: (2,) distances from the size of the region to the lower and upper end of its interval.
+        caption: Line below the figure.
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 4.6))
@@ -182,9 +183,9 @@ def region_figure(
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         legend_entries = (
-            (EMPTY_COLOR, "healthy, its own limits"),
+            (EMPTY_COLOR, "healthy, own limits"),
             (SKY, "healthy, artificial limits"),
-            (BLUE, "also after any lock"),
+            (BLUE, "after any single lock"),
         )
         handles = [Patch(facecolor=color, label=legend_text) for color, legend_text in legend_entries]
         figure.legend(handles=handles, loc="outside upper left", ncols=3)

@@ -1,4 +1,4 @@
-"""Maps over a projection: each cell has the colour of the average, or the fraction, of its points."""
+"""Maps over a projection: the colour of each cell is the average value of its points, or the fraction of some of them."""
 
 from __future__ import annotations
 
@@ -28,18 +28,17 @@ def map_figure(
     bins: int = 6,
     weights: FloatArray | None = None,
 ) -> Figure:
-    """Map a value over a projection: per cell the mean (the median if smaller is better), and how many points have a value.
+    """Map a value over projections: each cell shows the mean or median of its points, and the number of points with a value.
 
     Args:
-        points: (N, 3) m.
-        samples: (N,) values of each sample by its name, NaN where a point has none: a row of panels each, all in the same
-            colours.
-        views: One panel each.
-        log: Colours on a log scale.
-        smaller_is_better: Reverses the colours; medians instead of means.
-        label: Of the colour bar.
-        bins: Cells along the longer edge.
-        weights: (N,) of the points, 0 or more; all count alike if not given.
+        points: (N, 3) points, m.
+        samples: (N,) values of each sample, by name, NaN for a point without a value; each sample has a row of panels.
+        views: Projection of each column of panels.
+        log: Use a logarithmic colour scale.
+        smaller_is_better: Reverse the colours, and show medians instead of means.
+        label: Label of the colour bar.
+        bins: Number of cells along the longer edge.
+        weights: (N,) weights of the points, at least 0; equal weights if None.
     """
     lower, upper = points.min(axis=0), points.max(axis=0)
     grids = [
@@ -83,12 +82,12 @@ def share_figure(
     """Map the fraction of points with a property over a projection, one panel per property, all on one scale from 0 to 1.
 
     Args:
-        points: (N, 3) m.
-        panels: Title and, (N,), which points have the property. A cell says the share and, below it, of how many points.
-        view: The projection.
-        label: Of the colour bar.
-        bins: Cells along the longer edge.
-        weights: (N,) of the points, 0 or more; all count alike if not given.
+        points: (N, 3) points, m.
+        panels: Title and flags (N,) of the points with the property. A cell shows the fraction and its number of points.
+        view: Projection.
+        label: Label of the colour bar.
+        bins: Number of cells along the longer edge.
+        weights: (N,) weights of the points, at least 0; equal weights if None.
     """
     lower, upper = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
@@ -151,9 +150,7 @@ def _average_cells(
 
 
 def _weighted_average(values: FloatArray, weights: FloatArray, median: bool) -> float:
-    """Return the weighted mean, or the weighted median as the smallest value with half of the weight at or below; NaN without
-    weight.
-    """
+    """Return the weighted mean, or the weighted median (smallest value with half of the weight at or below); NaN if empty."""
     if not weights.sum() > 0:
         return np.nan
     if not median:

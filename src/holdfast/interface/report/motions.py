@@ -1,4 +1,4 @@
-"""Figures of motions: an arm as a stick figure at its start and end, and quantities over time with levels for comparison."""
+"""Figures of motions: an arm as a stick figure at its start and end, and quantities over time with reference levels."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class StickMotion:
     """Chain of links over time.
 
     Attributes:
-        chain: (F, K, 3) corners of the chain, base first and tool last, m.
-        square_corners: (K,) corners drawn as squares.
-        path: (P, 3) where the tool was to be, m.
-        filled_corners: (K,) corners that are drawn filled at the end, or None.
-        goal: (3,) a place marked by a ring, m, or None.
+        chain: (F, K, 3) corners of the chain in each frame, base first and tool last, m.
+        square_corners: (K,) flags of corners drawn as squares (prismatic joints).
+        path: (P, 3) desired path of the tool, m.
+        filled_corners: (K,) flags of corners drawn filled (locked joints); None if there are none.
+        goal: (3,) position marked by a ring, m; None if there is none.
     """
 
     chain: FloatArray
@@ -42,14 +42,14 @@ class TimePanel:
     """One quantity over time.
 
     Attributes:
-        time: (T,) s.
-        values: (T,) the quantity, or several lines by name.
-        ylabel: What it is, with its unit.
-        title: One line.
-        reference_level: A value to compare it to, drawn across, and what that is; None if there is none.
-        moments: Times (s) and values of points picked out, each with a label.
-        log_scale: On a logarithmic scale.
-        compared: Times and values of a second run, drawn thick behind the first.
+        time: (T,) time, s.
+        values: (T,) values of the quantity, or of several lines by name.
+        ylabel: Label of the vertical axis, with the unit.
+        title: Title of the panel.
+        reference_level: Reference value, drawn as a horizontal line, and its label; None if there is none.
+        moments: Time (s), value, and label of each marked point.
+        log_scale: Use a logarithmic vertical axis.
+        compared: Times and values of a second run, drawn as a thick line behind the first.
     """
 
     time: FloatArray
@@ -63,13 +63,9 @@ class TimePanel:
 
 
 def motion_figure(
-    panels: Sequence[TimePanel],
-    caption: str,
-    xlabel: str = "time since the failure, s",
-    *,
-    panel_width: float = WIDTH_IN / 2.4,
+    panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s", *, panel_width: float = WIDTH_IN / 2.4
 ) -> Figure:
-    """Plot panels of a width (in) side by side over time, with one line of text below that states the computed quantity."""
+    """Plot panels side by side over time, each ``panel_width`` inches wide, with one line of text below."""
     with style():
         figure = Figure(figsize=(panel_width * len(panels), 3.7))
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
@@ -107,11 +103,23 @@ def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
 
 
 def stick_motion_figure(
-    motion: StickMotion, views: Sequence[View], panel: TimePanel, caption: str, xlabel: str, *, path_label: str = "straight way"
+    motion: StickMotion,
+    views: Sequence[View],
+    panel: TimePanel,
+    caption: str,
+    xlabel: str,
+    *,
+    path_label: str = "straight path",
 ) -> Figure:
-    """Plot a stick figure in projection, at its start (grey) and its end (black), next to one quantity over time.
+    """Plot a stick figure at the start (grey) and end (black) of a motion, next to one quantity over time.
 
-    The path of the motion, dashed, is what the tool was ``path_label`` to do.
+    Args:
+        motion: Motion of the stick figure.
+        views: Projections in which it is drawn.
+        panel: Quantity over time.
+        caption: Line below the figure.
+        xlabel: Label of the time axis, with the unit.
+        path_label: Legend entry of the desired path of the tool, which is drawn dashed.
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4))
@@ -141,16 +149,16 @@ def draw_chain(
     """Draw an arm as a chain of links: its base as a square, its joints as nodes, and its tool as a diamond.
 
     Args:
-        axes: The axes.
+        axes: Axes to draw into.
         chain: (K, 2) projected corners, base first and tool last, m.
         color: Colour of the links.
-        linewidth: Width of the links.
-        squares: (K,) corners drawn as squares (prismatic joints).
-        filled: (K,) corners drawn filled (locked joints).
-        node_size: Size of the nodes; 0: they are not drawn.
-        tool_color: Colour of the diamond; empty: it is not drawn.
+        linewidth: Width of the links, points.
+        squares: (K,) flags of corners drawn as squares (prismatic joints).
+        filled: (K,) flags of corners drawn filled (locked joints).
+        node_size: Size of the nodes, points; 0 to omit them.
+        tool_color: Colour of the diamond; empty to omit it.
         zorder: Drawing order of the links.
-        line_options: What matplotlib takes for the links.
+        line_options: Further matplotlib options of the links.
     """
     axes.plot(*chain.T, color=color, linewidth=linewidth, solid_joinstyle="round", zorder=zorder, **line_options)
     is_square, is_filled = (np.zeros(len(chain), dtype=bool) if flags is None else flags for flags in (squares, filled))
@@ -186,7 +194,7 @@ def _draw_stick_figure(axes: Axes, motion: StickMotion, view: View, path_label: 
             zorder=3.0 if frame else 1.5,
             label=label,
         )
-    axes.plot(*view.project(motion.chain[:, -1]).T, color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
+    axes.plot(*view.project(motion.chain[:, -1]).T, color=BLUE, linewidth=1.8, label="path of the tool", zorder=2.5)
     axes.plot(*view.project(motion.path).T, color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=path_label, zorder=2.4)
     if motion.goal is not None:
         goal = view.project(motion.goal)

@@ -1,4 +1,4 @@
-"""Figures of the outcomes of trials: stacked bars, quantiles, and paired differences with their intervals."""
+"""Figures of the outcomes of motions: stacked bars, quantiles, and paired differences with their intervals."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ from holdfast.interface.report.figures import (
     style,
 )
 
-# Light to dark as well as by hue, and hatched where two neighbours would print alike.
+# Neighbours differ in hue and lightness, and are hatched if they would look alike in a black-and-white print.
 OUTCOME_FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
 CASE_MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stack:
-    """Bars of one group, one below another, each stacked from fractions.
+    """Group of stacked bars, one below another.
 
     Attributes:
-        name: Of the group.
-        bars: Names of its bars.
-        shares: (B, K) shares of K outcomes; a row adds up to 1.
-        low, high: (B,) ends of the interval of the first outcome's share.
-        level: A share marked across the bars of the group, or None.
+        name: Name of the group.
+        bars: (B,) names of its bars.
+        shares: (B, K) fractions of K outcomes; each row adds up to 1.
+        low, high: (B,) ends of the interval of the fraction of the first outcome.
+        level: Fraction that is marked across the bars of the group; None if there is none.
     """
 
     name: str
@@ -59,11 +59,11 @@ def stack_figure(
     """Plot groups of stacked bars with the interval of the first outcome.
 
     Args:
-        stacks: From the top.
-        outcomes: (K,) what the parts are, up to five.
-        xlabel: What the shares are of.
-        level: What the mark of a group says.
-        caption: What was computed, a few lines.
+        stacks: Groups from top to bottom.
+        outcomes: (K,) names of the outcomes, at most five.
+        xlabel: Label of the axis of the fractions.
+        level: Legend entry of the marks of the groups; none if empty.
+        caption: Lines below the figure; none if empty.
     """
     bar_count = sum(len(stack.bars) for stack in stacks)
     with style():
@@ -86,7 +86,7 @@ def stack_figure(
                     linewidth=0.4,
                 )
                 bar_starts = bar_starts + stack.shares[:, outcome]
-            for outline, width in (("white", 3.2), (INK, 1.4)):  # seen on light and on dark
+            for outline, width in (("white", 3.2), (INK, 1.4)):  # visible on light and on dark bars
                 axes.hlines(positions, stack.low, stack.high, color=outline, linewidth=width)
             if stack.level is not None:
                 axes.vlines(
@@ -123,7 +123,7 @@ def stack_figure(
 
 @dataclass(frozen=True)
 class Spread:
-    """Quantity of several cases: its name with the unit, and quantiles (B, 5), 5, 25, 50, 75 and 95 %."""
+    """Quantity with its name and unit, and its 5, 25, 50, 75 and 95 % quantiles (B, 5) for B cases."""
 
     label: str
     quantiles: FloatArray
@@ -165,7 +165,7 @@ def _draw_quantile_bars(axes: Axes, spread: Spread) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class Gains:
-    """Differences or fractions of one method over several cases: values, and ends of their intervals, (C,) each."""
+    """Differences or fractions of one method for C cases: values (C,), and the ends (C,) of their intervals."""
 
     label: str
     value: FloatArray
@@ -174,7 +174,7 @@ class Gains:
 
 
 def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains]]]) -> Figure:
-    """Plot differences as dots with their intervals, one panel per quantity, whose name and unit are under the axis."""
+    """Plot differences as dots with their intervals, one row per case and one panel per quantity (name with unit, values)."""
     max_gains = max(len(gains) for _, gains in panels)
     with style():
         figure = Figure(figsize=(WIDTH_IN, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)))
@@ -190,7 +190,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
 
 
 def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: str) -> Figure:
-    """Plot fractions over several cases, from 0 to 1: dots with their intervals, one colour and marker per method."""
+    """Plot fractions from 0 to 1 as dots with their intervals, one row per case, one colour and marker per method."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)))
         axes = figure.add_subplot()

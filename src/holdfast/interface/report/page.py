@@ -1,7 +1,7 @@
-"""One-file HTML pages built from a few kinds of blocks; every text is escaped unless it is ``Markup``.
+"""Self-contained HTML reports built from a few kinds of blocks; every text is escaped unless it is ``Markup``.
 
-All pages have one skeleton: the answer, its evidence, how it was computed, the same run again. Without JavaScript everything
-is there to be read; with it tables are sorted, the theme is chosen, and :class:`Extra` answers back.
+All reports have the same structure: the answer, the evidence, the computation, and the command that repeats the run. They are
+complete without JavaScript, which adds sortable tables, the choice of theme, and the controls of :class:`Extra`.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from holdfast.interface.report.viewer import embed_viewer_library, read_template
 
 Cell = str | Markup
 FOOTER_TEXT = "Written by holdfast. This file needs no network and no other file."
-_BREAKABLE_LETTERS = 15  # letters of a cell that is broken where need be
-_UNBROKEN_TABLE_ROWS = 16  # rows of a table that is kept on one sheet of paper
+_BREAKABLE_LETTERS = 15  # length from which the text of a cell may be broken after underscores
+_UNBROKEN_TABLE_ROWS = 16  # tables with fewer rows are not split across printed pages
 
 
 @dataclass(frozen=True)
 class Text:
-    """Paragraph."""
+    """Paragraph, in small grey type if ``quiet``."""
 
     text: Cell
     quiet: bool = False
@@ -38,7 +38,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Callout:
-    """Highlighted paragraph."""
+    """Highlighted paragraph with an optional title; ``tone`` selects its colour."""
 
     text: Cell
     tone: Literal["bad", "warn", "good", "note"] = "note"
@@ -51,13 +51,13 @@ class Table:
     """Table of cells.
 
     Attributes:
-        rows: Cells; the first of a row is its name.
-        head: Names of the columns; none if empty.
-        numbers: Columns, from 0, that are aligned as numbers.
-        marks: Columns that are centred.
-        caption: Above the table.
-        wide: Takes the width of the page.
-        sortable: By its head, where there is JavaScript; None: if it has a head and each of three rows or more has a name.
+        rows: Cells of each row; the first cell is the name of the row.
+        head: Names of the columns; empty for a table without a head.
+        numbers: Indices, from 0, of columns that are right-aligned.
+        marks: Indices, from 0, of columns that are centred.
+        caption: Text above the table.
+        wide: Use the full width of the page.
+        sortable: Make the table sortable by its head; None: only if it has a head, and at least three rows, all with names.
     """
 
     rows: Sequence[Sequence[Cell]]
@@ -90,7 +90,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """Figure with its caption; one for the screen only is not printed."""
+    """Figure with its caption; it is not printed if it is for the ``screen`` only."""
 
     image: Markup
     caption: Cell
@@ -101,7 +101,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Code:
-    """Text to copy."""
+    """Preformatted text to copy, with an optional paragraph (``label``) above."""
 
     text: str
     label: Cell = ""
@@ -113,10 +113,10 @@ class Extra:
     """Interactive controls, which are hidden without JavaScript and on paper.
 
     Attributes:
-        script: ``templates/SCRIPT.js``, which sets ``extras.SCRIPT = function (box, data) {...}``.
-        data: What it knows, in types that JSON has.
-        html: The controls.
-        label: What they do, for people who cannot see them.
+        script: Name of the script ``templates/SCRIPT.js``, which sets ``extras.SCRIPT = function (box, data) {...}``.
+        data: Data for the script, in JSON types.
+        html: HTML of the controls.
+        label: Text alternative of the controls.
     """
 
     script: str
@@ -132,13 +132,13 @@ Block = Text | Callout | Table | Picture | Code | Extra
 
 @dataclass(frozen=True)
 class Section:
-    """Blocks under a heading; a sheet begins a new page in print.
+    """Blocks under a heading.
 
     Attributes:
-        title: The heading, and its entry in the contents.
-        blocks: What is in it; a page leaves out a section of none.
-        sheet: See above.
-        anchor: Its place in the page, for links; made from the title if not given.
+        title: Heading and entry in the table of contents; both are omitted if empty.
+        blocks: Content; a page omits a section without blocks.
+        sheet: Start a new page in print.
+        anchor: Id of the section for links; derived from the title if empty.
     """
 
     title: str
@@ -153,14 +153,14 @@ class Page:
     """HTML report: the answer, its evidence, and the method.
 
     Attributes:
-        title, subtitle: At the top.
-        headline: The answer in one sentence: never an uninformative zero.
-        sections: The evidence, in order.
-        warnings: Right after the answer.
-        facts: The answer in a few numbers, each with what it is.
-        method: How it was computed.
-        again: The command that does it again, or blocks.
-        footer: At the end.
+        title, subtitle: Heading of the page, and the line below it.
+        headline: Answer in one or two sentences; never an uninformative zero.
+        sections: Evidence, in order.
+        warnings: Highlighted paragraphs directly after the answer.
+        facts: Most important numbers, each with its explanation.
+        method: Description of the computation.
+        again: Command that repeats the run, or blocks with this command and its files.
+        footer: Line at the end.
     """
 
     title: str
@@ -182,7 +182,7 @@ class Page:
             repeat_blocks = [Code(repeat_blocks)] if repeat_blocks else []
         closing_sections = [
             Section("How it was computed", self.method, anchor="method"),
-            Section("The same run again", repeat_blocks, anchor="again"),
+            Section("Repeat this run", repeat_blocks, anchor="again"),
         ]
         anchored_sections: list[tuple[str, Section]] = []
         anchor_counts: Counter[str] = Counter()
@@ -194,7 +194,7 @@ class Page:
 
     @property
     def scripts(self) -> list[str]:
-        """Names of the scripts of the page's extras."""
+        """Names of the scripts that the controls (:class:`Extra`) of the page need."""
         extras = [block.script for _, section in self.parts for block in section.blocks if isinstance(block, Extra)]
         return list(dict.fromkeys(extras))
 
@@ -205,7 +205,7 @@ def _join_numbers_to_units(text: Cell) -> Cell:
 
 
 def _break_after_underscores(cell: Cell) -> Cell:
-    """Allow line breaks behind the underscores of long names, so that names from files do not push a table off the page."""
+    """Allow line breaks after the underscores of long names, so that such names do not make a table wider than the page."""
     joined = _join_numbers_to_units(cell)
     return (
         joined if isinstance(joined, Markup) or len(joined) < _BREAKABLE_LETTERS else Markup("_<wbr>").join(joined.split("_"))
@@ -230,15 +230,15 @@ def create_template_environment() -> Environment:
 
 
 def render(page: Page) -> str:
-    """Render the page as HTML that needs no other files and no network."""
+    """Return the page as HTML that needs no other files and no network."""
     return embed_viewer_library(create_template_environment().get_template("page.html").render(page=page))
 
 
 def write(page: Page, path: str | Path) -> Path:
-    """Write the page to a file, completely or not at all.
+    """Write the page to a file, completely or not at all, and return its path.
 
     Raises:
-        StoreError: The file cannot be written; what was there before is as it was.
+        StoreError: The file cannot be written; an existing file is then unchanged.
     """
     file = Path(path)
     replace_file(file, render(page), "report", errors="replace")

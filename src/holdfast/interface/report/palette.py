@@ -1,11 +1,11 @@
-"""Colours of figures, pages and the studio, distinguishable with colour blindness; importing them costs nothing."""
+"""Colours of figures, pages and the studio, distinguishable with colour blindness; this module imports nothing."""
 
 from __future__ import annotations
 
 INK = "#1b1f24"
 SOFT = "#59636e"
 FAINT = "#d4d9de"
-# BLUE, ORANGE and SKY: after Okabe and Ito, darkened for thin lines
+# BLUE, ORANGE and SKY are colours of Okabe and Ito, darkened for thin lines.
 BLUE = "#0a5c9e"
 ORANGE = "#c8500a"
 SKY = "#a9cbe6"
@@ -13,4 +13,4 @@ GREEN = "#007a5e"
 PURPLE = "#a8497f"
 AMBER = "#c58a00"
 LIGHT_BLUE = "#4aa3d6"
-EMPTY_COLOR = "#e9ecef"  # where there is nothing
+EMPTY_COLOR = "#e9ecef"  # cells and points without a value

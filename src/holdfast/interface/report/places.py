@@ -1,4 +1,4 @@
-"""Maps over positions of the end effector in a plane: one panel for each quantity and case, all on one scale."""
+"""Maps over end-effector positions in a plane, with one panel for each quantity and case, all on one colour scale."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class Plane:
     """Positions in a plane.
 
     Attributes:
-        points: (P, 2) m.
-        labels: Of the two axes, with units.
-        cells: (P, 2) column and row in a lattice; None: the places are drawn as dots.
-        axes: Coordinates of columns and rows; None likewise.
-        mark: A place picked out, m; None: none.
-        mark_label: What it is.
+        points: (P, 2) positions, m.
+        labels: Labels of the two axes, with units.
+        cells: (P, 2) column and row of each position in a grid; None if the positions are drawn as dots.
+        axes: Coordinates of the columns and of the rows, m; None if the positions are drawn as dots.
+        mark: Position that is marked, m; None if there is none.
+        mark_label: Label of the marked position.
     """
 
     points: FloatArray
@@ -43,12 +43,12 @@ def place_maps(
     """Plot maps over the same positions, one panel for each row and column.
 
     Args:
-        plane: The places.
-        rows: By title, (P, C) values from 0 to ``most``, NaN where there are none.
-        columns: (C,) titles.
-        label: Of the colour bar.
-        caption: What was computed, one or two lines.
-        most: Upper end of the scale.
+        plane: Positions.
+        rows: (P, C) values of each row of panels, from 0 to ``most``, by title; NaN for a position without a value.
+        columns: (C,) titles of the columns of panels.
+        label: Label of the colour bar.
+        caption: One or two lines below the figure.
+        most: Upper end of the colour scale.
     """
     scale = Scale(0.0, most)
     with style():
@@ -69,7 +69,7 @@ def place_maps(
         colorbar = figure.colorbar(scale.mappable, ax=list(panels.ravel()), shrink=0.9, aspect=14 * row_count, pad=0.015)
         label_color_bar(colorbar, label, scale)
         figure.supxlabel("\n".join(format_label(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
-        if plane.mark is not None:  # room for the titles, too
+        if plane.mark is not None:  # the legend must not cover the titles
             handles, labels = panels[0, 0].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside upper right")
         return settle_layout(figure)
@@ -82,7 +82,7 @@ def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scal
         image = np.full((len(y_coordinates), len(x_coordinates), 4), 0.0)
         image[plane.cells[:, 1], plane.cells[:, 0]] = to_rgba(EMPTY_COLOR)
         image[plane.cells[has_value, 1], plane.cells[has_value, 0]] = scale.colors(values[has_value])
-        # Cells of a single row or column are as wide as the others are high; a single one is 10 cm.
+        # The cells of a single row or column are square; a single cell is 10 cm wide.
         steps = [
             float(coordinates[1] - coordinates[0]) for coordinates in (x_coordinates, y_coordinates) if len(coordinates) > 1
         ] or [0.1]
@@ -107,13 +107,12 @@ def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scal
 
 
 def bin_positions(points: FloatArray, values: FloatArray, bins: int) -> tuple[Plane, FloatArray]:
-    """Gather positions in square cells, ``bins`` of them along the longer edge; return the plane and the means (B, C) of their
-    values (P, C).
+    """Group positions into square cells; return the plane of the cells, and the mean values (B, C) of each cell.
 
     Args:
-        points: (P, 2) m.
-        values: (P, C), NaN where there are none.
-        bins: Cells.
+        points: (P, 2) positions, m.
+        values: (P, C) values, NaN for a position without a value.
+        bins: Number of cells along the longer edge.
     """
     lower, upper = points.min(axis=0), points.max(axis=0)
     cell_size = max(float((upper - lower).max()), 1e-9) / bins

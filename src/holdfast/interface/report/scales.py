@@ -1,4 +1,4 @@
-"""Axes of drawings that are written without matplotlib: round tick values, and the positions of values on an axis."""
+"""Axes of figures that are drawn without matplotlib: round tick values, and positions of values on an axis."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from holdfast.core.typing import FloatArray
 Kind = Literal["linear", "log", "symlog"]
 
 _ROUND_STEPS = (1.0, 2.0, 2.5, 5.0)
-_FLAT_RANGE_FRACTION = 1e-6  # a fraction of the size of the values that is no change to look at
+_FLAT_RANGE_FRACTION = 1e-6  # relative range of values below which a curve is drawn as constant
 _SUPERSCRIPT_DIGITS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-_SYMLOG_LINEAR_DECADES = 10 / 9  # decades that half of the linear part of a symlog axis takes
+_SYMLOG_LINEAR_DECADES = 10 / 9  # length in decades of half the linear part of a symlog axis
 
 
 def choose_round_numbers(lower: float, upper: float, max_spaces: int) -> list[float]:
@@ -34,7 +34,7 @@ def choose_round_numbers(lower: float, upper: float, max_spaces: int) -> list[fl
 
 
 def format_tick_labels(numbers: Sequence[float]) -> list[str]:
-    """Format evenly spaced numbers, all with as many decimals as their spacing needs."""
+    """Format evenly spaced numbers with the number of decimals that their spacing requires."""
     step, largest = numbers[1] - numbers[0], max(abs(number) for number in numbers)
     exponent = 0 if step >= 1e-4 and largest < 1e6 else math.floor(math.log10(largest))
     mantissa = step / 10.0**exponent
@@ -52,14 +52,14 @@ class AxisScale:
     """Map from values to fractions of an axis, 0 at its low end and 1 at its high end.
 
     Args:
-        values: What it is to show; what is not finite, or on a log axis not above 0, has no place.
-        kind: ``linear``, ``log`` (linear if nothing is above 0), or ``symlog``, linear between ``-small`` and ``small``.
-        small: See kind.
-        margin: Room beyond the values, a fraction of what they take.
-        max_spaces: Spaces between ticks.
+        values: Values that the axis must contain; values that are not finite, or not above 0 on a log axis, are ignored.
+        kind: ``linear``, ``log`` (linear if no value is above 0), or ``symlog``, linear between ``-small`` and ``small``.
+        small: Half width of the linear part of a ``symlog`` axis.
+        margin: Space beyond the values at each end, as a fraction of their range.
+        max_spaces: Maximum number of spaces between ticks.
 
     Attributes:
-        ticks: Where they are, and what they say.
+        ticks: Axis fraction and label of each tick.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Projections of a chain with numbered nodes and coloured points."""
+"""Projections of an arm with numbered joints, and of coloured points around it."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ from holdfast.interface.report.views import View
 
 @dataclass(frozen=True)
 class Scale:
-    """Colours of values: dark is bad, bright is good, infinite values take the colour of the end."""
+    """Colour scale of values: dark is bad, bright is good, and infinite values have the colour of the end of the scale."""
 
     low: float
     high: float
     log: bool = False
     _: KW_ONLY
     smaller_is_better: bool = False
-    pale: bool = False  # for text on top
+    pale: bool = False  # for maps with text on top
 
     @classmethod
     def from_values(cls, values: FloatArray, log: bool = False, smaller_is_better: bool = False) -> Scale:
-        """Fit the scale to the range of the finite values, without the outermost 1 % at either end."""
+        """Fit the scale to the range between the 1 % and 99 % quantiles of the finite values."""
         finite = values[np.isfinite(values)]
         lower, upper = np.quantile(finite, [0.01, 0.99]).tolist() if finite.size else (0.0, 1.0)
         log = log and lower > 0 and upper > 10 * lower
@@ -62,7 +62,7 @@ class Scale:
         return np.asarray(self.mappable.to_rgba(np.clip(values, self.low, self.high)))
 
     def extend(self, values: FloatArray) -> Literal["neither", "min", "max", "both"]:
-        """Return the ends of a colour bar beyond which there are values."""
+        """Return the ends of the colour bar (matplotlib's ``extend``) that some values exceed."""
         has_below, has_above = bool((values < self.low * (1 - 1e-9)).any()), bool((values > self.high * (1 + 1e-9)).any())
         return {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[
             has_below, has_above
@@ -74,13 +74,13 @@ class Scene:
     """Points, values, and a chain in space, m.
 
     Attributes:
-        points: (N, 3) with a value each.
-        values: (N,)
+        points: (N, 3) points with a value.
+        values: (N,) values of the points, which determine their colours.
         missing: (M, 3) points without a value.
-        chain: (K, 3) corners of a polyline, or empty.
-        nodes: (J, 3) marked and numbered from 1.
-        square: (J,) nodes drawn as squares instead of circles.
-        box: (2, 3) opposite corners, or None.
+        chain: (K, 3) corners of the polyline of the arm; empty if there is no arm.
+        nodes: (J, 3) joints, which are marked and numbered from 1.
+        square: (J,) flags of joints that are drawn as squares instead of circles.
+        box: (2, 3) opposite corners of a box; None if there is none.
     """
 
     points: FloatArray
@@ -108,13 +108,13 @@ def draw_view(
     """Draw a scene in projection, with equal axes.
 
     Args:
-        axes: Where to draw.
-        scene: What.
-        view: From where.
-        scale: Colours of the values.
-        dot_area: Of a dot, points squared.
-        spans: Lengths of the two axes, m.
-        width: Of the panel, inches, about.
+        axes: Axes to draw into.
+        scene: Scene to draw.
+        view: Projection.
+        scale: Colour scale of the values.
+        dot_area: Area of a dot, square points (1/72 inch).
+        spans: Lengths of the horizontal and vertical axis, m.
+        width: Approximate width of the panel, inches.
     """
     if len(scene.missing):
         x, y = view.project(scene.missing).T
@@ -200,14 +200,14 @@ def _format_ranges(numbers: list[int]) -> str:
 
 
 def _place_label(line: FloatArray, occupied: FloatArray, position: FloatArray, text: str) -> FloatArray:
-    """Choose the offset of a text, in points, next to a position: the freest of sixteen directions, above rather than below."""
+    """Choose the offset of a label from a position, in points: the direction of sixteen with most space, preferably above."""
     steps = np.linspace(0, 1, 41)[:, None]
     line_points = np.concatenate([start + steps * (end - start) for start, end in pairwise(line)]) if len(line) > 1 else line
     half_size = np.array([2.6 * len(text) + 1, 5.0])
     best_score, offset = -np.inf, np.zeros(2)
     for angle in np.arange(16) * np.pi / 8 + np.pi / 2:
         direction = np.array([np.cos(angle), np.sin(angle)])
-        # Far enough for the box of the text to clear the node.
+        # The distance must be large enough that the label does not cover the node.
         distance = 7.0 + float(np.abs(direction * half_size).max() if len(text) < 2 else np.abs(direction) @ half_size)
         label_center = position + distance * direction
         gap = np.maximum(np.abs(line_points - label_center) - half_size, 0)
@@ -226,11 +226,11 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
     """Plot projections side by side, all on one scale, with a colour bar if there are values.
 
     Args:
-        scene: What is seen.
-        views: One panel each.
-        scale: Colours of the values.
-        label: Of the colour bar.
-        legend: Pairs of a kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and its text.
+        scene: Scene to draw.
+        views: Projection of each panel.
+        scale: Colour scale of the values.
+        label: Label of the colour bar.
+        legend: Kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and text of each legend entry.
     """
     with style():
         panel_width = 4.1 if len(views) > 1 else 5.0
@@ -266,12 +266,12 @@ def label_color_bar(colorbar: Colorbar, label: str, scale: Scale) -> None:
 
 
 def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
-    """Choose the area of a dot, in points squared, so that the dots cover about two thirds of their region.
+    """Choose the area of a dot, in square points, so that the dots cover about two thirds of their region.
 
     Args:
-        scene: With the dots.
-        views: All of them.
-        scale: Inches per metre.
+        scene: Scene with the dots.
+        views: Projections of all panels.
+        scale: Scale of the figure, inches per metre.
     """
     dots = np.concatenate([scene.points, scene.missing])
     if len(dots) < 2:

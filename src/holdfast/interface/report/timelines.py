@@ -1,4 +1,4 @@
-"""Figures of quantities over the time of a motion: large panels one below another, and small panels side by side."""
+"""Figures of quantities over time during a motion: large panels one below another, and small panels side by side."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from holdfast.interface.report.scales import AxisScale, Kind
 
 Look = Literal["first", "second", "third", "compared", "level"]
 
-# After Okabe and Ito, darkened for thin lines; dashes tell apart what prints alike.
+# Colours of Okabe and Ito, darkened for thin lines; dashes distinguish lines that look alike in a black-and-white print.
 LINE_COLORS = (BLUE, ORANGE, "#1b7f5c", "#8a3d82", "#8f6a00", "#2a93c0", SOFT, "#a32638", INK)
-_LINE_DASHES: tuple[tuple[float, ...], ...] = ((), (5, 1.5), (1.5, 1.2))  # in widths of the line
+_LINE_DASHES: tuple[tuple[float, ...], ...] = ((), (5, 1.5), (1.5, 1.2))  # in multiples of the line width
 _LOOK_STYLES: dict[Look, tuple[str, float, tuple[float, ...]]] = {
     "first": (BLUE, 2.1, ()),
     "second": (ORANGE, 1.9, (5, 1.5)),
@@ -29,14 +29,14 @@ _LOOK_STYLES: dict[Look, tuple[str, float, tuple[float, ...]]] = {
     "level": (SOFT, 1.5, (1.2, 1.6)),
 }
 _MOMENT_STYLE = {"color": ORANGE, "width": 1.3, "dashes": "", "label": "algorithmic singularity"}
-_PAGE_WIDTH_PX = 960  # pixels of a page
-_LETTER_WIDTH_PX = 7.2  # pixels at most of an ordinary letter, on average
-_LEGEND_ROW_PX = 17  # pixels of a line of a legend
+_PAGE_WIDTH_PX = 960  # width of a page, pixels
+_LETTER_WIDTH_PX = 7.2  # upper estimate of the average width of a letter, pixels
+_LEGEND_ROW_PX = 17  # height of a line of a legend, pixels
 
 
 @dataclass(frozen=True)
 class TimelineLine:
-    """Quantity over time: values (T,), its label, and its style; without a style the line has a colour of its own."""
+    """Quantity over time: values (T,), label, and style; without a style, the line gets the next unused colour."""
 
     values: FloatArray
     label: str
@@ -45,15 +45,15 @@ class TimelineLine:
 
 @dataclass(frozen=True)
 class Timeline:
-    """Lines over one time axis.
+    """Panel with lines over one time axis.
 
     Attributes:
-        lines: What is drawn.
-        ylabel: What it is, with its unit.
-        title: One line.
-        moments: Times, s, that are marked by a line across.
-        scale: Of the values: ``linear``, ``log``, or ``symlog`` with what is below ``small`` in size drawn linearly.
-        small: See scale.
+        lines: Quantities to draw.
+        ylabel: Label of the vertical axis, with the unit.
+        title: Title of the panel.
+        moments: Times, s, that are marked by a vertical line.
+        scale: Scale of the values: ``linear``, ``log``, or ``symlog``, which is linear between ``-small`` and ``small``.
+        small: Half width of the linear part of a ``symlog`` scale.
     """
 
     lines: Sequence[TimelineLine]
@@ -65,12 +65,12 @@ class Timeline:
 
 
 def draw_stacked_panels(time: FloatArray, panels: Sequence[Timeline], about: str) -> Markup:
-    """Draw panels one below another over one time (T,), s, each with a legend to its right if it has several lines.
+    """Draw panels one below another, each with a legend to its right if it has several lines; return SVG.
 
     Args:
-        time: Of all lines.
-        panels: From the top.
-        about: What they show, for people who cannot see it.
+        time: (T,) time of all lines, s.
+        panels: Panels from top to bottom.
+        about: Text alternative of the figure.
     """
     layouts = [_PanelLayout(time, timeline, 190, 8) for timeline in panels]
     legends = [
@@ -101,13 +101,13 @@ def draw_stacked_panels(time: FloatArray, panels: Sequence[Timeline], about: str
 
 
 def draw_small_multiples(time: FloatArray, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
-    """Draw small panels, three in a row, over one time (T,), with a legend below for the lines of the fullest panel.
+    """Draw small panels, three in a row, with one legend below, that of the panel with the most lines; return SVG.
 
     Args:
-        time: Of all lines.
-        panels: In the order they are read.
-        about: What they show, for people who cannot see it.
-        xlabel: What time it is.
+        time: (T,) time of all lines.
+        panels: Panels in reading order.
+        about: Text alternative of the figure.
+        xlabel: Label of the time axis, with the unit.
     """
     column_count = min(3, len(panels))
     layouts = [_PanelLayout(time, timeline, 132, 4) for timeline in panels]
@@ -172,7 +172,7 @@ def _label_width_px(labels: Sequence[str]) -> float:
 
 
 class _PanelLayout:
-    """Layout of a panel that has no position yet: ``tall_px`` pixels high, with about ``max_ticks`` ticks along time."""
+    """Layout of a panel before it is placed: ``tall_px`` pixels high, with about ``max_ticks`` ticks on the time axis."""
 
     def __init__(self, time: FloatArray, panel: Timeline, tall_px: float, max_ticks: int) -> None:
         self._time, self._panel, self._height = time, panel, tall_px
@@ -186,7 +186,7 @@ class _PanelLayout:
         self.legend = self._line_styles + ([_MOMENT_STYLE] if panel.moments else [])
 
     def to_template_data(self, x: float, y: float, axes_width: float) -> dict[str, Any]:
-        """Return the data that the template draws, with the upper left corner of the axes at x, y."""
+        """Return the data for the template, with the upper left corner of the axes at x, y (pixels)."""
         moments = self._time_scale.to_fraction(np.array(self._panel.moments, dtype=float))
         styled_paths = [
             (
@@ -212,7 +212,7 @@ class _PanelLayout:
 
 
 def _style_line(line_index: int, line: TimelineLine) -> dict[str, Any]:
-    """Return the colour, width, dashes, and label of the k-th line of a panel."""
+    """Return the colour, width, dashes, and label of a line of a panel, by its index from 0."""
     own_style = (LINE_COLORS[line_index % len(LINE_COLORS)], 1.9, _LINE_DASHES[(line_index // 3) % len(_LINE_DASHES)])
     color, width, dashes = own_style if line.look is None else _LOOK_STYLES[line.look]
     scaled = " ".join(f"{width * dash:.3g}" for dash in dashes)

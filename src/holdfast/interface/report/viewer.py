@@ -1,7 +1,7 @@
-"""Small rotatable 3-D view of bodies on a chain of joints, inline in a page: no server, no network, no other file.
+"""Interactive 3-D view of an arm, embedded in a page without a server, network, or other file.
 
-The script, ``templates/viewer.js``, is built from ``page/src/viewer`` by ``make page``; it is holdfast's own, 20 kB of WebGL,
-and lies once in a page however many views there are. Without JavaScript, without WebGL and on paper there is a drawing.
+The script ``templates/viewer.js`` (20 kB of WebGL) is built from ``page/src/viewer`` by ``make page``. A page contains it once,
+for any number of views. Without JavaScript or WebGL, and in print, a still drawing is shown.
 """
 
 from __future__ import annotations
@@ -24,8 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.typing import FloatArray
 from holdfast.interface.report.palette import BLUE, FAINT, ORANGE, SOFT
 
-_TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
-# _DRAWING_WIDTH_PX and _DRAWING_HEIGHT_PX: pixels of the drawing
+_TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # the same angle of view as in camera.ts
 _DRAWING_WIDTH_PX = 560
 _DRAWING_HEIGHT_PX = 400
 _VIEW_NOTE = '<p class="view3d-note view3d-once">{}</p>'
@@ -37,10 +36,10 @@ class ViewerScene:
     """Content of a 3-D view.
 
     Attributes:
-        data: As ``page/src/viewer/scene.ts`` describes it.
-        frames: (A, F, K, 4, 4) poses over the frames of a motion of each arm: base, joints, end effector.
-        notes: Sentences under the view, such as what could not be shown.
-        object_corners: Corners (V, 3) in the world of each object around the arms, of which the drawing has the outline.
+        data: Data for the script; ``page/src/viewer/scene.ts`` describes the fields.
+        frames: (A, F, K, 4, 4) poses of base, joints, and end effector of each arm, in each frame of its motion.
+        notes: Sentences below the view, for example on missing meshes.
+        object_corners: Corners (V, 3) in the world, m, of each object around the arms; the still drawing shows its outline.
     """
 
     data: Mapping[str, Any]
@@ -52,8 +51,8 @@ class ViewerScene:
         """Return the view as part of a page; :func:`embed_viewer_library` adds the script that makes it interactive.
 
         Args:
-            name: Its id, once in a page.
-            about: What it shows, for those who do not see it.
+            name: Id of the view, unique in the page.
+            about: Text alternative of the view.
         """
         escaped_about = escape(about, quote=True)
         labels = [arm["label"] for arm in self.data["arms"]]
@@ -84,13 +83,13 @@ class ViewerScene:
             )
             + "".join(_VIEW_NOTE.format(escape(line)) + "\n" for line in self.notes)
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in joint_notes)
-            + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
+            + '<p class="view3d-hint">Enable JavaScript to rotate this view.</p>\n'
             f'<script type="application/json">{scene_json}</script>\n{_BODY_HTML.format(body_key, body_json)}\n</div>'
         )
 
 
 def to_script_json(data: Any) -> str:
-    """Encode data as JSON for a script element, in which nothing may end the element early."""
+    """Encode data as JSON that cannot end the surrounding script element."""
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
 
 
@@ -121,7 +120,7 @@ def embed_viewer_library(html: str) -> str:
     return f"{page_start}<script>{read_template('viewer.js').strip()}</script>\n</body>{tail}"
 
 
-# In a notebook: light or dark as the notebook is, which the frame around the page says.
+# In a notebook, the frame around the page sends a message with the theme of the notebook, light or dark.
 _COLOR_SCHEME_SCRIPT = """<script>
 addEventListener("message", ({ data, source }) => {
   if (source !== parent || typeof data?.dark !== "boolean") return;
@@ -131,9 +130,7 @@ addEventListener("message", ({ data, source }) => {
 
 
 def build_view_page(view: Markup, title: str) -> str:
-    """Build a page that contains only a view, as large as its window, in the light or dark scheme of the reader or the
-    notebook.
-    """
+    """Build a page with only a view, as large as the window, in the light or dark theme of the browser or the notebook."""
     return embed_viewer_library(
         '<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n<meta charset="utf-8">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -146,7 +143,7 @@ def build_view_page(view: Markup, title: str) -> str:
 
 
 def round_to_seven_digits(values: ArrayLike) -> list[Any]:
-    """Round to nested lists of numbers with seven digits: a tenth of a micrometre per metre."""
+    """Round values to seven significant digits (0.1 micrometre per metre), as nested lists."""
     array = np.asarray(values, dtype=np.float64)
     if array.ndim > 1:
         return [round_to_seven_digits(item) for item in array]
@@ -154,11 +151,11 @@ def round_to_seven_digits(values: ArrayLike) -> list[Any]:
 
 
 def pack_mesh(vertices: FloatArray, faces: NDArray[np.int64]) -> dict[str, Any]:
-    """Encode triangles as text, with corners rounded to 1/65535 of the mesh's size, which is not visible.
+    """Encode a mesh as base64 text, with vertices rounded to 1/65535 of its size, which is not visible.
 
     Args:
-        vertices: (V, 3) m, at most 65536.
-        faces: (F, 3) indices.
+        vertices: (V, 3) vertices, m; at most 65536.
+        faces: (F, 3) vertex indices of the triangles.
     """
     lower = vertices.min(axis=0)
     longest_side = float(np.ptp(vertices, axis=0).max()) or 1.0
@@ -175,9 +172,9 @@ def simplify_mesh(vertices: FloatArray, faces: NDArray[np.int64], max_faces: int
     Rossignac and Borrel 1993.
 
     Args:
-        vertices: (V, 3) m.
-        faces: (F, 3) indices.
-        max_faces: Triangles.
+        vertices: (V, 3) vertices, m.
+        faces: (F, 3) vertex indices of the triangles.
+        max_faces: Maximum number of triangles.
     """
     if len(faces) <= max_faces and len(vertices) <= 65536:
         return vertices, faces
@@ -202,11 +199,11 @@ def simplify_mesh(vertices: FloatArray, faces: NDArray[np.int64], max_faces: int
     return simplified
 
 
-# ---- without a script --------------------------------------------------------------------------------------------------
+# ---- still drawing --------------------------------------------------------------------------------------------------
 
 
 def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-    """Return unit vectors (3,) to the right, upward and towards the camera, and its distance, m, consistent with camera.ts."""
+    """Return unit vectors (3,) to the right, upward and towards the camera, and its distance, m, as camera.ts does."""
     upward = np.asarray(up, dtype=np.float64)
     east = np.eye(3)[0] if abs(upward[0]) < 0.9 else np.eye(3)[1]
     east = east - upward * (upward @ east)
@@ -219,7 +216,7 @@ def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[FloatArray, F
 
 
 def draw_scene_svg(scene: ViewerScene, about: str) -> str:
-    """Draw the initial view of the scene as SVG, with the first and last position of a motion."""
+    """Draw the initial view of the scene as SVG, with the first and the last frame of a motion."""
     data = scene.data
     right, upward, towards_camera, distance = camera_axes(data["camera"], data["up"])
     center = np.array(data["camera"]["center"])

@@ -8,16 +8,16 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 
-_SIDE_VIEW_ASPECT = 1.5  # times as long along y as along x: then the side is seen along x
+_SIDE_VIEW_ASPECT = 1.5  # ratio of the extents along y and x above which the side view is along x
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """Projection along one direction.
+    """Orthographic projection along one direction.
 
     Attributes:
-        right, up: Unit vectors (3,).
-        title: One line.
+        right, up: Unit vectors (3,) that point to the right and upward in the figure.
+        title: Title of a panel with this projection.
     """
 
     right: FloatArray
@@ -30,7 +30,7 @@ class View:
 
     @property
     def names(self) -> tuple[str, str]:
-        """Labels of both axes."""
+        """Labels of the horizontal and the vertical axis, with the unit."""
         return f"{axis_name(self.right)}, m", f"{axis_name(self.up)}, m"
 
 

@@ -193,9 +193,9 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
     survivors = [
         candidate.task for candidate in others if candidate.survives and not candidate.weak and candidate.task != found.task
     ]
-    instead = f" A task that every single lock leaves possible: {', '.join(survivors)}." if survivors else ""
+    instead = f" Possible after every single lock: {', '.join(survivors)}." if survivors else ""
     if found.never:
-        return f"'{arm.name}' can never do task '{found.task}': it is singular in every configuration.{instead}"
+        return f"'{arm.name}' can never do task '{found.task}', for which it is singular in every configuration.{instead}"
     if found.redundancy <= 0:
         return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
     if found.weak:
@@ -204,7 +204,7 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
         set_texts = [" + ".join(arm.joint_names[joint] for joint in candidate) for candidate in found.together]
         more_text = f" and {len(set_texts) - _MAX_NAMED_SETS} more" if len(set_texts) > _MAX_NAMED_SETS else ""
         sets_text = (
-            f" Sets whose locks together end it in every configuration: {', '.join(set_texts[:_MAX_NAMED_SETS])}{more_text}."
+            f" Sets of joints whose locks make it singular everywhere: {', '.join(set_texts[:_MAX_NAMED_SETS])}{more_text}."
             if set_texts
             else ""
         )
@@ -217,7 +217,7 @@ def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
         )
     for joint, fraction in found.nearly:
         sentences.append(
-            f"All but a single point of failure by structure: once {_name_joints(arm, [joint])} locks, '{arm.name}' has at "
+            f"Nearly a single point of failure by structure: once {_name_joints(arm, [joint])} locks, '{arm.name}' has at "
             f"most {format_number(fraction)} of its manipulability for task '{found.task}' left, at each of "
             f"{_SAMPLE_CONFIGURATIONS} random configurations."
         )

@@ -366,21 +366,21 @@ class _DesignSearch:
     def describe_method(self, designs: int, local_searches: int, check_poses: int) -> list[tuple[str, str]]:
         """Return the description of the method for reports, as pairs of titles and texts."""
         return [
-            ("Designs", f"the baseline arm and {designs:,} scrambled Sobol points within the bounds, in one compiled kernel"),
+            ("Designs", f"the baseline arm and {designs:,} scrambled Sobol points within the bounds, one kernel for all"),
             (
                 "Configurations",
                 "the best found for each design and pose, from the configurations of the two nearest designs and a few random "
-                "starts; for the baseline arm and the results of the local searches from many random starts",
+                "starts; many random starts for the baseline arm and the results of local searches",
             ),
             (
                 "Local searches",
-                f"{local_searches} sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
-                "exact gradients; half of them maximise the value, half the value beyond a given reach",
+                f"{local_searches}: sequential quadratic programs (SLSQP) on the Harrell-Davis estimate of the quantile, with "
+                "exact gradients; half of them maximise the quantile, half maximise it beyond a given reach",
             ),
             (
-                "Poses that are not reached",
-                "count as 0; in the local searches as less than 0, by 1 per metre and radian of the pose error",
+                "Unreached poses",
+                "count as 0; in the local searches as minus the norm of the smallest pose error found, m and rad",
             ),
             ("Check", f"{check_poses:,} held-out random poses; interval of the quantile by order statistics"),
-            ("Not checked", "self-collisions, and the masses of the links"),
+            ("Not checked", "self-collision, and the masses of the links"),
         ]

@@ -1,1 +1,1 @@
-"""Reports and views of arms."""
+"""Console text and 3-D views of arms."""

@@ -1,4 +1,4 @@
-"""Triangle meshes of an arm; each is fixed in the frame of its link, so that a motion moves frames only."""
+"""Triangle meshes of an arm; each mesh is fixed in the frame of its link, so a motion changes only the frames."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Color = tuple[int, int, int]
 LINK_COLOR_RGB = (201, 208, 214)
 JOINT_COLOR_RGB = (72, 84, 96)
 CYLINDER_SIDES = 20
-LINK_RADIUS_FRACTION = 0.017  # radius of a link, as a share of the stretched arm
+LINK_RADIUS_FRACTION = 0.017  # radius of a link, as a fraction of the length of the stretched arm
 
 
 @dataclass(frozen=True)
@@ -23,12 +23,12 @@ class MeshPart:
     """Triangle mesh in the frame of a link.
 
     Attributes:
-        frame: 0 for the base, k + 1 for what moves with joint k.
-        vertices: (V, 3) m.
-        faces: (F, 3) indices.
+        frame: 0 for the base, k + 1 for a part that moves with joint k.
+        vertices: (V, 3) vertices in the frame of the link, m.
+        faces: (F, 3) vertex indices of the triangles.
         color: RGB, 0 to 255.
-        joint: The joint that it shows, from 0; None for a link.
-        tube: Start (3,), end (3,) and radius, m, of what is a cylinder; None for anything else.
+        joint: Index, from 0, of the joint that the part represents; None for a link.
+        tube: Start (3,), end (3,) and radius, m, of a part that is a cylinder; None for other shapes.
     """
 
     frame: int
@@ -40,7 +40,7 @@ class MeshPart:
 
 
 def stretched_length(arm: Arm) -> float:
-    """Return the length of the stretched arm, m, which scales everything that is drawn."""
+    """Return the length of the stretched arm, m, from which the sizes of all drawn parts are derived."""
     offsets = [float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:]]
     strokes = [joint.upper - joint.lower for joint in arm.joints if joint.prismatic and np.isfinite(joint.upper - joint.lower)]
     return max(sum(offsets) + float(np.linalg.norm(arm.tool[:3, 3])) + sum(strokes), 1e-3)
@@ -87,7 +87,7 @@ def mesh_cylinder(start: FloatArray, end: FloatArray, radius: float) -> tuple[Fl
     radial /= np.linalg.norm(radial)
     angles = np.linspace(0, 2 * np.pi, CYLINDER_SIDES, endpoint=False)
     ring = radius * (np.cos(angles)[:, None] * radial + np.sin(angles)[:, None] * np.cross(axis, radial))
-    # Rings twice, so that the shading of the ends does not run into that of the side.
+    # The rings are duplicated, so that the side and the ends are shaded separately.
     vertices = np.concatenate([start + ring, end + ring, start + ring, end + ring, [start, end]])
     corner = np.arange(CYLINDER_SIDES)
     next_corner = (corner + 1) % CYLINDER_SIDES
@@ -105,7 +105,7 @@ def mesh_cylinder(start: FloatArray, end: FloatArray, radius: float) -> tuple[Fl
 
 
 def mesh_block(axis: FloatArray, width: float) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return a cube about the origin with one side along an axis."""
+    """Return a cube centred at the origin, with sides of ``width`` m and one edge along ``axis`` (3,)."""
     from scipy.spatial.transform import Rotation
 
     rotation, _ = Rotation.align_vectors(axis[None], np.array([[0.0, 0, 1]]))
@@ -114,7 +114,7 @@ def mesh_block(axis: FloatArray, width: float) -> tuple[FloatArray, NDArray[np.i
 
 
 def mesh_box(size: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return a box about the origin with sides (3,); its faces share no corners."""
+    """Return a box centred at the origin with side lengths (3,), m; its faces do not share vertices."""
     vertices: list[FloatArray] = []
     faces: list[NDArray[np.int64]] = []
     for axis in range(3):
@@ -131,7 +131,7 @@ def mesh_box(size: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
 
 
 def mesh_sphere(rings: int = 12) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return a sphere of radius 1 about the origin."""
+    """Return a sphere of radius 1 centred at the origin, as vertices (V, 3) and faces (F, 3)."""
     polar_angles = np.linspace(0, np.pi, rings + 1)
     azimuths = np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)
     ring = np.stack([np.cos(azimuths), np.sin(azimuths), np.zeros(2 * rings)], 1)

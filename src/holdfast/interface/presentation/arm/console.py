@@ -1,4 +1,4 @@
-"""Text, tables, and JSON of arms."""
+"""Console text, tables, and JSON of arms."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(arm: Arm) -> dict[str, Any]:
-    """Return the arm, the joints that are single points of failure by structure, and the findings about its data."""
+    """Return the joints of the arm, its single points of failure for each task, and the problems found in its data."""
     return {
         "name": arm.name,
         **{key: value for key, value in arm.entry().items() if key != "arm"},
@@ -87,14 +87,14 @@ def save(arm: Arm, file: Path) -> Path:
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
-    """Build a page of the arm alone, with its joints on sliders where nothing moves."""
+    """Build an HTML page with a 3-D view of the arm; options as in :func:`holdfast.interface.presentation.arm.view.page`."""
     from holdfast.interface.presentation.arm import view
 
     return view.page(arm, q, **options)
 
 
 def show(arm: Arm, out: Console) -> None:
-    """Print the joints as a table, then the weaknesses of the structure and the findings about the data."""
+    """Print the joints, the single points of failure for each task, and the problems found in the data of the arm."""
     from rich.markup import escape
 
     from holdfast.interface.presentation.terminal import BandedTable
@@ -122,20 +122,20 @@ def show(arm: Arm, out: Console) -> None:
         style = "green" if structure.survives and not structure.weak else "yellow"
         label = f"{structure.task}: " + (f"degree of redundancy {structure.redundancy}. " if structure.redundancy > 0 else "")
         out.print(f"[{style}]{label}[/]{escape(explain(arm, structure, structure_list))}", soft_wrap=True)
-    # The same remark about every joint is one line.
+    # A finding that applies to several joints is printed once.
     subjects: dict[tuple[str, str], list[str]] = {}
     for finding in check_arm(arm):
         subjects.setdefault((finding.severity, finding.message), []).append(finding.subject)
     if subjects:
         out.print()
     for (severity, message), names in subjects.items():
-        subject_text = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more like it"
+        subject_text = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more"
         colour = "red" if severity == "error" else "yellow"
         out.print(f"[{colour}]{severity}[/] {escape(subject_text)}: {escape(message)}", soft_wrap=True)
 
 
 def describe(arm: Arm) -> list[str]:
-    """Return the lines that ``holdfast describe`` prints where the width of the terminal is unknown."""
+    """Return the lines that ``holdfast describe`` prints if the width of the terminal is unknown."""
     from holdfast.interface.presentation.terminal import WrappingConsole
 
     screen = WrappingConsole()
@@ -157,22 +157,22 @@ def show_library(out: Console) -> None:
     """Print the built-in arms as a table."""
     from holdfast.interface.presentation.terminal import BandedTable
 
-    table = BandedTable("name", "joints", "what it is", "licence")
+    table = BandedTable("name", "joints", "description", "licence")
     for entry in list_library_arms():
         table.add_row(entry["name"], str(entry["joints"]), entry["summary"], entry["licence"])
     out.print(table)
 
 
 def list_limit_violations(arm: Arm, q: NDArray[np.float64], when: str = "") -> list[Notice]:
-    """Return a notice with the joints that a configuration (n,) has beyond a limit, if any."""
+    """Return a notice with the joints that are outside their limits in a configuration (n,), if any."""
     names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
-    return [Notice(f"outside its limits{when}: {', '.join(names)}")] if names else []
+    return [Notice(f"Joints outside their limits{when}: {', '.join(names)}.")] if names else []
 
 
 def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:
-    """Print the names of the joints that a configuration (n,) has beyond a limit, if any."""
+    """Print the joints that are outside their limits in a configuration (n,), if any."""
     from rich.markup import escape
 
     names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
     if names:
-        out.print(f"[yellow]outside its limits{when}: {escape(', '.join(names))}[/]", soft_wrap=True)
+        out.print(f"[yellow]Joints outside their limits{when}: {escape(', '.join(names))}.[/]", soft_wrap=True)

@@ -8,7 +8,7 @@ from holdfast.model.arm.task import Task
 
 
 def present(task: Task) -> Presentation:
-    """Present the twist of each task row."""
+    """Present the rows of the task, each of which selects a component of the tool twist."""
     columns = [Header("row", "row"), *[Header(name, name, aligned=False) for name in TASK_ROW_NAMES]]
     rows = [(number, *row) for number, row in enumerate(task.rows.tolist(), 1)]
-    return Presentation(task.name, task.describe(), tables=[TableSpec(f"in the {task.frame} frame", columns, rows)])
+    return Presentation(task.name, task.describe(), tables=[TableSpec(f"Task rows in the {task.frame} frame", columns, rows)])

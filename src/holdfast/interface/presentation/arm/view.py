@@ -1,4 +1,4 @@
-"""Small 3-D view of an arm and of its surroundings."""
+"""Interactive 3-D view of an arm and its environment."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.failure_modes import Degraded
 
-MAX_VIEW_TRIANGLES = 16_000  # of a view, about 250 kB of its page
-MAX_MOTION_FRAMES = 240  # of a motion: the view draws what lies between
-_VIEW_ANGLE_DEG = 65.0  # degrees from the direction in which the arm reaches to that from which it is seen
-_MARKED_SPEED_FRACTION = 0.99  # a direction in which at least this is left is not marked
+MAX_VIEW_TRIANGLES = 16_000  # triangles of a view, about 250 kB of the page
+MAX_MOTION_FRAMES = 240  # frames of a motion; the view interpolates between them
+_VIEW_ANGLE_DEG = 65.0  # degrees between the direction in which the arm reaches and the direction of view
+_MARKED_SPEED_FRACTION = 0.99  # a direction with at least this fraction of the speed left is not marked
 
 
 @check_arguments
@@ -58,28 +58,31 @@ def scene(
     """Build the scene of a view: arms, motion, locked joints, lost directions, targets, region, path, points, and cell.
 
     Args:
-        arm: The arm; its links are the shapes of its URDF file where that has some, else round bars.
-        q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or
-            (A, F, n) several. :func:`holdfast.model.arm.generic_configuration` if not given.
-        labels: (A,) what each of several is.
-        locked: Joints, by name or index from 0, that are marked as locked, or a :class:`holdfast.Degraded`; in a motion also
-            ``{joint: s from which}``.
-        free: Joints that are marked as swinging freely.
-        task: Rows of the pose in which directions are lost; the arm's own if not given.
-        lost: Mark the directions in which the locked joints take speed from the first arm, where nothing moves.
-        targets: Poses (4, 4) or points (3,) that are marked, m.
-        region: A region, of which a box is drawn, or the lowest and highest corner (2, 3) of a box, m.
-        path: (P, 3) where the tool was to be, m.
-        points: (N, 3) places that are marked and can be chosen, m.
-        colors: (N, 3) their colours, 0 to 255.
-        time: (F,) s, of a motion, evenly spaced.
-        readings: (F,) a short text for each frame.
-        joints: Sliders that move the joints of the first arm.
-        meshes: Take the shapes of a URDF file.
-        cell: The objects around the arm.
+        arm: Arm to show, with the visual shapes of its file, or with cylinders for links that have none.
+        q: (n,) configuration, rad and m; or (A, n) several, the first opaque and the others transparent. With ``time``, a
+            motion (F, n), or several (A, F, n). Default: :func:`holdfast.model.arm.generic_configuration`.
+        labels: (A,) name of each configuration or motion.
+        locked: Joints, by name or index from 0, that are marked as locked, or a :class:`holdfast.Degraded`. In a motion also
+            ``{joint: time of the lock, s}``.
+        free: Joints, by name or index from 0, that are marked as swinging freely.
+        task: Task whose lost directions are marked; the default task of the arm if None.
+        lost: Mark the directions in which the locked joints reduce the speed of the first arm, if there is no motion.
+        targets: Poses (4, 4) or points (3,) to mark, m.
+        region: Region whose box is drawn, or the lowest and highest corner (2, 3) of a box, m.
+        path: (P, 3) desired path of the tool, m.
+        points: (N, 3) points to mark, which can be selected in the view, m.
+        colors: (N, 3) RGB colours of the points, 0 to 255.
+        time: (F,) evenly spaced times of a motion, s.
+        readings: (F,) text to show in each frame.
+        joints: Show sliders that move the joints of the first arm.
+        meshes: Use the visual shapes of the arm's file.
+        cell: Objects around the arm.
+
+    Returns:
+        The scene; ``to_html`` converts it to a part of a page.
 
     Raises:
-        InputError: Shapes that do not fit.
+        InputError: The shapes of the arguments do not match.
     """
     moving = time is not None
     motions = _read_motions(arm, generic_configuration(arm) if q is None else q, moving)
@@ -132,7 +135,7 @@ def scene(
     ]
     objects = [] if cell is None else bodies.build_cell_parts(cell, arm.base, size)
     object_vertices = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
-    # A floor or a wall goes on where nothing is to be seen.
+    # A floor or a wall extends far beyond the arm: only its vertices near the arm must be in the picture.
     visible_points += [item[np.linalg.norm(item - arm.base[:3, 3], axis=1) < size] for item in object_vertices]
     parts, notes = _encode_parts(arm, size, [*body_parts, *objects])
     notes += [mesh_note[:1].upper() + mesh_note[1:] + "."] if mesh_note else []
@@ -178,7 +181,7 @@ def scene(
 
 
 def choose_views(arm: Arm, points: FloatArray) -> list[View]:
-    """Return side and top view of points (..., 3) of an arm; for an arm that moves in a plane the view of that plane."""
+    """Return the side and top view of points (..., 3) of an arm, or the view onto its plane for a planar arm."""
     normal = plane_normal(arm)
     return choose_side_and_top_views(points) or [SIDE_VIEW] if normal is None else [view_onto_plane(normal, -arm.gravity)]
 
@@ -186,14 +189,12 @@ def choose_views(arm: Arm, points: FloatArray) -> list[View]:
 def build_view_section(
     title: str, arm: Arm, q: ArrayLike | None, caption: str, *, name: str = "motion", label: str = "", **options: Any
 ) -> Section:
-    """Build the section of a page with a view of the arm; ``label`` is its text alternative, the options are those of
-    :func:`scene`.
-    """
+    """Build the section of a page with a view of the arm; ``label`` is its text alternative. Options as in :func:`scene`."""
     return Section(title, [Picture(scene(arm, q, **options).to_html(name, label or caption), caption)])
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
-    """Build a page of the arm alone, with its joints on sliders where nothing moves."""
+    """Build an HTML page with a view of the arm, with joint sliders if there is no motion. Options as in :func:`scene`."""
     from markupsafe import Markup
 
     arm_scene = scene(arm, q, **({"joints": True} | options))
@@ -284,14 +285,14 @@ def _encode_parts(arm: Arm, size: float, body: Sequence[MeshPart]) -> tuple[list
     triangle_count = sum(len(mesh_part.faces) for mesh_part in parts if mesh_part.tube is None)
     if triangle_count > MAX_VIEW_TRIANGLES:
         notes.append(
-            f"The meshes have {triangle_count:,} triangles; about {MAX_VIEW_TRIANGLES:,} are drawn, so that the page "
-            f"stays small."
+            f"The meshes have {triangle_count:,} triangles. They are simplified to about {MAX_VIEW_TRIANGLES:,} to limit "
+            f"the size of the page."
         )
     encoded = []
     for part in parts:
         max_triangles = max(MAX_VIEW_TRIANGLES * len(part.faces) // max(triangle_count, MAX_VIEW_TRIANGLES), 40)
         encoded.append(_encode_part(part, max_triangles))
-    # Meshes hide the joints: those that are locked are shown through them.
+    # Meshes hide the joints, so locked joints are drawn through the meshes.
     hidden = {mesh_part.joint for mesh_part in sticks if mesh_part.joint is not None} - {mesh_part.joint for mesh_part in parts}
     return encoded + [_encode_part(part, MAX_VIEW_TRIANGLES) | {"mark": True} for part in sticks if part.joint in hidden], notes
 
@@ -307,9 +308,7 @@ def _encode_part(part: MeshPart, max_triangles: int) -> dict[str, Any]:
 
 
 def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: str | Task | None) -> list[dict[str, Any]]:
-    """Return the directions in which locked joints reduce the speed, as twists in the world, each with the remaining speed in
-    words.
-    """
+    """Return the directions in which locked joints reduce the speed, as twists in the world with a label of the loss."""
     if not failed:
         return []
     task_rows = as_task(arm, task or default_task(arm.name, arm))
@@ -319,7 +318,7 @@ def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: 
     directions = []
     for loss in find_speed_losses(task_rows.rows @ (scale[:, None] * (rotation @ arm.jacobian(q))), failed):
         if loss.kept <= _MARKED_SPEED_FRACTION:
-            label = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed left"
+            label = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed remains"
             directions.append({"twist": round_to_seven_digits(world_rows.T @ loss.direction), "words": label})
     return directions
 
@@ -327,7 +326,7 @@ def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: 
 def _place_camera(
     arm: Arm, up: FloatArray, visible_points: FloatArray, frames: FloatArray, min_radius: float
 ) -> dict[str, Any]:
-    """Return a camera that sees everything: an arm that moves in a plane is seen face on, any other obliquely."""
+    """Return a camera that shows all points; it views a planar arm along the normal of its plane, other arms obliquely."""
     lower, upper = visible_points.min(axis=0), visible_points.max(axis=0)
     center = (lower + upper) / 2
     right, upward, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)

@@ -1,4 +1,4 @@
-"""Visual shapes of the links of an arm, as its file gives them, where they can be read."""
+"""Visual shapes of the links of an arm, read from its file."""
 
 from __future__ import annotations
 
@@ -20,17 +20,19 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.shapes.pieces import Missing, Piece
 from holdfast.model.shapes.reading import read_pieces
 
-MAX_MESH_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
+MAX_MESH_TRIANGLES = 60_000  # triangles of one mesh; more take longer and do not look smoother
 
 
 def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPart], str]:
-    """Build the meshes of an arm from the visual shapes of its file, or sticks without them; add a note where meshes are
-    missing.
+    """Build the meshes of an arm from the visual shapes of its file, or a stick model for links without shapes.
 
     Args:
-        arm: The arm.
-        size: What sticks are drawn in proportion to, m.
-        meshes: As in :func:`read_visual_parts`.
+        arm: Arm to draw.
+        size: Length of the stretched arm, m, to which the stick model is scaled.
+        meshes: Open the mesh files; see :func:`read_visual_parts`.
+
+    Returns:
+        The parts, and a note on missing meshes; the note is empty if none are missing.
     """
     sticks = build_stick_parts(arm, size)
     shapes, lacking = read_visual_parts(arm, meshes)
@@ -44,26 +46,29 @@ def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPar
             (reason, [item.what for item in lacking if item.is_present is present]) for reason, present in groups
         ]
         counts = [f"{len(names)} {reason}, such as {names[0]}" for reason, names in missing_by_reason if names]
-        return shapes, f"of the file's meshes {' and '.join(counts)}; such links are drawn as sticks"
+        return shapes, f"of the meshes in the file, {' and '.join(counts)}; these links are drawn as sticks"
     return shapes, ""
 
 
 def read_visual_parts(arm: Arm, meshes: bool = True) -> tuple[list[MeshPart], list[Missing]]:
-    """Read the visual shapes of the links of an arm, in the frames of its bodies; return also those that could not be read.
+    """Read the visual shapes of the links of an arm, in the frames of its bodies.
 
     Args:
-        arm: The arm.
-        meshes: Open the files of meshes; else all count as missing, and no file but the arm's is opened.
+        arm: Arm whose file contains the shapes.
+        meshes: Open the mesh files. If False, all meshes count as missing, and only the file of the arm is opened.
+
+    Returns:
+        The shapes that were read, and the shapes that are missing or not readable.
     """
     try:
         pieces, missing = read_pieces(arm, "visual", open_files=meshes)
-    except HoldfastError as error:  # another arm than the one in the file, or a reader that is not installed
+    except HoldfastError as error:  # the file has changed to another arm, or its reader is not installed
         return [], [Missing(-1, str(error))]
     return [make_part(piece) for piece in pieces], missing
 
 
 def make_part(piece: Piece) -> MeshPart:
-    """Convert a shape of a file to triangles in its own colour."""
+    """Convert a shape of a file to a triangle mesh with the colour of the shape."""
     vertices, faces = _triangulate_piece(piece)
     color = LINK_COLOR_RGB
     if piece.rgba is not None:

@@ -44,11 +44,12 @@ class EvaluatedPoses:
 
 
 class ThresholdAnswer:
-    """Sentences about an assessment and a threshold.
+    """Sentences that answer how often an assessed arm meets a threshold, and why not more often.
 
     Args:
-        assessment: What was found.
-        threshold: Value of the index that the task needs; the assessment's own if not given.
+        assessment: Assessment to describe.
+        threshold: Value of the index that the task needs, in the unit of the index; the default threshold of the assessment
+            if None.
 
     Raises:
         InputError: The threshold is not a finite number.
@@ -86,7 +87,7 @@ class ThresholdAnswer:
         return self.interval()
 
     def interval(self, optimised: bool = False, reachable_only: bool = False, threshold: float | None = None) -> Interval:
-        """Return the probability that a pose meets a threshold, this one if none is given."""
+        """Return the probability that a pose meets ``threshold``, or the threshold of this answer if it is None."""
         option = "at_least" if self.larger_is_better else "at_most"
         value = self.threshold if threshold is None else threshold
         return self.assessment.interval(**{option: value}, optimised=optimised, reachable_only=reachable_only)
@@ -119,7 +120,7 @@ class ThresholdAnswer:
         if not distribution.reached:
             return (
                 f"No configuration within the joint limits was found for any of the {distribution.samples:,} poses of the "
-                "region: move the region, widen the joint limits or give more restarts."
+                "region. Move the region, widen the joint limits, or increase the number of restarts."
             )
         lost_text = (
             f"; for {format_percent(distribution.unreached_share)} of poses no configuration within the joint limits was found"
@@ -129,7 +130,7 @@ class ThresholdAnswer:
         if self.is_worst_everywhere:
             worst_value = "0" if self.larger_is_better else "infinite"
             verdict = f"the worst-case {name} is {worst_value} at each {noun} reached{lost_text}."
-            sentence = f"{self.remaining_reach}No {noun} of the region tolerates every failure: {verdict}"
+            sentence = f"{self.remaining_reach}No {noun} found in the region tolerates every failure: {verdict}"
             return f"{sentence} {self.low_probability_reason}".rstrip()
         bound = f"at {'least' if self.larger_is_better else 'most'} {format_as_given(self.threshold)}{self.unit_suffix}"
         if self.larger_is_better and self.index.bound is not None:
@@ -141,7 +142,7 @@ class ThresholdAnswer:
         few_text = (
             f"Hardly any {noun} of the region"
             if self.probability.value
-            else f"None of the {distribution.samples:,} {noun}s drawn"
+            else f"None of the {distribution.samples:,} sampled {noun}s"
         )
         return f"{self.remaining_reach}{few_text} {kept_text}: {chance}{lost_text}. {self.low_probability_reason}"
 
@@ -163,7 +164,7 @@ class ThresholdAnswer:
 
     @property
     def low_probability_reason(self) -> str:
-        """Reason for a probability of nearly 0, from the joints or the structure, and the next informative numbers."""
+        """Reason why the probability is nearly 0, and other numbers that are not 0 (medians, values after optimisation)."""
         assessment, index, names = self.assessment, self.index, self.assessment.plan.arm.joint_names
         own_structure = self.task_structures[0]
         fatal_joints = [joint for joint in own_structure.fatal if any(joint in failed for failed in index.failures)]
@@ -191,7 +192,7 @@ class ThresholdAnswer:
             parts[-1] += f"; at the best configuration of each pose it is {format_number(float(best.quantile(0.5)))}, "
             parts[-1] += f"and the probability {format_interval(self.interval(optimised=True))}"
         elif assessment.plan.region.kind != "joints":
-            parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
+            parts[-1] += "; a run with --optimise (optimise=True in Python) also evaluates the best configuration of each pose"
         return f"{' '.join(parts)}."
 
     @property
@@ -202,7 +203,7 @@ class ThresholdAnswer:
         return "each pose of the list once" if is_whole_list else f"{self.assessment.plan.sampling} poses of the region"
 
     def format_share(self, count: int) -> str:
-        """Format a count of poses with its fraction of all, and with its interval if all count alike."""
+        """Format a count of poses with its fraction of all poses, and with the interval if the poses are not weighted."""
         distribution = self.distribution
         return (
             f"{count:,} of {distribution.samples:,} {self.noun}s, not weighted"
@@ -212,21 +213,22 @@ class ThresholdAnswer:
 
     @property
     def weights_text(self) -> str:
-        """Explanation of the effect of weights on the numbers."""
+        """Effect of the weights on the numbers, and the effective sample size."""
         return (
-            f"poses count by weight: {format_percent(1 - self.distribution.unreached_share)} of the weight is reached. "
-            f"Effective sample size {format_number(self.distribution.effective())} of {self.distribution.samples:,} (total "
-            "weight over the largest weight): intervals and bands are those of so many equal poses"
+            f"each pose counts by its weight, and poses with {format_percent(1 - self.distribution.unreached_share)} of the "
+            f"weight are reached. The effective sample size (total weight over largest weight) is "
+            f"{format_number(self.distribution.effective())} of {self.distribution.samples:,}; intervals and bands are those "
+            "of this number of equal poses"
         )
 
     @property
     def unit_suffix(self) -> str:
-        """Unit of the index after a space, or nothing."""
+        """Unit of the index after a space; empty for an index without a unit."""
         return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
 
     @cached_property
     def task_structures(self) -> tuple[Structure, list[Structure]]:
-        """Structure of the task of the run, and those of all tasks including it."""
+        """Single points of failure of the task of the run, and of all tasks including it."""
         everything = structures(self.assessment.plan.arm)
         task = self.index.task
         for candidate in everything:
@@ -258,7 +260,7 @@ class ThresholdAnswer:
 
     @cached_property
     def poses(self) -> EvaluatedPoses | None:
-        """Every evaluated pose; None if the poses were not kept."""
+        """Every evaluated pose; None if the run did not store its poses."""
         if not self.distribution.samples or not self.assessment.has_rows:
             return None
         evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=False)
@@ -283,7 +285,7 @@ class ThresholdAnswer:
 
     @cached_property
     def optimised_poses(self) -> EvaluatedPoses | None:
-        """Every evaluated pose at its best configuration; None if the run was not optimised or the poses were not kept."""
+        """Every evaluated pose at its best configuration; None if the run did not optimise or did not store its poses."""
         if self.poses is None or self.assessment.optimised is None:
             return None
         evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=True)

@@ -1,4 +1,4 @@
-"""Presentation of an assessment: the probability of meeting a threshold, and the reasons against it."""
+"""Presentation of an assessment: the probability of meeting a threshold, and the reasons why it is not met."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ def present(
     rates: Mapping[str | int, float] | None = None,
     report: Path | None = None,
 ) -> Presentation:
-    """Present the answer at a threshold, the first of several, and the poses left after a lock.
+    """Present the probability of meeting a threshold, and the poses that are still reached after a lock.
 
     Args:
-        assessment: The run.
-        threshold: Value of the index that the task needs; see :meth:`Assessment.report`.
+        assessment: Assessment to present.
+        threshold: Value of the index that the task needs; the first of ``thresholds`` if None. See :meth:`Assessment.report`.
         thresholds: Values of the table of probabilities; see :meth:`Assessment.to_dict`.
-        rates: How often each joint fails.
-        report: Unused; the file is named with the others that were written.
+        rates: Relative failure rate of each joint, by name or index from 0.
+        report: Unused; the command prints the path of the report with the other written files.
     """
     del report
     answer = ThresholdAnswer(assessment, thresholds[0] if threshold is None and thresholds else threshold)
@@ -62,8 +62,8 @@ def present(
     notices = []
     if not assessment.complete:
         text = (
-            f"{distribution.samples:,} of {assessment.poses:,} {answer.noun}s are computed, and all numbers are about these. "
-            f"Run the same command again to resume."
+            f"{distribution.samples:,} of {assessment.poses:,} {answer.noun}s have been evaluated, and all numbers refer to "
+            f"these. Repeat the command to resume."
         )
         notices.append(Notice(text, "bad", "This run is not complete"))
     figures = {"overview": FigureSpec(partial(_draw_overview, answer), on_page=False)}
@@ -88,16 +88,16 @@ def present(
 
 
 def _list_facts(answer: ThresholdAnswer, rates: Mapping[str | int, float] | None) -> list[Fact]:
-    """List the numbers that answer the question; at the top of the page a number is never only a zero."""
+    """List the numbers that answer the question; a number that is only a zero is not placed at the top of the page."""
     assessment, distribution, index, noun = answer.assessment, answer.distribution, answer.index, answer.noun
     facts = []
     fatal = answer.task_structures[0].fatal
     if fatal and distribution.reached:
         names = list_alternatives([assessment.arm.joint_names[joint] for joint in fatal])
         text = names if len(fatal) < 4 else f"{len(fatal)} joints"
-        facts.append(Fact("single points of failure", text, phrase="whose lock ends the task everywhere, by structure"))
+        facts.append(Fact("single points of failure", text, phrase="whose lock makes the task singular in every configuration"))
     if answer.has_threshold:
-        phrase = f"of the {noun}s have an {answer.condition}; {_explain_threshold(answer)}"
+        phrase = f"of the {noun}s have {answer.condition}; {_explain_threshold(answer)}"
         phrase = phrase if answer.probability.value else ""
         facts.append(Fact(f"P({answer.condition})", answer.probability, style="percent", phrase=phrase))
         if distribution.unreached and distribution.reached:
@@ -113,33 +113,33 @@ def _list_facts(answer: ThresholdAnswer, rates: Mapping[str | int, float] | None
             facts.append(Fact(label, answer.interval(optimised=True), style="percent"))
     if answer.costliest_lock is not None:
         name, fraction = answer.costliest_lock
-        phrase = f"of the poses are still reached once {name} has locked, the lock that costs most"
-        facts.append(Fact(f"poses still reached once {name} has locked", fraction, style="percent", phrase=phrase))
+        phrase = f"of the poses are still reached after the most costly lock, that of {name}"
+        facts.append(Fact(f"poses still reached after a lock of {name}", fraction, style="percent", phrase=phrase))
     if rates and assessment.survivors is not None:
-        label = "poses still reached after a failure, by how often each joint fails"
+        label = "poses still reached after a failure, weighted by the failure rates"
         facts.append(Fact(label, assessment.expected_survival(rates), style="percent"))
     counts = assessment.worst_counts
     if counts.sum() > 0:
         phrase = (
-            f"whose lock is the worst failure at {format_percent(float(counts.max() / counts.sum()))} "
+            f"is the joint whose lock is most often the worst failure, at {format_percent(float(counts.max() / counts.sum()))} "
             f"of the {answer.reached_noun}"
         )
         facts.append(Fact("most often the worst failure", index.failure_names[int(counts.argmax())], phrase=phrase))
-    facts.append(Fact("explanation of the index", explain_index(index)))
+    facts.append(Fact("meaning of the index", explain_index(index)))
     facts.append(Fact("failures considered", f"{len(index.failures)}: {_describe_failures(answer)}"))
     planned = "" if assessment.complete else f" of {assessment.poses:,} planned"
-    facts.append(Fact(f"{noun}s drawn", f"{distribution.samples:,}{planned}, seed {assessment.seed}"))
+    facts.append(Fact(f"sampled {noun}s", f"{distribution.samples:,}{planned}, seed {assessment.seed}"))
     if assessment.region.kind != "joints":
         facts.append(Fact("reached", answer.format_share(distribution.reached)))
-        facts.append(Fact("no configuration found, counted as failed", answer.format_share(distribution.unreached)))
+        facts.append(Fact("no configuration found (counts as failed)", answer.format_share(distribution.unreached)))
     if distribution.has_weights:
         facts.append(Fact("weights", answer.weights_text))
-    singular_value = "" if not distribution.singular else f"; count as {'0' if answer.larger_is_better else 'infinite'}"
+    singular_value = "" if not distribution.singular else f"; they count as {'0' if answer.larger_is_better else 'infinite'}"
     facts.append(Fact("singular", answer.format_share(distribution.singular) + singular_value))
     if distribution.infinite:
-        facts.append(Fact("infinite", f"{answer.format_share(distribution.infinite)}, of those with a configuration"))
-    facts.append(Fact(f"collides with {answer.collision_objects}", summarize_collisions(answer)))
-    band = f"at most {format_half_width(distribution.band())} everywhere at once, with 95 % confidence"
+        facts.append(Fact("infinite", f"{answer.format_share(distribution.infinite)}, among the reached poses"))
+    facts.append(Fact(f"collisions with {answer.collision_objects}", summarize_collisions(answer)))
+    band = f"at most {format_half_width(distribution.band())} at all values simultaneously, with 95 % confidence"
     facts.append(Fact("error of the CDF", f"{band} (Dvoretzky-Kiefer-Wolfowitz)"))
     if index.bound is not None and distribution.reached:
         facts.append(
@@ -152,7 +152,7 @@ def _describe_bound(answer: ThresholdAnswer, bound: float) -> str:
     """Describe the bound of the index, and the distance of the poses from it."""
     goal = answer.index.best_known or bound
     reference = "it" if goal == bound else f"the best known {goal:.4f}"
-    texts = [f"{bound:.4f}, which no configuration of any arm can beat"]
+    texts = [f"{bound:.4f}, which no configuration of any arm can exceed"]
     for name, distribution in (("", answer.distribution), (" after optimisation", answer.assessment.optimised)):
         if distribution is not None and distribution.reached:
             median, best = (
@@ -183,21 +183,22 @@ def _explain_threshold(answer: ThresholdAnswer) -> str:
 
 
 def summarize_collisions(answer: ThresholdAnswer) -> str:
-    """Summarize how often the arm collides with itself or its cell; empty if collisions were not checked."""
+    """Summarise how often the arm collides with itself or its cell; empty if collisions were not checked."""
     counts, clearance = answer.assessment.collisions, answer.assessment.plan.clearance
     if counts is None or clearance is None or not counts.reached:
         return ""
     prefix = "at most " * (clearance.cell is not None)
-    text = f"{prefix}{format_percent(counts.found / counts.reached)} of the configurations found"
+    text = f"{prefix}{format_percent(counts.found / counts.reached)} of the configurations found collide"
     touched = sorted((item for item in counts.with_each.items() if item[1]), key=lambda item: -item[1])
     text += f" ({', '.join(f'{name} {format_percent(n / counts.reached)}' for name, n in touched)})" if touched else ""
     if answer.assessment.clear is not None:
-        text += f"; at least {format_interval(answer.assessment.reached_clear())} of the poses are reached by a clear one"
+        text += f"; at least {format_interval(answer.assessment.reached_clear())} of the poses are reached without collision"
     if answer.assessment.optimised is not None:
-        avoided = f"a clearance of {counts.margin:g} m" if counts.margin else f"the arm clear of {answer.avoided_objects}"
+        limit = f"have a clearance of at least {counts.margin:g} m" if counts.margin else "are collision-free"
         blocked = format_percent(counts.blocked / counts.reached)
-        text += f"; the best configurations keep {avoided}, which {blocked} of them otherwise would not"
-        text += f", and {format_count(counts.hopeless, 'pose')} cannot and count as failed" if counts.hopeless else ""
+        text += f"; the best configurations {limit}, which excluded a better configuration at {blocked} of the poses"
+        excluded = f", and {format_count(counts.hopeless, 'pose')} without such a configuration count as failed"
+        text += excluded if counts.hopeless else ""
     cell_suffix = "" if clearance.cell is None else f"; {describe_cell(clearance.cell)}"
     return f"{text} ({clearance.capsules.describe(answer.assessment.arm)}{cell_suffix})"
 
@@ -340,7 +341,7 @@ def _collect_collision_numbers(result: Assessment) -> dict[str, Any] | None:
 
 
 def _collect_upgrades(result: Assessment, thresholds: Thresholds, optimised: bool = False) -> dict[str, Any] | None:
-    """Collect the gains of joints that never fail, at the first threshold; None if the poses were not kept."""
+    """Collect the gains of joints that never fail, at the first threshold; None if the poses were not stored."""
     if not result.has_rows or not result.distribution.samples:
         return None
     threshold = thresholds[0] if thresholds else result.default_threshold()

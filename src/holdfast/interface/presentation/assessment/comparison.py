@@ -1,4 +1,4 @@
-"""Presentation of a comparison of assessments: which candidate meets the threshold most often, and by which joint it fails."""
+"""Presentation of a comparison of assessments: the candidate that meets the threshold most often, and its worst joints."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _MAX_UPGRADES = 3  # joints per candidate; its own report has all
 
 
 def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> dict[str, Any]:
-    """Return every candidate as an assessment of its own, and the comparison table, as JSON data."""
+    """Return the assessment of every candidate, and the comparison table, as JSON data."""
     optimised = all(assessment.optimised is not None for assessment in comparison.assessments)
     candidates = zip(comparison.names, comparison.tools, comparison.assessments, strict=True)
     threshold_values = thresholds or [comparison.threshold]
@@ -65,12 +65,12 @@ def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path 
 
 def present(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> Presentation:
     """Present the best candidate, the differences between the candidates, their probabilities, and their joints."""
-    del thresholds, report  # of JSON
+    del thresholds, report  # only the JSON document needs them
     first = ThresholdAnswer(comparison.assessments[0], comparison.threshold)
     unfinished = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.complete]
-    notices = [Notice(" ".join(comparison.notes), title="Before comparing")] if comparison.notes else []
+    notices = [Notice(" ".join(comparison.notes), title="Before you compare")] if comparison.notes else []
     if unfinished:
-        notices.append(Notice("Run the same command again to resume.", "bad", f"Not complete: {', '.join(unfinished)}"))
+        notices.append(Notice("Repeat the command to resume.", "bad", f"Not complete: {', '.join(unfinished)}"))
     region = first.assessment.region
     return Presentation(
         f"Fault tolerance of {len(comparison.names)} candidates",
@@ -99,7 +99,7 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
             f"{task}, {f'{name} with {format_interval(p)}' if (p := comparison.interval(name)).value > 0 else 'none'}"
             for task, name in task_leaders
         ]
-        return f"Probability of keeping {target}, the best candidate of each task: {'; '.join(verdicts)}."
+        return f"Best candidate of each task, with its probability of keeping {target}: {'; '.join(verdicts)}."
     ranked = comparison.ranking()
     best, runner_up = (comparison.interval(name) for name in ranked[:2])
     if best.value == 0:
@@ -111,14 +111,14 @@ def _compose_answer(comparison: Comparison, first: ThresholdAnswer) -> str:
             f"next is {ranked[1]} with {format_interval(runner_up)}."
         )
         if runner_up.value < best.value and not best_intervals_are_disjoint(comparison):
-            text += f" Their intervals overlap: more {first.noun}s would tell them apart."
+            text += f" Their intervals overlap, so the order is not certain; more {first.noun}s give narrower intervals."
     if all(assessment.optimised is not None for assessment in comparison.assessments):
         optimised_leaders = find_leaders(comparison, optimised=True)
         probability = comparison.interval(optimised_leaders[0], optimised=True)
         if probability.value > 0:
             text += (
-                f" After optimisation the largest probability is that of {' and '.join(optimised_leaders)}, "
-                f"{format_interval(probability)}."
+                f" After optimisation {' and '.join(optimised_leaders)} {'has' if len(optimised_leaders) == 1 else 'have'} the "
+                f"largest probability, {format_interval(probability)}."
             )
     return text
 
@@ -134,7 +134,7 @@ def _describe_nearest_candidate(comparison: Comparison) -> str:
         return ""
     sign = 1.0 if comparison.assessments[0].index.better == "larger" else -1.0
     _, name, assessment = max(medians, key=lambda entry: sign * entry[0])
-    return f" Nearest is {name}. {ThresholdAnswer(assessment, comparison.threshold).low_probability_reason}"
+    return f" {name} has the best median. {ThresholdAnswer(assessment, comparison.threshold).low_probability_reason}"
 
 
 def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[TableSpec]:
@@ -152,17 +152,18 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
         Header("reached", "reached, 95 % interval", style="percent"),
         *[Header(f"{p}probability", f"{p and 'optimised '}{condition}, 95 % interval", style="percent") for p in prefixes],
         *[Header(f"{p}median", f"{p and 'optimised '}median") for p in prefixes],
-        *[Header("expected_survival", "left after a lock", style="percent")] * survival,
+        *[Header("expected_survival", "reached after a lock", style="percent")] * survival,
     ]
     title = (
-        f"P: fraction of the {format_count(first.distribution.samples, first.noun)} whose {first.condition}; medians are over "
-        f"the reached ones. Redundancy: joints minus rows of the task"
+        f"P: fraction of the {format_count(first.distribution.samples, first.noun)} with {first.condition}. Medians: over "
+        f"the reached {first.noun}s. Redundancy: joints minus task dimensions"
     )
     title += ". Optimised: at the best configurations" if optimised else ""
-    title += ". Left after a lock: fraction of the poses still reached, every joint equally likely to fail" if survival else ""
+    title += ". Reached after a lock: fraction of the poses, if every joint is equally likely to fail" if survival else ""
     yield TableSpec(title, columns, [[_read_cell(row, column.key) for column in columns] for row in table])
     yield TableSpec(
-        "Worst failure: the most frequent. Single point of failure: a joint whose lock ends the task in every configuration",
+        "Worst failure: most often the worst one, with the fraction of the reached poses. Single point of failure: a joint "
+        "whose lock makes the task singular in every configuration",
         [
             name,
             *[Header(f"{p}worst", f"{p and 'optimised: '}worst failure") for p in prefixes],
@@ -187,8 +188,8 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
     columns = [name, Header("arm", "arm"), Header("tool", "tool"), Header("bound", "bound of the index", digits=3)]
     columns += [Header(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
     yield TableSpec(
-        "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
-        "Gap: by how much the median of the reached poses falls short of it",
+        "Tool: x, y, z; roll, pitch, yaw as in URDF, in the frame of the last link. Bound: no configuration can exceed it. "
+        "Gap: bound (or best known value) minus the median of the reached poses",
         [*columns, Header("source", "source"), Header("fingerprint", "fingerprint")],
         detail_rows,
         on_console=False,
@@ -223,7 +224,7 @@ def _format_tool_pose(arm: Arm) -> str:
 
 
 def _tabulate_upgrades(comparison: Comparison, first: ThresholdAnswer, optimised: bool) -> TableSpec | None:
-    """Tabulate the joints of each candidate whose protection from failure gains most."""
+    """Tabulate, for each candidate, the joints whose protection from failure gains most."""
     rows: list[list[Any]] = []
     for name, run in zip(comparison.names, comparison.assessments, strict=True):
         ranked = comparison.upgrades(name)[:_MAX_UPGRADES] if run.has_rows else []
@@ -233,24 +234,25 @@ def _tabulate_upgrades(comparison: Comparison, first: ThresholdAnswer, optimised
             cells += (list_gain_cells(after[upgrade.joint]) if after else ["–", "–"]) if optimised else []
             rows.append(cells)
     missing = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.has_rows]
-    columns = [Header("name", "candidate"), Header("joint", "if this never failed"), Header("before", "P now", digits=3)]
-    for label in ("P then", "after optimisation")[: 1 + optimised]:
+    columns = [Header("name", "candidate"), Header("joint", "protected joint"), Header("before", "P without", digits=3)]
+    for label in ("P with protection", "after optimisation")[: 1 + optimised]:
         columns += [Header("after", label, digits=3, aligned=False), Header("gain", "gain, 95 % interval")]
     title = (
-        f"P({first.condition}). The {_MAX_UPGRADES} joints of each candidate that gain most from a redundant motor or brake; "
-        f"its own report has all"
+        f"P({first.condition}) if one joint never failed: the {_MAX_UPGRADES} joints of each candidate that gain most from a "
+        f"redundant motor or brake; the report of each candidate lists all joints"
     )
     if optimised:
         title += (
-            f". After optimisation: configurations of up to {MAX_REOPTIMISED_POSES} {first.noun}s optimised again without it"
+            f". After optimisation: configurations of up to {MAX_REOPTIMISED_POSES} {first.noun}s, optimised again for the "
+            f"remaining failures"
         )
-    title += f". The {first.noun}s of {', '.join(missing)} were not kept, so they are not in this table" if missing else ""
+    title += f". Without {', '.join(missing)}, whose {first.noun}s were not stored" if missing else ""
     return TableSpec(title, columns, rows) if rows or missing else None
 
 
 def _list_method(comparison: Comparison, first: ThresholdAnswer) -> list[tuple[str, str]]:
     runs, run = comparison.assessments, first.assessment
-    threshold_reason = "it was given"
+    threshold_reason = "as given"
     if not comparison.chosen:
         bounded = all(candidate.index.bound is not None for candidate in runs)
         middle = "about the middle of the candidates' medians, because this index has no bound"
@@ -270,16 +272,16 @@ def _list_method(comparison: Comparison, first: ThresholdAnswer) -> list[tuple[s
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
-            "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",
+            "by the probability of meeting the threshold at the configurations found by inverse kinematics; then by the median",
         ),
         (
             "Gain of a joint",
-            "the worst case is then over the failures in which the joint has no part, at the same configurations; the "
-            f"intervals are paired: a gain is the fraction of the {first.noun}s that fail now and would not then",
+            "the worst case is taken over the failures of the other joints, at the same configurations; the intervals are "
+            f"paired, because a gain is the fraction of the {first.noun}s that miss the threshold only without the protection",
         ),
     ]
     if len(seeds) == 1 and len({candidate.sampling for candidate in runs}) == 1:
-        entries.append(("Same poses", "every candidate was tried at the same poses of the region"))
+        entries.append(("Same poses", "every candidate was evaluated at the same poses of the region"))
     cell_texts = {each.plan.cell.digest: describe_cell(each.plan.cell) for each in runs if each.plan.cell is not None}
     if cell_texts:
         entries.append(("Cell", "; ".join(cell_texts.values())))
@@ -290,7 +292,8 @@ def _list_method(comparison: Comparison, first: ThresholdAnswer) -> list[tuple[s
     ]
     if models and any(candidate.optimised is not None for candidate in runs):
         avoided = f"itself{' and the cell' * bool(cell_texts)}"
-        entries.append(("Clearance", f"best configurations keep the arm clear of {avoided}, by capsules ({'; '.join(models)})"))
+        text = f"best configurations do not bring the arm into collision with {avoided}, by capsules ({'; '.join(models)})"
+        entries.append(("Clearance", text))
     return entries
 
 
@@ -316,7 +319,7 @@ def _build_sections(comparison: Comparison) -> Sequence[Section]:
 
 
 def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
-    """Build the command of each candidate and the files that it needs."""
+    """Build the command of each candidate, and the files that the commands need."""
     from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
     from holdfast.interface.report.page import Code, Text
 
@@ -324,7 +327,7 @@ def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
     for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
         command, remark = build_command_line(assessment)
         blocks.append(
-            Text(f"{name}: {remark}") if command is None else Code(command, f"{name} alone{f' ({remark})' if remark else ''}:")
+            Text(f"{name}: {remark}") if command is None else Code(command, f"Only {name}{f' ({remark})' if remark else ''}:")
         )
         blocks += build_shape_file_blocks(assessment)
     region = comparison.assessments[0].region

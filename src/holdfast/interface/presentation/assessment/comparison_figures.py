@@ -1,4 +1,4 @@
-"""Figures of a comparison of assessments, and the threshold that a reader can move over them."""
+"""Figures of a comparison of assessments, and a slider that moves the threshold over them."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def draw_distributions(comparison: Comparison) -> Figure:
     f = AssessmentFacts(comparison.assessments[0], comparison.threshold)
     candidates = list(zip(comparison.names, comparison.assessments, strict=True))
     samples = [
-        ("As inverse kinematics found them" if f.assessment.region.kind != "joints" else "Cumulative (CDF)", candidates, False)
+        ("At the configurations found" if f.assessment.region.kind != "joints" else "Cumulative (CDF)", candidates, False)
     ]
     if any(assessment.optimised is not None for assessment in comparison.assessments):
         samples.append(
             (
-                "After optimisation",
+                "At the best configurations",
                 [(name, assessment) for name, assessment in candidates if assessment.optimised is not None],
                 True,
             )
@@ -68,7 +68,7 @@ def _choose_index_axis(comparison: Comparison, facts: AssessmentFacts) -> tuple[
 
 
 def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figure: Figure, band: float) -> Block:
-    """Build a movable threshold with the probability of each candidate and the leader at every step."""
+    """Build a threshold slider with the probability of each candidate and the best candidate at every step."""
     axis, log = _choose_index_axis(comparison, facts)
     threshold_values = thresholds.choose_thresholds(axis, log, comparison.threshold)
     comparisons = [replace(comparison, threshold=moved) for moved in threshold_values.tolist()]
@@ -85,19 +85,20 @@ def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figu
 
 
 def _describe_leader(comparison: Comparison) -> str:
-    """Name the leading candidate and whether its lead is significant; of several leaders all names."""
+    """Name the candidate or candidates with the largest probability, and whether the lead is significant."""
     leaders = find_leaders(comparison)
     if len(leaders) > 1:
-        return "all alike" if len(leaders) == len(comparison.names) else f"{' and '.join(leaders)} alike"
-    return leaders[0] if best_intervals_are_disjoint(comparison) else f"{leaders[0]}; its interval overlaps with the next"
+        return "all equal" if len(leaders) == len(comparison.names) else f"{' and '.join(leaders)}, equal"
+    is_certain = best_intervals_are_disjoint(comparison)
+    return leaders[0] if is_certain else f"{leaders[0]}; its interval overlaps with that of the next"
 
 
 def build_sections(comparison: Comparison) -> list[Section]:
-    """Build the figure of the distributions, its explanation, and a threshold to move over it."""
+    """Build the figure of the distributions, its explanation, and the threshold slider."""
     facts, figure = AssessmentFacts(comparison.assessments[0], comparison.threshold), draw_distributions(comparison)
     text = (
-        f"Over all {format_count(facts.distribution.samples, facts.noun)} of each candidate; the probability of meeting a "
-        f"threshold is {'1 − F' if facts.larger_is_better else 'F'} there. "
+        f"Over all {format_count(facts.distribution.samples, facts.noun)} of each candidate. The probability of meeting a "
+        f"threshold is {'1 − F' if facts.larger_is_better else 'F'} at the threshold. "
     )
     if any(assessment.distribution.unreached for assessment in comparison.assessments):
         text += f"A pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}. "
@@ -105,4 +106,4 @@ def build_sections(comparison: Comparison) -> list[Section]:
     text += f"The 95 % band of each curve is {format_half_width(band_width)}."
     picture = Picture(drawing.svg(figure, "compare", "Cumulative distributions of all candidates"), text)
     slider = _build_threshold_slider(comparison, facts, figure, band_width)
-    return [Section("How the index is distributed", [picture, slider])]
+    return [Section("Distribution of the index", [picture, slider])]

@@ -1,4 +1,4 @@
-"""One line for each index that tells a reader new to it which values are good."""
+"""One-line explanations of the indices, which state the values that are good."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from holdfast.kinematics.indices.index import Index
 
 _ZERO_EXPLANATION = "0 means that some direction of the task is lost"
 _INDEX_EXPLANATIONS = {
-    "relative-manipulability": f"fraction of the manipulability that is left after the worst failure; 1 means no loss, "
+    "relative-manipulability": f"fraction of the manipulability that remains after the worst failure; 1 means no loss, "
     f"{_ZERO_EXPLANATION}",
     "manipulability": f"volume of tool velocities at joint rates of norm 1 after the worst failure; {_ZERO_EXPLANATION}",
-    "ceiling-fraction": f"1 means as much as the best known arm of this size keeps after the worst failure, "
-    f"{_ZERO_EXPLANATION}",
+    "ceiling-fraction": f"relative manipulability after the worst failure as a fraction of the best known value for this "
+    f"number of joints; 1 means as good as the best known arm, {_ZERO_EXPLANATION}",
     "mean-singular-value": "mean tool speed over the directions of the task at joint rates of norm 1 after the worst failure",
     "geometric-mean-singular-value": "geometric mean of the tool speeds over the directions of the task at joint rates "
     f"of norm 1 after the worst failure; {_ZERO_EXPLANATION}",

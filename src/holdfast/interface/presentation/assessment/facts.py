@@ -1,4 +1,4 @@
-"""Contents of the figures of an assessment, computed once: scene, axes, marks and curves."""
+"""Contents of the figures of an assessment, computed once: scene, axes, marks, and curves."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.studies.assessment.assessment import ZERO_INDEX
 
 _MAX_DOTS = 20_000
-_MAX_AXIS_RATIO = 4.0  # times the largest value: beyond it a bound would flatten the curve
+_MAX_AXIS_RATIO = 4.0  # times the largest value; a bound farther away would flatten the curve
 
 
 class AssessmentFacts(ThresholdAnswer):
@@ -47,20 +47,20 @@ class AssessmentFacts(ThresholdAnswer):
             reached = np.flatnonzero(poses.reached)
             index = reached[np.argsort(poses.value[reached], kind="stable")[(len(reached) - 1) // 2]]
             description = (
-                "the only one there is"
+                "the only one reached"
                 if len(reached) == 1
-                else f"the one with the median index, {format_number(float(poses.value[index]))}"
+                else f"which has the median index, {format_number(float(poses.value[index]))}"
             )
             return poses.q[index], f"at {self.noun} {poses.number[index] + 1:,}, {description}"
         center = np.array(assessment.region.center)
         if assessment.region.kind == "joints":
-            return center, "in the middle of the region"
+            return center, "at the centre of the region"
         if self.distribution.reached and assessment.region.kind == "box":
             solutions = solver(assessment.arm, self.index.task).solve(
                 assessment.region.poses(center[None]), np.random.SeedSequence(assessment.seed), assessment.restarts, 1e-6
             )
             if solutions.success[0]:
-                return solutions.q[0], "at the middle of the region"
+                return solutions.q[0], "at the centre of the region"
         lower = np.where(np.isfinite(assessment.arm.lower), assessment.arm.lower, -np.pi / 2)
         upper = np.where(np.isfinite(assessment.arm.upper), assessment.arm.upper, np.pi / 2)
         return (lower + upper) / 2, "in the middle of its joint limits"
@@ -97,17 +97,17 @@ class AssessmentFacts(ThresholdAnswer):
 
     @cached_property
     def views(self) -> list[View]:
-        """Side and top view; only one of them if everything lies in its plane."""
+        """Side and top view; only one of the two if all points lie in its plane."""
         return choose_side_and_top_views(self.scene[0].extent) or [SIDE_VIEW]
 
     @property
     def main_view(self) -> View:
-        """First of the views."""
+        """The first view."""
         return self.views[0]
 
     @cached_property
     def is_logarithmic(self) -> bool:
-        """True if the values span decades and none is 0, so that they are shown on a logarithmic scale."""
+        """True if the axis is logarithmic: smaller values are better, and the positive values span more than a factor of 20."""
         return (
             not self.larger_is_better
             and self.distribution.lowest > 0
@@ -137,7 +137,7 @@ class AssessmentFacts(ThresholdAnswer):
 
     @cached_property
     def marks(self) -> list[Mark]:
-        """Lines at the threshold and at the bound, unless they are far beyond all values."""
+        """Lines at the threshold and at the upper bound, without those far beyond all values."""
         candidates = (
             [Mark(self.threshold, f"threshold {format_as_given(self.threshold)}{self.unit_suffix}")]
             if self.has_threshold
@@ -161,7 +161,7 @@ class AssessmentFacts(ThresholdAnswer):
         """Cumulative distribution over all poses, and over the reached ones if some are not reached."""
         band = self.assessment.distribution.band()
         unreached_text = (
-            f" (not found counts as {'0' if self.larger_is_better else 'infinite'})" if self.distribution.unreached else ""
+            f" (not reached: {'0' if self.larger_is_better else 'infinite'})" if self.distribution.unreached else ""
         )
         label_prefix = "" if not self.distribution.unreached else f"all {self.distribution.samples:,} poses{unreached_text}, "
         all_poses = Curve(
@@ -184,7 +184,7 @@ class AssessmentFacts(ThresholdAnswer):
 
     @cached_property
     def histogram(self) -> Bin:
-        """Density over the reached poses, from the CDF, so that it also works for binned distributions."""
+        """Density over the reached poses, computed from the CDF so that it also works for binned distributions."""
         count = int(np.clip(2 * self.distribution.reached ** (1 / 3), 8, 40)) if self.distribution.values is not None else 40
         edges = (np.geomspace if self.is_logarithmic else np.linspace)(self.axis_values[0], self.axis_values[-1], count + 1)
         fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))

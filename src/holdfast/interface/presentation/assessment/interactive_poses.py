@@ -1,4 +1,4 @@
-"""Poses that a reader can select in the views: index, worst joint, configuration, and the command that opens the pose."""
+"""Poses that a reader can select in the views, with index, worst failure, configuration, and the studio command."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from holdfast.interface.report.page import Block, Extra
 from holdfast.model import arms
 from holdfast.model.arms.spec import default_task
 
-MAX_POSES = 1000  # poses in a page: about 80 bytes each for an arm of nine joints, and 40 in the view of the arm
-VIEW_ID = "arm"  # id of the view in three dimensions
+MAX_POSES = 1000  # selectable poses; each takes about 80 bytes for an arm with nine joints, and 40 in the 3-D view
+VIEW_ID = "arm"  # id of the 3-D view in the page
 
 _HTML_TEMPLATE = Markup("""\
 <p><label>{noun} from the worst to the best <input type="range" min="0" max="{last}" value="0" step="1"></label></p>
 <p><output><strong class="told"></strong>, <span class="where"></span></output> <span class="quiet state"></span></p>
 <dl class="joints">{joints}</dl>
-<p>In the studio{remark}:</p>
+<p>Command that opens this pose in the studio{remark}:</p>
 <pre></pre>
 <p class="quiet">{about}</p>""")
 
@@ -43,7 +43,7 @@ def choose_selectable_poses(facts: AssessmentFacts) -> NDArray[np.int64]:
 
 
 def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
-    """Build the controls for the poses in the figure of the views just before them."""
+    """Build the controls that select a pose in the figure of the views, which directly precedes them."""
     poses, chosen = facts.poses, choose_selectable_poses(facts)
     if poses is None or not len(chosen):
         return []
@@ -68,11 +68,11 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         ],
     }
     joint_list = Markup("").join(Markup("<div><dt>{}</dt><dd></dd></div>").format(joint.name) for joint in arm.joints)
-    hint = "Point at a dot above, or move the slider."
+    hint = "Point at a dot in the figure above, or move the slider."
     if len(chosen) < reached_count:
         hint += (
-            f" A random {len(chosen):,} of the {format_count(reached_count, facts.noun)} drawn answer, so that this "
-            f"file stays small."
+            f" A random {len(chosen):,} of the {format_count(reached_count, facts.noun)} can be selected, to limit the "
+            f"size of this file."
         )
     html = _HTML_TEMPLATE.format(
         noun=f"{facts.noun.capitalize()}s",
@@ -81,7 +81,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         remark=remark and f" ({remark})",
         about=hint,
     )
-    return [Extra("poses", data, html, label=f"{facts.noun.capitalize()}s to point at")]
+    return [Extra("poses", data, html, label=f"{facts.noun.capitalize()}s to select")]
 
 
 def _describe_failure(facts: AssessmentFacts, index: int, label: str) -> dict[str, object]:

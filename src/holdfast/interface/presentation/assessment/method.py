@@ -14,7 +14,7 @@ from holdfast.studies.assessment.rows import describe_provenance
 
 
 def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
-    """List how the assessment was computed; date and versions are those of this page where the run did not store them."""
+    """List how the assessment was computed; time and versions are the current ones if the run did not store its own."""
     assessment, index = answer.assessment, answer.index
     notes = {} if assessment.store is None else assessment.store.notes
     run_info = notes if "versions" in notes else describe_provenance(assessment.seconds)
@@ -38,22 +38,22 @@ def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
     if uses_ik:
         solved = f"damped least squares from up to {assessment.restarts:,} random starts within the joint limits"
         entries += [
-            ("Method", f"{answer.sampling_text}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
+            ("Method", f"{answer.sampling_text}; index at the configuration that inverse kinematics finds for each ({solved})"),
             (
                 "Not optimised",
-                "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
-                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers"
-                + ("; see what that gains above" if assessment.optimised is not None else ""),
+                "inverse kinematics returns an arbitrary configuration of each pose, not the most fault-tolerant one (the "
+                "non-optimised sample of Abdi et al. 2012); using the redundancy to choose a better one improves these numbers"
+                + (" (see the section on the gain above)" if assessment.optimised is not None else ""),
             ),
             (
                 "Not found",
                 f"none of {assessment.restarts:,} starts led to a configuration within the joint limits; this does not prove "
-                f"that there is none. Such a pose counts as {missing_value} unless 'reached only' is said",
+                f"that there is none. Such a pose counts as {missing_value}, except in numbers over the reached poses",
             ),
         ]
         if index.task.m < 6:
             free_directions = (
-                f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a drawn pose are not asked for"
+                f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a sampled pose are free"
             )
             entries.append(("Free directions", free_directions))
     else:
@@ -64,7 +64,7 @@ def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
         sobol_remark = (
             "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
         )
-        entries.append(("Error bars", sobol_remark))
+        entries.append(("Sobol points", sobol_remark))
     entries += [
         ("Index", definition),
         (
@@ -72,7 +72,7 @@ def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
             "smallest singular value of J at most 1e-12 times the largest; the index is then "
             f"{'0' if answer.larger_is_better else 'infinite'} by convention",
         ),
-        ("Failures", "a locked joint stays where it failed"),
+        ("Failures", "a locked joint keeps the position at which it failed"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{assessment.region.name}: {assessment.region.describe()}{_format_joint_ranges(assessment)}"),
         (
@@ -80,14 +80,14 @@ def list_method(answer: ThresholdAnswer) -> list[tuple[str, str | Markup]]:
             f"seed {assessment.seed}, {assessment.poses:,} {answer.noun}s, {assessment.sampling} sampling"
             + (f", {assessment.restarts:,} restarts" if uses_ik else ""),
         ),
-        ("Time", f"{run_info['seconds']:.1f} s" if isinstance(run_info.get("seconds"), (int, float)) else "not noted"),
+        ("Time", f"{run_info['seconds']:.1f} s" if isinstance(run_info.get("seconds"), (int, float)) else "not recorded"),
         ("Versions of the run", _format_versions(run_info)),
     ]
     return entries
 
 
 def _format_joint_ranges(assessment: Assessment) -> str:
-    """Format the joint ranges of a region of joints, in degrees and metres; empty for other regions."""
+    """Format the joint ranges of a joint-space region, in degrees and metres; empty for other regions."""
     if assessment.region.kind != "joints":
         return ""
     parts = []

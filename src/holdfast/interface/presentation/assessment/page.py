@@ -1,4 +1,4 @@
-"""Sections of the report of an assessment, and a figure for other pages."""
+"""Sections of the report of an assessment, and the overview figure."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from holdfast.interface.report import scenes
 from holdfast.interface.report.page import Callout, Section
 from holdfast.studies.assessment.single_points import explain
 
-SMALL_REACH_FRACTION = 0.1  # of the poses that the healthy arm reaches
+SMALL_REACH_FRACTION = 0.1  # fraction of the poses that the healthy arm reaches
 
-# Titles of the sections in order, by files of `sections` with a function blocks(facts) -> list[Block]; empty ones are omitted.
+# Titles of the sections in order, by module of `sections` with a function blocks(facts) -> list[Block]; empty ones are omitted.
 SECTION_TITLES = {
     "structure": "Single points of failure by structure",
     "views": "The arm and the region",
-    "distribution": "How the index is distributed",
-    "gain": "What choosing configurations gains",
-    "collisions": "Does the arm collide with {others}?",
-    "survival": "What survives a locked joint",
-    "worst": "Which failure is the worst",
-    "upgrades": "Which joint deserves a redundant motor or brake",
-    "places": "The worst {noun}s, and where tolerance is low",
+    "distribution": "Distribution of the index",
+    "gain": "Gain from choosing the best configurations",
+    "collisions": "Collisions of the arm with {others}",
+    "survival": "Poses still reached after a lock",
+    "worst": "Index after each failure",
+    "upgrades": "Gain from a redundant motor or brake",
+    "places": "Worst {noun}s, and map of the index",
 }
 
 
@@ -48,14 +48,14 @@ def build_sections(answer: ThresholdAnswer) -> list[Section]:
 
 
 def _describe_single_points(facts: AssessmentFacts) -> Callout:
-    """Describe the single points of failure: exact ones in red, near ones in amber."""
+    """Describe the single points of failure: in red if the task becomes singular everywhere, in amber if nearly so."""
     run_structure, all_structures = facts.task_structures
     text = explain(facts.assessment.arm, run_structure, all_structures)
     if run_structure.never:
         return Callout(text, "bad", "The task is impossible for this arm")
     if not run_structure.survives:
         return Callout(
-            text, "bad", f"A single locked joint {'' if run_structure.fatal else 'all but '}ends this task everywhere"
+            text, "bad", f"A single locked joint {'' if run_structure.fatal else 'nearly '}ends this task in all configurations"
         )
     names = [facts.assessment.arm.joint_names[weakness.joint] for weakness in run_structure.weak]
     fractions = (
@@ -72,11 +72,11 @@ def _describe_single_points(facts: AssessmentFacts) -> Callout:
         if name in fractions:
             text += f" Once {name} has locked, {format_percent(fractions[name])} of the poses of this region are still reached."
         else:
-            text += f" A run with --after-lock computes how much of the region the lock of {name} leaves."
+            text += f" A run with --after-lock computes the fraction of the region that remains after a lock of {name}."
     if names:
-        return Callout(text, "warn", f"The lock of {list_alternatives(names)} nearly ends this task")
+        return Callout(text, "warn", f"A lock of {list_alternatives(names)} nearly ends this task")
     if costly_joints:
-        return Callout(text, "warn", f"The lock of {list_alternatives(costly_joints)} leaves little of the region")
+        return Callout(text, "warn", f"A lock of {list_alternatives(costly_joints)} leaves little of the region within reach")
     return Callout(text, "good")
 
 

@@ -21,24 +21,25 @@ _QUANTILE_LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
 def build_tables(answer: ThresholdAnswer, thresholds: Sequence[float]) -> list[TableSpec]:
-    """Build the tables of an assessment; sections of the page show those of the failures themselves."""
+    """Build the tables of an assessment; on the page, the sections about failures contain their tables."""
     tables = [tabulate_quantiles(answer), _tabulate_thresholds(answer, thresholds), tabulate_failures(answer)]
     return [table for table in (*tables, tabulate_upgrades(answer), tabulate_survival(answer)) if table is not None]
 
 
 def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
-    """Tabulate quantiles of the index over the poses, as found and at the best configurations."""
+    """Tabulate quantiles of the index over the poses, at the configurations found and at the best ones."""
     distribution, optimised = answer.distribution, answer.assessment.optimised
     if not distribution.reached:
         return None
-    label = f"the {distribution.reached:,} reached" if distribution.unreached else f"all {distribution.samples:,}"
+    noun = f"{answer.noun}s"
+    label = f"the {distribution.reached:,} reached {noun}" if distribution.unreached else f"all {distribution.samples:,} {noun}"
     samples = [(label, distribution, True, distribution.mean)]
     if distribution.unreached:
         mean = distribution.total / distribution.total_weight() if answer.larger_is_better else np.inf
-        label = f"all {distribution.samples:,}, not found counts as {'0' if answer.larger_is_better else 'infinite'}"
+        label = f"all {distribution.samples:,} {noun} (not reached: {'0' if answer.larger_is_better else 'infinite'})"
         samples.append((label, distribution, False, mean))
     if optimised is not None and optimised.reached:
-        label = f"the {optimised.reached:,} reached, at the best configurations"
+        label = f"the {optimised.reached:,} reached {noun}, at their best configurations"
         samples.append((label, optimised, True, optimised.mean))
     rows = [
         [
@@ -50,7 +51,7 @@ def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
         for label, sampled, reachable_only, mean in samples
     ]
     finite = " of finite values" if distribution.infinite else ""
-    columns = [Header("sample", f"{answer.index.name} over … {answer.noun}s")]
+    columns = [Header("sample", f"{answer.index.name} over")]
     columns += [Header(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _QUANTILE_LEVELS]
     return TableSpec("", [*columns, Header("mean", f"mean{finite}"), Header("best", "best")], rows)
 
@@ -68,7 +69,7 @@ def _tabulate_thresholds(answer: ThresholdAnswer, thresholds: Sequence[float]) -
 
 
 def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
-    """Tabulate how often each failure is the worst, and the index after each failure where the poses were kept."""
+    """Tabulate how often each failure is the worst one, and the index after each failure if the poses were stored."""
     assessment = answer.assessment
     if not answer.distribution.reached:
         return None
@@ -77,8 +78,8 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
     if len(chosen) > _MAX_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MAX_ROWS])
     tail_level = 0.05 if answer.larger_is_better else 0.95
-    columns, values_by_column = [Header("failure", "if this locks")], [[labels[failure] for failure in chosen]]
-    samples = zip(("", "after: "), answer.samples, (counts, assessment.optimised_worst_counts), strict=False)
+    columns, values_by_column = [Header("failure", "locked")], [[labels[failure] for failure in chosen]]
+    samples = zip(("", "best: "), answer.samples, (counts, assessment.optimised_worst_counts), strict=False)
     for prefix, (_, _, poses), worst_counts in samples:
         assert worst_counts is not None
         if poses is not None and poses.reached.any():
@@ -95,21 +96,21 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
                 columns.append(Header("probability", label, style="percent"))
                 values_by_column.append(fractions[chosen].tolist())
         if worst_counts.sum():
-            columns.append(Header("worst_fraction", f"{prefix}worst of all", style="percent"))
+            columns.append(Header("worst_fraction", f"{prefix}is the worst", style="percent"))
             values_by_column.append((worst_counts[chosen] / worst_counts.sum()).tolist())
     title = f"{answer.index.name} after each failure, over {answer.distribution.reached:,} {answer.reached_noun}"
-    title += ", at the configurations found; after: at the best configurations" if len(answer.samples) > 1 else ""
+    title += ", at the configurations found; best: at the best configurations" if len(answer.samples) > 1 else ""
     rows = list(zip(*values_by_column, strict=True))
     return TableSpec(title, columns, rows, on_page=False) if len(columns) > 1 else None
 
 
 def rank_optimised_upgrades(assessment: Assessment, threshold: float) -> list[Upgrade]:
-    """Return the gains at configurations optimised again without each joint; empty if the run or its index does not
-    allow it.
+    """Return the gains at configurations that are optimised again without each joint; empty if the run was not optimised,
+    or its index cannot be rebuilt for fewer failures.
     """
     try:
         return [] if assessment.optimised is None else assessment.upgrades(threshold, optimised=True)
-    except InputError:  # an index of a class of the user's own cannot be built again for fewer failures
+    except InputError:  # an index of a user-defined class cannot be rebuilt for fewer failures
         return []
 
 
@@ -122,10 +123,10 @@ def tabulate_upgrades(answer: ThresholdAnswer, max_rows: int = _MAX_ROWS) -> Tab
     if not ranked:
         return None
     condition = f"P({answer.condition})"
-    columns = [Header("joint", "if this never failed"), *_make_gain_columns(condition)]
+    columns = [Header("joint", "protected joint"), *_make_gain_columns(condition)]
     columns += _make_gain_columns("after optimisation") if optimised else []
-    title = f"{condition} now: {ranked[0].before:.3f}"
-    title += f"; after optimisation {next(iter(optimised.values())).before:.3f}" if optimised else ""
+    title = f"Gain if one joint never failed; without protection {condition} is {ranked[0].before:.3f}"
+    title += f", and {next(iter(optimised.values())).before:.3f} after optimisation" if optimised else ""
     rows: list[list[Any]] = []
     for upgrade in ranked[:max_rows]:
         cells = [f"{answer.assessment.arm.joint_index(upgrade.joint) + 1}  {upgrade.joint}", *list_gain_cells(upgrade)]
@@ -138,7 +139,7 @@ def _make_gain_columns(label: str) -> list[Header]:
 
 
 def list_gain_cells(upgrade: Upgrade) -> list[Any]:
-    """Return the probability if a joint never failed, and its gain with the interval."""
+    """Return the cells of one upgrade: the probability if the joint never failed, and the gain with its interval."""
     interval = f"{upgrade.gain:+.3f} ({upgrade.low:.3f} to {upgrade.high:.3f})"
     return [upgrade.after, interval if upgrade.gain else f"0 (up to {upgrade.high:.3f})"]
 
@@ -149,14 +150,14 @@ def tabulate_survival(answer: ThresholdAnswer) -> TableSpec | None:
         return None
     locks = answer.assessment.locks
     rows = [[name, describe_lock(answer, name, locks[name]), share] for name, share in answer.assessment.survival().items()]
-    columns = [Header("joint", "once it has locked"), Header("locked_at", "where")]
+    columns = [Header("joint", "locked joint"), Header("locked_at", "position of the lock")]
     return TableSpec("", [*columns, Header("survival", "fraction of the poses still reached")], rows, on_page=False)
 
 
 def describe_lock(answer: ThresholdAnswer, joint: str, position: float | None) -> str:
-    """Describe the position at which a joint is locked, in degrees, or in metres for a prismatic joint."""
+    """Describe the position (rad or m) at which a joint is locked, in degrees, or in metres for a prismatic joint."""
     if position is None:
-        return "where it was at another pose"
+        return "at its position for another pose"
     if answer.assessment.arm.prismatic[answer.assessment.arm.joint_index(joint)]:
         return f"at {format_as_given(position)} m"
     return f"at {format_decimals(math.degrees(position), 1)} deg ({format_as_given(position)} rad)"

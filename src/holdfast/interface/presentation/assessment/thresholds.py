@@ -1,4 +1,4 @@
-"""Movable threshold of a distribution, with the probability of meeting the threshold and the failures that prevent it."""
+"""Threshold slider of a distribution, with the probability of meeting the threshold and the failures that prevent it."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.figures import locate_axes
 from holdfast.interface.report.page import Block, Extra
 
-_STEP_COUNT = 100  # about so many, at round numbers
+_STEP_COUNT = 100  # approximate number of steps, at round numbers
 _MAX_FAILURES = 10
 
 _HTML_TEMPLATE = Markup("""\
 <p><label>Move the threshold: index {sign} <strong class="asked">{asked}</strong>{unit}
 <input type="range" min="0" max="{last}" value="{start}" step="1"></label></p>
 <dl class="answers">{answers}</dl>
-<p class="quiet">An interval is that of one threshold, chosen beforehand; for all at once
-the band of {curve} holds, {band}.</p>
+<p class="quiet">Each interval is valid for one threshold that was chosen beforehand. The band
+of {curve}, {band}, is valid for all thresholds simultaneously.</p>
 {bars}""")
 
 _BAR_TEMPLATE = Markup("""\
@@ -50,7 +50,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         return []
     threshold_values = choose_thresholds(facts.axis_values, facts.is_logarithmic, facts.threshold)
     option = "at_least" if facts.larger_is_better else "at_most"
-    samples = [("at the configurations found" if facts.assessment.region.kind != "joints" else f"of all {facts.noun}s", False)]
+    samples = [("over all configurations" if facts.noun == "configuration" else "at the configurations found", False)]
     samples += [("at the best configuration of each pose", True)] * (facts.assessment.optimised is not None)
     answers = {
         f"Probability {label}": [
@@ -62,7 +62,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
     failure_names, miss_fractions = _compute_miss_fractions(facts, threshold_values)
     shown_count = min(len(failure_names), _MAX_FAILURES)
     remark = f", the worst {shown_count}" if shown_count < len(failure_names) else ""
-    caption = f"How often the threshold is missed once this locks{remark}, of the {facts.reached_noun}:"
+    caption = f"Fraction of the {facts.reached_noun} that miss the threshold after each failure{remark}:"
     bar_list = (
         Markup('<p class="quiet">{}</p>\n<ul class="bars">{}</ul>').format(caption, _BAR_TEMPLATE * shown_count)
         if shown_count
@@ -90,16 +90,16 @@ def build_slider(
     half_band: float,
     bars: tuple[list[str], FloatArray, str | Markup] = ([], np.zeros((0, 0)), ""),
 ) -> Extra:
-    """Build a threshold that moves over a figure, with a text for each of its steps.
+    """Build a slider that moves a threshold over a figure, with a text for each step.
 
     Args:
-        facts: What the index is called, which way it is good, and the threshold with which it begins.
-        threshold_values: (K,) thresholds, that one among them.
-        answers: Of each row by name its text at each threshold.
-        figure: The one just before it, whose axes show the threshold.
-        curve_name: What the band belongs to.
-        half_band: Half its width.
-        bars: Names (F,), fractions (F, K), and where they are seen.
+        facts: Contents of the assessment: name and better direction of the index, and the initial threshold.
+        threshold_values: (K,) thresholds, including the initial one.
+        answers: Text of each row at each of the K thresholds, by the name of the row.
+        figure: Figure directly before the slider, in whose axes the threshold is drawn.
+        curve_name: Name of the curve to which the band belongs.
+        half_band: Half width of the band, a fraction from 0 to 1.
+        bars: Names of the failures (F,), fractions of poses that miss each threshold (F, K), and the HTML of the bars.
     """
     start_step = int(np.flatnonzero(threshold_values == facts.threshold)[0])
     failure_names, miss_fractions, bar_list = bars
@@ -127,7 +127,7 @@ def build_slider(
         band=format_half_width(half_band),
         bars=bar_list,
     )
-    return Extra("threshold", data, html, label="Probability of a threshold of one's own")
+    return Extra("threshold", data, html, label="Probability of meeting a threshold of your choice")
 
 
 def _compute_miss_fractions(facts: AssessmentFacts, threshold_values: FloatArray) -> tuple[list[str], FloatArray]:

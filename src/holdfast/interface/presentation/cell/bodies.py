@@ -16,16 +16,19 @@ Faces = NDArray[np.int64]
 
 OBJECT_COLOR_RGB: Color = (205, 178, 126)
 NEAREST_COLOR_RGB: Color = (190, 30, 45)
-_MAX_DRAWN_POINTS = 3000  # points of a cloud that are drawn
-_PLATE_THICKNESS_FRACTION = 0.02  # thickness of what is drawn of a half space, as a share of its width
+_MAX_DRAWN_POINTS = 3000  # maximum number of drawn points of a point cloud
+_PLATE_THICKNESS_FRACTION = 0.02  # thickness of the plate that represents a half space, as a fraction of its width
 
 
 def mesh_solid(solid: Solid, size: float) -> tuple[FloatArray, Faces]:
-    """Return vertices (V, 3) m in the object's own frame, and triangles (F, 3), of the mesh that stands for an object.
+    """Return the vertices (V, 3), m, in the frame of the object, and the triangles (F, 3) of the mesh that represents it.
 
     Args:
-        solid: The object.
-        size: Half the width of the plate that stands for a half space, m.
+        solid: Object to draw.
+        size: Half width of the plate that represents a half space, m.
+
+    Raises:
+        InputError: The kind of object cannot be drawn.
     """
     if isinstance(solid, Box):
         return mesh_box(solid.size)
@@ -34,7 +37,7 @@ def mesh_solid(solid: Solid, size: float) -> tuple[FloatArray, Faces]:
     if isinstance(solid, Sphere | Capsule):
         vertices, faces = mesh_sphere()
         vertices = vertices * solid.radius
-        if isinstance(solid, Capsule):  # the ball cut in two halves that lie apart
+        if isinstance(solid, Capsule):  # a sphere that is cut into two halves and pulled apart
             vertices[:, 2] += np.where(vertices[:, 2] > 1e-12, 0.5, -0.5) * solid.length
         return vertices, faces
     if isinstance(solid, HalfSpace):
@@ -48,7 +51,7 @@ def mesh_solid(solid: Solid, size: float) -> tuple[FloatArray, Faces]:
 
 
 def _mesh_point_cloud(cloud: Points) -> tuple[FloatArray, Faces]:
-    """Return a small tetrahedron for each of some thousand evenly chosen points."""
+    """Return a small tetrahedron for each point, or for at most some thousand evenly selected points."""
     points = np.asarray(cloud.points)
     chosen = points[:: max(len(points) // _MAX_DRAWN_POINTS, 1)]
     radius = max(cloud.radius, 0.004 * float(np.ptp(chosen, axis=0).max()))
@@ -59,12 +62,12 @@ def _mesh_point_cloud(cloud: Points) -> tuple[FloatArray, Faces]:
 
 
 def build_cell_parts(cell: Cell, base: ArrayLike, size: float) -> list[MeshPart]:
-    """Build the objects of a cell as parts of the base of an arm, which does not move.
+    """Build the objects of a cell as parts that are fixed to the base of an arm.
 
     Args:
-        cell: The cell.
-        base: (4, 4) pose of that base in the world.
-        size: As in :func:`mesh_solid`.
+        cell: Objects around the arm.
+        base: (4, 4) pose of the base of the arm in the world.
+        size: Half width of the plate that represents a half space, m.
     """
     world_to_base = np.linalg.inv(np.asarray(base, dtype=np.float64))
     mesh_parts = []

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(check: CellCheck) -> dict[str, Any]:
-    """Return all results of the check, by object."""
+    """Return the results of the check for the arm and for each object, as JSON data."""
     return {
         "cell": check.cell,
         "sha256": check.digest,
@@ -40,29 +40,31 @@ def present(check: CellCheck) -> Presentation:
     object_count = format_count(len(check.objects), "object")
     notices = []
     if check.base:
-        text = f"The base of '{check.arm}' touches {', '.join(check.base)}; if it is mounted there, put it into may_touch."
+        text = f"The base of '{check.arm}' touches {', '.join(check.base)}. If it is mounted there, add the pair to may_touch."
         notices.append(Notice(text, "bad"))
     if check.always:
-        text = f"In all of {check.samples} configurations these touch: {', '.join(check.always)}; see may_touch."
+        text = f"These pairs touch in all {check.samples} configurations: {', '.join(check.always)}. See may_touch."
         notices.append(Notice(text, "bad"))
-    lines = [] if check.arm else ["Give an arm to see what it touches."]
+    lines = [] if check.arm else ["Use --arm to check an arm for contacts with these objects."]
     if not check.arm:
         answer = f"Cell '{check.cell}' has {object_count}."
     elif check.colliding:
         share = format_percent(check.colliding)
-        answer = f"{share} of {check.samples} configurations within the limits touch an object, by the bound."
+        answer = (
+            f"The arm touches an object in at most {share} of {check.samples} random configurations within the joint limits."
+        )
     else:
-        answer = f"In none of {check.samples} configurations within the limits does the arm touch an object, by the bound."
+        answer = f"The arm touches no object in any of {check.samples} configurations within the joint limits."
     if check.arm:
         lines.append(
-            f"{format_count(check.spheres, 'sphere')} cover the moving links of '{check.arm}' ({check.shape}) and reach up to "
-            f"{1000 * check.reach:.3g} mm beyond its capsules."
+            f"The distances are lower bounds, computed from {format_count(check.spheres, 'sphere')} that cover the moving "
+            f"links of '{check.arm}' ({check.shape}) and extend up to {1000 * check.reach:.3g} mm beyond its capsules."
         )
     columns = [
         Header("object", "object"),
         Header("margin", "margin, m", aligned=False),
         Header("width", "grid, mm"),
-        Header("excess", "seems nearer by at most, mm"),
+        Header("excess", "largest distance error, mm"),
         *([Header("touching", "touched in", style="percent")] if check.arm else []),
     ]
     from markupsafe import Markup
@@ -73,12 +75,14 @@ def present(check: CellCheck) -> Presentation:
         about=f"Cell '{check.cell}' with {object_count}{f', arm {check.arm!r}' if check.arm else ''}",
         lines=lines,
         notices=notices,
-        facts=[Fact("", check.colliding, phrase="of the configurations touch an object", style="percent")] if check.arm else [],
+        facts=[Fact("", check.colliding, phrase="of the configurations, at most, touch an object", style="percent")]
+        if check.arm
+        else [],
         tables=[TableSpec("Objects", columns, [_list_cells(checked, bool(check.arm)) for checked in check.objects])],
         method=[
             (
                 "Distances",
-                "lower bounds: of the spheres that cover the arm, from formulas and grids that are never above the truth",
+                "lower bounds between objects and the spheres that cover the arm, from formulas and distance grids",
             ),
             ("SHA-256 of the cell", Markup("<code>{}</code>").format(check.digest)),
         ],

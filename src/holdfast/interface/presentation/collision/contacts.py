@@ -1,4 +1,4 @@
-"""JSON entries and table of the contacts of a motion."""
+"""JSON entries and table of the contacts between an arm and objects during a motion."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from holdfast.model.collision.contacts import Contact
 
 
 def list_contacts(contacts: Sequence[Contact], unit: str = "s", many: bool = False) -> list[dict[str, Any]]:
-    """List every contact by name; with the number of its run, from 0, if there are many runs."""
+    """List every contact as JSON data, with the number of its run, from 0, if there are several runs (``many``)."""
     return [({"run": contact.run} if many else {}) | _contact_entry(contact, unit) for contact in contacts]
 
 
@@ -37,9 +37,9 @@ def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec
     columns = [
         Header("link", "link"),
         Header("object", "touches"),
-        Header("time", f"first at, {unit}", aligned=False),
-        Header("exact_time", "exactly at"),
-        Header("depth_mm", "at most, mm deep", aligned=False),
+        Header("time", f"first contact, {unit}", aligned=False),
+        Header("exact_time", f"exact time, {unit}"),
+        Header("depth_mm", "depth at most, mm", aligned=False),
     ]
     rows: list[tuple[Any, ...]] = [
         (contact.link, contact.object, contact.time, _format_exact_time(contact), 1000 * contact.depth) for contact in contacts

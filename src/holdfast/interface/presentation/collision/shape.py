@@ -50,7 +50,7 @@ def describe_cell(cell: Cell, distances: str = "distances from it are lower boun
 
 
 def describe_shape(clearance: Clearance, margin: float) -> str:
-    """Describe the collision model of the arm and its cell, for brackets after a sentence."""
+    """Describe the collision model of the arm and its cell in a phrase that is printed in parentheses."""
     exact_note = [f"small distances from it are exact ({clearance.exact_by})"] if isinstance(clearance, ExactClearance) else []
     cell_note = "" if clearance.cell is None else f"; {describe_cell(clearance.cell, *exact_note)}"
     margin_note = f"; margin {margin:g} m" if margin else ""

@@ -1,4 +1,4 @@
-"""Presentation of a trade-off between the error of the healthy arm and the gain after an unnoticed lock."""
+"""Presentation of the trade-off between the error of the healthy arm and the error after an undetected lock."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from holdfast.interface.presentation.presentation import Fact, FigureSpec, Heade
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_NEGLIGIBLE_GAIN = 0.005  # less than this gain is none
-_PLATEAU_TOLERANCE = 1e-3  # differences that nobody would pay for
+_NEGLIGIBLE_GAIN = 0.005  # relative gain that counts as none
+_PLATEAU_TOLERANCE = 1e-3  # relative difference in gain that does not justify a larger allowed error
 _FIGURE_FIGURE_CAPTION = (
-    "Left: the peak velocity error after an unnoticed lock of any joint, divided by that of the pseudoinverse; below 1 the "
-    "failed arm gains. Right: the velocity error of the healthy arm. Bands hold half, and nine tenths, of the samples."
+    "Left: peak velocity error after an undetected lock of any joint, divided by that of the pseudoinverse; values below 1 "
+    "are a gain. Right: velocity error of the healthy arm. The bands contain 50 % and 90 % of the samples."
 )
 
 
 def to_dict(curve: TradeOff) -> dict[str, Any]:
-    """Return quantiles of each measure over the samples, against the allowed errors."""
+    """Return quantiles of each measure over the samples for each allowed error, as JSON data."""
     measures: dict[str, Any] = {}
     for name in ("gain", "healthy_error", "peak_error"):
         measures[name] = {
@@ -42,38 +42,36 @@ def to_dict(curve: TradeOff) -> dict[str, Any]:
 
 
 def present(curve: TradeOff) -> Presentation:
-    """Present the gain after an unnoticed lock for an error of the healthy arm, at half of the largest gain."""
+    """Present the smaller error after an undetected lock, at the allowed error with half of the largest gain."""
     median_gain, healthy_error = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
     lower, upper = curve.median_interval()
-    best_index = int((median_gain <= median_gain.min() + _PLATEAU_TOLERANCE).argmax())  # of a plateau the first
+    best_index = int((median_gain <= median_gain.min() + _PLATEAU_TOLERANCE).argmax())  # first of a plateau
     largest_gain = 1 - median_gain[best_index]
     if largest_gain < _NEGLIGIBLE_GAIN:
         answer = (
-            f"No velocity error of the healthy arm gains anything after an unnoticed lock: the "
-            f"median peak error stays that of the pseudoinverse, up to an allowed error of {curve.allowed[-1]:.2g}."
+            f"A velocity error of the healthy arm does not reduce the error after an undetected lock: the median peak error "
+            f"is that of the pseudoinverse for all allowed errors up to {curve.allowed[-1]:.2g}."
         )
-        facts = [Fact("", float(curve.allowed[-1]), phrase="largest error that was allowed, of the commanded speed")]
+        facts = [Fact("", float(curve.allowed[-1]), phrase="of the commanded speed, the largest allowed error tested")]
     else:
         half_index = int((1 - median_gain >= largest_gain / 2).argmax())
         half_gain = 1 - median_gain[half_index]
         answer = (
-            f"An error of {curve.allowed[half_index]:.2g} of the commanded speed, allowed while the arm "
-            f"is healthy, takes {format_percent(half_gain)} off the median peak error after an unnoticed "
-            f"lock; the most that was found is {format_percent(largest_gain)}, for {curve.allowed[best_index]:.2g}."
+            f"If the healthy arm may deviate by {curve.allowed[half_index]:.2g} of the commanded speed, the median peak error "
+            f"after an undetected lock is {format_percent(half_gain)} smaller than that of the pseudoinverse. The largest "
+            f"reduction found is {format_percent(largest_gain)}, for {curve.allowed[best_index]:.2g}."
         )
         interval_text = f"{format_percent(max(1 - upper[half_index], 0))} to {format_percent(1 - lower[half_index])}, 95 %"
-        gain_phrase = f"less peak error for an allowed error of {curve.allowed[half_index]:.2g}, median; {interval_text}"
+        gain_phrase = f"smaller median peak error for an allowed error of {curve.allowed[half_index]:.2g}; {interval_text}"
         facts = [
             Fact("", half_gain, phrase=gain_phrase, style="percent"),
-            Fact(
-                "", healthy_error[half_index], phrase="of the speed is what the healthy arm then pays, median", style="percent"
-            ),
-            Fact("", largest_gain, phrase=f"less, the most there is, for {curve.allowed[best_index]:.2g}", style="percent"),
+            Fact("", healthy_error[half_index], phrase="of the speed, median error of the healthy arm", style="percent"),
+            Fact("", largest_gain, phrase=f"largest reduction found, for {curve.allowed[best_index]:.2g}", style="percent"),
         ]
     low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
     columns = [
         Header("pre_failure_error", "allowed error", digits=2),
-        Header("gain", "peak error after a lock, divided by the pseudoinverse's", digits=3),
+        Header("gain", "peak error after a lock (pseudoinverse: 1)", digits=3),
         Header("gain_interval", "95 % interval", digits=3),
         Header("gain_range", "5 to 95 % of the samples", digits=3),
         Header("healthy_error", "error of the healthy arm", digits=3),
@@ -81,12 +79,12 @@ def present(curve: TradeOff) -> Presentation:
     intervals, ranges = zip(lower, upper, strict=True), zip(low_quantile, high_quantile, strict=True)
     rows = list(zip(curve.allowed, median_gain, intervals, ranges, healthy_error, strict=True))
     return Presentation(
-        f"What {curve.arm.name} gains from an error before a failure",
+        f"Trade-off of {curve.arm.name} between the errors before and after an undetected lock",
         answer,
         about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
         facts=facts,
         tables=[TableSpec("Medians over the samples", columns, rows)],
-        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Gain and price", _FIGURE_FIGURE_CAPTION)},
+        figures={"trade-off": FigureSpec(partial(_draw_figure, curve), "Trade-off", _FIGURE_FIGURE_CAPTION)},
         method=[
             ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
             ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),
@@ -98,7 +96,7 @@ def present(curve: TradeOff) -> Presentation:
 
 
 def _draw_figure(curve: TradeOff) -> Figure:
-    """Draw the median and quantile bands of the gain after a failure and of its cost."""
+    """Draw the median and quantile bands of the error after a failure and of the error of the healthy arm."""
     from matplotlib.figure import Figure
 
     from holdfast.interface.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, format_label, legend_below, settle_layout, style
@@ -111,7 +109,7 @@ def _draw_figure(curve: TradeOff) -> Figure:
             (gain, cost),
             ("gain", "healthy_error"),
             ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-            (f"{title_prefix}: what the failed arm gains", f"What the healthy arm pays, {len(curve.gain):,} samples"),
+            (f"{title_prefix}: after a lock", f"Healthy arm, {len(curve.gain):,} samples"),
             strict=True,
         )
         for axes, measure_name, ylabel, title in measures:
@@ -122,6 +120,6 @@ def _draw_figure(curve: TradeOff) -> Figure:
             axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, curve.allowed[-1]))
             axes.set_ylim(0, 1.02)
             axes.set_title(title)
-        cost.plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
+        cost.plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="allowed error")
         legend_below(figure, cost, 4)
         return settle_layout(figure)

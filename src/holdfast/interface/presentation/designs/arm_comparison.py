@@ -1,4 +1,4 @@
-"""Presentation of a comparison of whole arms."""
+"""Presentation of a comparison of arms by global measures of fault tolerance."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def present(comparison: ArmComparison) -> Presentation:
     names, columns = [arm.name for arm in comparison.arms], comparison.columns
     if len(names) > 1:
         front = ", ".join(names[arm_index] for arm_index in comparison.front())
-        answer = f"Of {len(names)} arms beaten by no other in everything: {front}."
+        answer = f"Pareto-optimal among the {len(names)} arms: {front}."
     else:
         first = int(np.argmax(comparison.values[0] > 0))
         value_text = format_value(float(comparison.values[0, first]), "number", columns[first].unit)
@@ -57,9 +57,9 @@ def present(comparison: ArmComparison) -> Presentation:
             f"{format_number(value, 4)} ({format_number(low, 3)} to {format_number(high, 3)})" for value, low, high in estimates
         ]
         rows.append([column.name, column.unit, column.samples or "exact", *cells])
-    title = "Values with their 95 % intervals: larger is better in all"
+    title = "Values with their 95 % intervals; larger is better for every measure"
     return Presentation(
-        f"{', '.join(names)}: judged as {'wholes' if len(names) > 1 else 'a whole'}",
+        f"Global fault tolerance of {', '.join(names)}",
         answer,
         about=f"{', '.join(names)}: task {comparison.task.name}, {comparison.region.name}, seed {comparison.seed}",
         lines=[f"{capitalise_first(remark)}." for remark in comparison.left_out],
@@ -67,8 +67,8 @@ def present(comparison: ArmComparison) -> Presentation:
         method=[
             ("Task", comparison.task.describe()),
             ("Region", comparison.region.describe()),
-            ("Failures", f"{failure_phrase(comparison.failures)}; of a workspace one"),
-            ("Draws", f"seed {comparison.seed}, the same poses for all arms"),
+            ("Failures", f"{failure_phrase(comparison.failures)}; one joint for workspace measures"),
+            ("Samples", f"seed {comparison.seed}, the same poses for all arms"),
             ("Intervals", "95 %: exact for fractions, by order statistics for quantiles"),
         ],
     )

@@ -1,4 +1,4 @@
-"""Sections of the page of the record book, with a picture and the files of each record."""
+"""Sections of the page of the record book, with a drawing and the files of each record."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from holdfast.interface.report.palette import BLUE, INK, ORANGE
 from holdfast.studies.designs.record_book.entries import DesignRecord, RecordBook
 
 Tabulate = Callable[[Sequence[DesignRecord]], TableSpec]
-_AXIS_LENGTH_FRACTION = 0.09  # length of a joint's axis that is drawn, of the picture's width
+_AXIS_LENGTH_FRACTION = 0.09  # half length of a drawn joint axis, as a fraction of the width of the drawing
 _COLUMN_COUNT = 4
 _PICTURE_CAPTION = "Each arm at its configuration: links in blue, joint axes in orange, the tool as a dot."
-_TITLES_BY_TASK = {"planar": "Planar arms", "position": "Arms for positions", "pose": "Arms for poses"}
+_TITLES_BY_TASK = {"planar": "Planar arms", "position": "Arms for position tasks", "pose": "Arms for pose tasks"}
 
 
 def build_sections(book: RecordBook, tabulate: Tabulate) -> list[Section]:
-    """Build a section for each task, one for arms that are sold, and one for null spaces; ``tabulate`` makes their tables."""
+    """Build a section for each task, for commercial arms, and for null spaces; ``tabulate`` builds the table of a section."""
     sections, arm_records = [], [record for record in book.values() if record.arm is not None]
     for task, title in _TITLES_BY_TASK.items():
         records = [record for record in arm_records if record.data.kind.of is None and record.data.kind.task == task]
@@ -31,13 +31,13 @@ def build_sections(book: RecordBook, tabulate: Tabulate) -> list[Section]:
             picture = drawing.svg(draw_stick_figures(records), task, f"Stick figures of {len(records)} arms")
         sections.append(Section(title, [_build_table(records, tabulate), Picture(picture, _PICTURE_CAPTION)]))
     commercial_text = Text(
-        "The best configuration found of each, within its limits, next to what no arm of that number of joints can beat."
+        "The best configuration found of each arm within its joint limits, and the upper bound for arms with as many joints."
     )
     commercial_records = [record for record in arm_records if record.data.kind.of is not None]
-    sections.append(Section("Arms that are sold", [commercial_text, _build_table(commercial_records, tabulate)]))
-    null_space_text = Text("A null space belongs to arms of every kind: only the number of joints and of rows counts.")
+    sections.append(Section("Commercial arms", [commercial_text, _build_table(commercial_records, tabulate)]))
+    null_space_text = Text("A null space is independent of the kind of arm: only the numbers of joints and task rows matter.")
     null_spaces = [record for record in book.values() if record.arm is None]
-    return [*sections, Section("Null spaces alone", [null_space_text, _build_table(null_spaces, tabulate)])]
+    return [*sections, Section("Null spaces", [null_space_text, _build_table(null_spaces, tabulate)])]
 
 
 def _build_table(records: Sequence[DesignRecord], tabulate: Tabulate) -> Table:
@@ -55,7 +55,7 @@ def _build_table(records: Sequence[DesignRecord], tabulate: Tabulate) -> Table:
 
 
 def draw_stick_figures(records: Sequence[DesignRecord]) -> Figure:
-    """Draw arms as stick figures, each seen from the direction in which it looks widest."""
+    """Draw arms as stick figures, each projected onto the plane in which it is widest."""
     row_count = -(-len(records) // _COLUMN_COUNT)
     picture = Figure(figsize=(10, 2.5 * row_count), layout="constrained")
     panels = picture.subplots(row_count, _COLUMN_COUNT, squeeze=False).ravel()

@@ -1,4 +1,4 @@
-"""Presentation of a search for designs that still reach their targets after an undetected lock."""
+"""Presentation of a search for arm designs that still reach their targets after an undetected lock."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from holdfast.interface.report.page import Block, Section
 
 _MEASURE_MEANINGS = {
-    "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
-    "free": "fraction of the locks that leave the target within reach after which nothing holds the arm away from it",
+    "guaranteed": "fraction of the targets, by area, that the arm reaches after every lock that leaves them within reach",
+    "free": "fraction of the locks with the target within reach after which no sink or trap stops the arm elsewhere",
     "converged": "fraction of all locks after which the arm reaches its target; a target out of reach counts as 0",
     "reached": "fraction of the targets within reach of the healthy arm",
 }
 
 
 def to_dict(designs: ConvergenceDesigns) -> dict[str, Any]:
-    """Return the given arm and the best design, rad, m and fractions, as JSON data."""
+    """Return the baseline arm and the best design as JSON data, in rad, m, and fractions."""
 
     def describe_design(number: int) -> dict[str, Any]:
         values = dict(zip(designs.space.names, designs.values[number].tolist(), strict=True))
@@ -63,47 +63,49 @@ def to_dict(designs: ConvergenceDesigns) -> dict[str, Any]:
 
 
 def present(designs: ConvergenceDesigns) -> Presentation:
-    """Present the best design, its gain, and how it was found."""
+    """Present the best design, its gain over the baseline arm, and the search."""
     law, best, is_given = designs.law, designs.best, designs.best == 0
     measures = [
         (name, float(measure[0]), float(measure[best]), _MEASURE_MEANINGS[name]) for name, measure in designs.measures.items()
     ]
     if designs.checked is not None:
         given_value, best_value = designs.checked[0].value, designs.checked[1].value
-        label = "of fresh failures, after which it reaches its target:"
-        phrases = (f"{label} the given arm", f"{label} the best design")
+        label = "of the held-out failures after which the arm reaches its target:"
+        phrases = (f"{label} baseline arm", f"{label} best design")
     else:
         measure = _objective_values(designs)
         given_value, best_value = float(measure[0]), float(measure[best])
-        phrases = ("the given arm", f"{designs.objective}, the best design")
+        phrases = (f"{designs.objective}, baseline arm", f"{designs.objective}, best design")
     facts = [] if is_given else [Fact("", best_value, phrase=phrases[1], style="percent")]
     facts.append(Fact("", given_value, phrase=phrases[0], style="percent"))
-    facts.append(Fact("designs", len(designs.values), phrase="designs were tried"))
-    columns = [Header("measure", "measure"), Header("given", "given arm", style="percent")]
-    columns += [Header("best", "best design", style="percent"), Header("meaning", "what it is")]
+    facts.append(Fact("designs", len(designs.values), phrase="designs were evaluated"))
+    columns = [Header("measure", "measure"), Header("given", "baseline arm", style="percent")]
+    columns += [Header("best", "best design", style="percent"), Header("meaning", "meaning")]
     tables = [tabulate_parameters(designs.space, designs.values[best]), TableSpec("Measured in the search", columns, measures)]
     settings = designs.searched
     measured = (
-        "from the stationary sets of the planar arm, all targets at once"
+        "from the stationary points of the planar arm, for all targets"
         if designs.exact
-        else f"simulation: {settings['targets']} targets, {settings['failures']} failures of each joint at each, the same for "
-        "all designs; a joint locks where it is in some configuration at the target, and the arm starts anywhere"
+        else f"simulation of {settings['targets']} targets with {settings['failures']} failures of each joint, the same for "
+        "all designs; a joint locks at its position in a random configuration of the target, and the arm starts at random"
     )
-    caption = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
+    caption = (
+        "Each panel shows all designs against one parameter; the others vary too. Local searches end near the best design."
+    )
     can_rerun = designs.exact or (settings["targets"], settings["failures"]) == (DEFAULT_TARGETS, FAILURES_PER_JOINT)
     return Presentation(
-        f"Designs of {law.arm.name} that reach their targets after an unknown lock",
+        f"Designs of {law.arm.name} that reach their targets after an undetected lock",
         _compose_answer(designs),
         about=f"{law.arm.title} under {law.describe()}; {', '.join(designs.space.names)}",
         lines=(
-            ["Having no sink and no singular trap does not prove convergence: limit cycles exist."]
+            ["The absence of sinks and singular traps does not prove convergence, because limit cycles exist."]
             if designs.checked is None
             else []
         ),
         notices=[] if is_given else list_bound_notices(designs.space, designs.values[best]),
         facts=facts,
         tables=tables,
-        figures={"parameters": FigureSpec(partial(_draw_parameters, designs), "Which parameter matters", caption, saved=False)},
+        figures={"parameters": FigureSpec(partial(_draw_parameters, designs), "Effect of parameters", caption, saved=False)},
         sections=partial(_build_sections, designs),
         method=[
             ("Law", law.describe()),
@@ -113,7 +115,7 @@ def present(designs: ConvergenceDesigns) -> Presentation:
                 f"{settings['designs']:,} Sobol designs, those with equal lengths, and pattern searches from "
                 f"{settings['climbs']} of them",
             ),
-            *([] if designs.checked is None else [("Fresh failures", "targets and failures that had no part in the search")]),
+            *([] if designs.checked is None else [("Held-out failures", "targets and failures that the search did not use")]),
             ("Seed", str(settings["seed"])),
         ],
         arm=law.arm,
@@ -132,22 +134,22 @@ def _compose_answer(designs: ConvergenceDesigns) -> str:
         baseline, best, difference = designs.checked
         if designs.best == 0:
             return (
-                f"Nothing better than the given arm was found: it reaches its target in {format_value(baseline, 'percent')} of "
-                f"fresh failures."
+                "No design better than the baseline arm was found: after an undetected lock it reaches its target in "
+                f"{format_value(baseline, 'percent')} of the held-out failures."
             )
         text = (
-            "After a lock that the controller does not know of, the best design reaches its target in "
-            f"{format_value(best, 'percent')} of fresh failures, the given arm in {format_value(baseline, 'percent')}: "
-            f"{format_points(difference)} percentage points."
+            "After an undetected lock, the best design reaches its target in "
+            f"{format_value(best, 'percent')} of the held-out failures, and the baseline arm in "
+            f"{format_value(baseline, 'percent')}. The difference is {format_points(difference)} percentage points."
         )
-        return (
-            text if difference.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
-        )
+        return text if difference.low > 0 else f"No gain was found on held-out failures. {text} Search with more targets."
     name = designs.objective if designs.exact else "converged"
     baseline_text, best_text = (format_percent(float(designs.measures[name][design])) for design in (0, designs.best))
     if designs.best == 0:
-        return f"Nothing better than the given arm was found; {name}: {baseline_text}, the {_MEASURE_MEANINGS[name]}."
-    return f"The best design has {name} {best_text}, the given arm {baseline_text}: the {_MEASURE_MEANINGS[name]}."
+        text = f"No design better than the baseline arm was found. Its measure '{name}' is {baseline_text}."
+    else:
+        text = f"The measure '{name}' is {best_text} for the best design and {baseline_text} for the baseline arm."
+    return f"{text} It is the {_MEASURE_MEANINGS[name]}."
 
 
 def _draw_parameters(designs: ConvergenceDesigns) -> Figure:
@@ -162,7 +164,7 @@ def _draw_parameters(designs: ConvergenceDesigns) -> Figure:
 
 
 def _build_sections(designs: ConvergenceDesigns) -> list[Section]:
-    remark = "It has no masses: a table of Denavit-Hartenberg rows holds none."
+    remark = "The file has no link masses, because a Denavit-Hartenberg table does not contain them."
     return [build_arm_section(designs.space, designs.values[designs.best], designs.arm_file(), remark)]
 
 

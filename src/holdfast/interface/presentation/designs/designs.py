@@ -1,4 +1,4 @@
-"""Presentation of a search of designs for an index."""
+"""Presentation of a search for arm designs with a large quantile of an index."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_MAX_FRONT_DESIGNS = 10  # designs of the front in the table
-_NOTABLE_LOSS = 0.005  # of the poses
+_MAX_FRONT_DESIGNS = 10  # designs of the Pareto front in the table
+_NOTABLE_LOSS = 0.005  # fraction of the poses
 
 
 def to_dict(designs: Designs) -> dict[str, Any]:
-    """Return the given arm and the best design, rad, m and fractions, as JSON data."""
+    """Return the baseline arm and the best design as JSON data, in rad, m, and fractions."""
 
     def describe_arm(number: int, checked: HeldOutResult) -> dict[str, Any]:
         guaranteed = checked.guaranteed
@@ -88,42 +88,45 @@ def to_dict(designs: Designs) -> dict[str, Any]:
 
 
 def present(designs: Designs) -> Presentation:
-    """Present the best design, its gain, and its loss of reach."""
+    """Present the best design, its gain over the baseline arm, and its reach."""
     space, index, best_values = designs.space, designs.index, designs.values[designs.best]
     given, best = designs.checked.given, designs.checked.best
     level_text = format_level(designs.level)
     median, given_median = (float(held_out.distribution.quantile(0.5, reachable_only=False)) for held_out in (best, given))
-    best_name = "the given arm" if designs.best_is_start else "the best design"
-    quantile_label = f"least index at {level_text} of fresh poses"
+    best_name = "the baseline arm" if designs.best_is_start else "the best design"
+    quantile_label = f"smallest index of the best {level_text} of the held-out poses"
     facts = [Fact("", format_number(best.guaranteed.value), phrase=f"{quantile_label}, {best_name}")]
     if not designs.best_is_start:
-        facts.append(Fact("", format_number(given.guaranteed.value), phrase=f"{quantile_label}, the given arm"))
-    facts.append(Fact("", format_number(median), phrase="median of the fresh poses, best design"))
-    reach_text = f"reach of the best design; the given arm: {format_number(designs.start_reach)} m"
+        facts.append(Fact("", format_number(given.guaranteed.value), phrase=f"{quantile_label}, the baseline arm"))
+    facts.append(Fact("", format_number(median), phrase=f"median over the held-out poses, {best_name}"))
+    reach_text = f"reach of {best_name}; that of the baseline arm is {format_number(designs.start_reach)} m"
     facts.append(Fact("", f"{format_number(float(designs.reach[designs.best]))} m", phrase=reach_text))
     value_rows = [
-        (f"{index.name}, {level_text} of poses", *map(format_value_interval, (given.guaranteed, best.guaranteed))),
+        (
+            f"{index.name} of {level_text} of the poses, at least",
+            *map(format_value_interval, (given.guaranteed, best.guaranteed)),
+        ),
         ("median", format_number(given_median), format_number(median)),
         ("poses reached", *(format_percent(1 - held_out.distribution.unreached_share) for held_out in (given, best))),
         ("reach, m", f"{designs.start_reach:.3f}", f"{designs.reach[designs.best]:.3f}"),
     ]
-    value_columns = [Header("measure", ""), Header("given", "given arm"), Header("best", "best design")]
+    value_columns = [Header("measure", ""), Header("given", "baseline arm"), Header("best", "best design")]
     search_value = float(designs.guaranteed[designs.best])
     front_reach = f"{designs.reach[designs.front[0]]:.4g} to {designs.reach[designs.front[-1]]:.4g} m"
     figures = {
         "front": FigureSpec(
             partial(_draw_front, designs),
             "Index quantile against reach",
-            f"Guaranteed: the worst-case {index.name} that {level_text} of the {format_count(designs.poses, 'pose')} of the "
-            "search have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest "
-            "distance of the tool point from the base frame's origin within the joint limits.",
+            f"Index quantile: worst-case {index.name} that {level_text} of the {format_count(designs.poses, 'pose')} of the "
+            "search have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: largest "
+            "distance of the tool point from the origin of the base frame within the joint limits.",
             saved=False,
         )
     }
     if not designs.best_is_start:
         caption = (
-            "Each arm with its tool at the middle of the region (dashed), or in the middle of its joint limits if it does not "
-            "get there. Circles are joints, squares prismatic joints; the orange diamond is the tool point. Equal scales."
+            "Each arm with its tool at the centre of the region (dashed), or at the centre of its joint limits if it cannot "
+            "reach it. Circles are revolute joints, squares prismatic joints, the orange diamond is the tool. Equal scales."
         )
         figures["arms"] = FigureSpec(partial(_draw_arms, designs), "Before and after", caption, saved=False)
     exports = {ARM_FILE: partial(_write_arm, designs), "designs.csv": partial(_write_designs, designs)}
@@ -132,17 +135,17 @@ def present(designs: Designs) -> Presentation:
         _compose_answer(designs),
         about=f"{designs.region.name}; {', '.join(space.names)}",
         lines=[
-            f"{len(designs.values):,} designs tried; {len(designs.front)} of them are on the Pareto front of reach and "
-            f"{index.name}, reach {front_reach}.",
-            f"On the {format_count(designs.poses, 'pose')} on which it was chosen the best design keeps "
-            f"{format_number(search_value)}; on fresh ones {format_number(best.guaranteed.value)}. The difference, "
-            f"{format_number(search_value - best.guaranteed.value)}, is the optimism of choosing on them.",
+            f"{len(designs.values):,} designs were tried; {len(designs.front)} of them are on the Pareto front of reach and "
+            f"{index.name}, with a reach of {front_reach}.",
+            f"The best design keeps {format_number(search_value)} on the {format_count(designs.poses, 'pose')} of the search "
+            f"and {format_number(best.guaranteed.value)} on held-out poses. The difference, "
+            f"{format_number(search_value - best.guaranteed.value)}, is the selection bias.",
         ],
         notices=[] if designs.best_is_start else [*list_bound_notices(space, best_values), *_list_lost_poses(designs)],
         facts=facts,
         tables=[
             TableSpec(
-                f"On {best.distribution.samples:,} fresh poses, which had no part in the search", value_columns, value_rows
+                f"On {best.distribution.samples:,} held-out poses, which the search did not use", value_columns, value_rows
             ),
             tabulate_parameters(space, best_values),
             _tabulate_front(designs),
@@ -163,37 +166,38 @@ def _compose_answer(designs: Designs) -> str:
     index_name, level_text = designs.index.name, format_level(designs.level)
     if not best.guaranteed.value > 0 and not baseline.guaranteed.value > 0:
         return (
-            f"No design within these bounds keeps any {index_name} at {level_text} of the poses of the region: too many poses "
-            "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
+            f"For every design found within these bounds, the {index_name} that {level_text} of the poses of the region keep "
+            "is 0: too many poses are not reached, or some joint is a single point of failure. Widen the bounds, or use a "
+            "smaller region or level."
         )
     farther_text = describe_farther_design(designs.guaranteed, designs.reach, designs.best)
     if designs.best_is_start:
         answer = (
-            f"No design was found that keeps more than the given arm: at {level_text} of the poses of the region its "
+            f"No design better than the baseline arm was found: at {level_text} of the poses of the region its "
             f"{index_name} is at least {baseline_text}, {_describe_failures(designs)}."
         )
         return f"{answer} {farther_text}".rstrip()
     if designs.guaranteed[designs.best] <= (1 + SAME_VALUE_TOLERANCE) * designs.start_guaranteed:
         return (
-            f"No design keeps more than the given arm, but the best one keeps as much, {best_text} "
-            f"at {level_text} of the poses (the given arm {baseline_text}), and reaches {designs.reach[designs.best]:.3f} m "
-            f"instead of {designs.start_reach:.3f} m. {farther_text}"
+            f"No design with a larger {index_name} than the baseline arm was found, but the best design is as good, with at "
+            f"least {best_text} at {level_text} of the poses (baseline arm {baseline_text}), and reaches "
+            f"{designs.reach[designs.best]:.3f} m instead of {designs.start_reach:.3f} m. {farther_text}"
         ).rstrip()
     if best.guaranteed.value <= baseline.guaranteed.value:
         return (
-            f"No gain that lasts was found: on the {format_count(designs.poses, 'pose')} of the search the best design keeps a "
-            f"{index_name} of {format_number(float(designs.guaranteed[designs.best]))}, but on fresh ones {best_text}, and the "
-            f"given arm {baseline_text}. Search with more poses."
+            f"No gain was found that holds on held-out poses: the best design has a {index_name} of at least "
+            f"{format_number(float(designs.guaranteed[designs.best]))} on the {format_count(designs.poses, 'pose')} of the "
+            f"search, but {best_text} on held-out poses, where the baseline arm has {baseline_text}. Search with more poses."
         )
-    reaches = f"The reach goes from {designs.start_reach:.3f} m to {designs.reach[designs.best]:.3f} m."
+    reaches = f"The reach changes from {designs.start_reach:.3f} m to {designs.reach[designs.best]:.3f} m."
     return (
         f"For {level_text} of the poses of the region the best design keeps {indefinite_article(index_name)} {index_name} of "
-        f"at least {best_text}, {_describe_failures(designs)}; the given arm {baseline_text}. {reaches} {farther_text}"
+        f"at least {best_text}, {_describe_failures(designs)}; the baseline arm keeps {baseline_text}. {reaches} {farther_text}"
     ).rstrip()
 
 
 def _describe_failures(designs: Designs) -> str:
-    """Describe the failures considered, after a verb."""
+    """Describe the considered failures in a phrase that follows a verb."""
     sizes = {len(failed) for failed in designs.index.failures}
     if len(sizes) > 1 or len(designs.index.failures) != math.comb(designs.space.arm.n, min(sizes)):
         return "after any of the failures considered"
@@ -201,26 +205,26 @@ def _describe_failures(designs: Designs) -> str:
 
 
 def _list_lost_poses(designs: Designs) -> list[Notice]:
-    """Return a notice if the best design loses poses that the given arm reaches."""
+    """Return a notice if the best design reaches notably fewer poses than the baseline arm."""
     unreached, unreached_before = (
         checked.distribution.unreached_share for checked in (designs.checked.best, designs.checked.given)
     )
     if unreached <= unreached_before + _NOTABLE_LOSS:
         return []
     text = (
-        f"The best design does not reach {format_percent(unreached)} of the poses of the region, the given arm "
-        f"{format_percent(unreached_before)}. They count as index 0."
+        f"The best design does not reach {format_percent(unreached)} of the poses of the region, and the baseline arm does "
+        f"not reach {format_percent(unreached_before)}. For a pose that is not reached the index counts as 0."
     )
-    return [Notice(text, "bad", "Poses that are lost")]
+    return [Notice(text, "bad", "Unreached poses")]
 
 
 def _tabulate_front(designs: Designs) -> TableSpec:
-    """Tabulate some designs of the front, for the page."""
+    """Tabulate designs of the Pareto front for the page."""
     picked = _choose_front_designs(designs.front, designs.best)
     columns = [
         Header("best", ""),
         Header("reach", "reach, m"),
-        Header("guaranteed", f"least at {format_level(designs.level)} of the poses"),
+        Header("guaranteed", f"index of {format_level(designs.level)} of the poses, at least"),
         Header("reached", "poses reached", style="percent"),
         *(Header(parameter.name, f"{parameter.name}, {parameter.display_unit[1]}") for parameter in designs.space.parameters),
     ]
@@ -238,11 +242,12 @@ def _tabulate_front(designs: Designs) -> TableSpec:
     selection = (
         "all of them" if len(picked) == len(designs.front) else f"{len(picked)} of {len(designs.front)}, spread over the reach"
     )
-    return TableSpec(f"Designs of the front by reach ({selection}): none has more of both", columns, rows, on_console=False)
+    title = f"Designs of the Pareto front by reach ({selection}): no design has a larger reach and a larger index quantile"
+    return TableSpec(title, columns, rows, on_console=False)
 
 
 def _choose_front_designs(front: NDArray[np.int64], best: int) -> list[int]:
-    """Choose a few designs of the front, including its ends and the best one."""
+    """Choose a few designs of the Pareto front, including its ends and the best design."""
     if len(front) <= _MAX_FRONT_DESIGNS:
         return [int(index) for index in front]
     positions = set(np.round(np.linspace(0, len(front) - 1, _MAX_FRONT_DESIGNS)).astype(int).tolist())
@@ -255,7 +260,7 @@ def _draw_front(designs: Designs) -> Figure:
     from holdfast.interface.presentation.designs.figures import draw_pareto_front
     from holdfast.interface.report.figures import format_label
 
-    label = format_label(f"{designs.index.name}, least at {format_level(designs.level)} of the poses")
+    label = format_label(f"{designs.index.name} of {format_level(designs.level)} of the poses, at least")
     baseline = (designs.start_reach, designs.start_guaranteed)
     front = designs.front.tolist()
     return draw_pareto_front(designs.reach, designs.guaranteed, front, designs.best, baseline, label, designs.index.bound)
@@ -268,7 +273,7 @@ def _draw_arms(designs: Designs) -> Figure:
 
 
 def _import_sections() -> ModuleType:
-    """Import the sections of the page, which draw."""
+    """Import the sections of the page on demand, because they import matplotlib."""
     from holdfast.interface.presentation.designs import sections
 
     return sections
@@ -286,7 +291,7 @@ def _list_methods(designs: Designs) -> list[tuple[str, str]]:
         ("Task", designs.index.task.name),
         ("Region", f"{designs.region.name}: {designs.region.describe()}; the same for all designs"),
         (
-            "Guaranteed",
+            "Index quantile",
             f"the {format_level(1 - designs.level)} quantile, over the poses of the region, of the index at the best "
             "configuration of each pose; a pose that is not reached counts as 0",
         ),

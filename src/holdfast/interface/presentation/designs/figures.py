@@ -28,16 +28,16 @@ def draw_pareto_front(
     label: str,
     bound: float | None,
 ) -> Figure:
-    """Draw every design by its reach and its index quantile, with the non-dominated designs.
+    """Draw every design by its reach and its index quantile, with the Pareto front.
 
     Args:
-        reach: (D,) m.
-        quantiles: (D,) lower quantiles of the index.
-        front: Numbers of the designs of the front, by reach.
-        best: Number of the design of the greatest value.
-        baseline: Reach and value of the given arm, if known.
-        label: Of the value.
-        bound: What no configuration can exceed, drawn if it is near.
+        reach: (D,) reach of each design, m.
+        quantiles: (D,) lower quantile of the index of each design.
+        front: Indices, from 0, of the designs of the Pareto front, sorted by reach.
+        best: Index, from 0, of the best design.
+        baseline: Reach (m) and index quantile of the baseline arm; None if not known.
+        label: Label of the axis of the quantiles.
+        bound: Upper bound of the index; drawn only if it is near the values. None if not known.
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 4.6))
@@ -65,17 +65,17 @@ def draw_pareto_front(
         axes.set_ylim(bottom=0.0)
         axes.margins(y=0.1)
         handles = [
-            Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs that were tried"),
-            Line2D([], [], marker="o", color=BLUE, markersize=5, label="the front: no design has more of both"),
-            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
-            Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="the best design"),
+            Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs"),
+            Line2D([], [], marker="o", color=BLUE, markersize=5, label="Pareto front"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
+            Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="best design"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
         return settle_layout(figure)
 
 
 def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
-    """Draw the baseline arm and the best one, to one scale, with the tool at the region centre where the arm reaches it."""
+    """Draw the baseline arm and the best one on the same scale, with the tool at the region centre if the arm reaches it."""
     box = None
     if region.kind == "box":
         c, s = np.array(region.center[:3]), np.array(region.size[:3])
@@ -131,11 +131,11 @@ def draw_parameters(
     """Draw the index quantile against each parameter, one panel for each parameter.
 
     Args:
-        names: Of the parameters, with their units.
-        values: (D, k) as people read them.
-        quantiles: (D,) lower quantiles of the index.
-        baseline: The given arm's values (k,), and its index quantile, if known.
-        label: Of the value.
+        names: (k,) names of the parameters, with their units.
+        values: (D, k) values of the parameters, in the units of ``names``.
+        quantiles: (D,) lower quantile of the index, or another value, of each design.
+        baseline: Values (k,) and quantile of the baseline arm; None if not known.
+        label: Label of the axis of the quantiles.
     """
     column_count = 2 if len(names) == 4 else min(3, len(names))
     row_count = -(-len(names) // column_count)
@@ -152,8 +152,8 @@ def draw_parameters(
             axes.set(xlabel=format_label(names[index]), ylim=(0, None))
         figure.supylabel(label, fontsize=9.5)
         handles = [
-            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="a design"),
-            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="design"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
         return settle_layout(figure)

@@ -1,4 +1,4 @@
-"""Parameters of the best design, those at their bounds, and its file, for designs of both kinds."""
+"""Parameters of the best design, its parameters at bounds, and its arm file, for both kinds of design search."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from holdfast.interface.report.page import Block, Section
 
 ARM_FILE = "best-arm.yaml"
-_BOUND_TOLERANCE = 1e-6  # of the width between the bounds
+_BOUND_TOLERANCE = 1e-6  # fraction of the distance between the bounds
 _PARAMETER_DESCRIPTIONS = {
     "a": "length of link {row} (a)",
     "alpha": "twist of link {row} (alpha)",
@@ -21,12 +21,12 @@ _PARAMETER_DESCRIPTIONS = {
     "theta": "angle of joint {row} at 0 (theta)",
     "lower": "lower limit of joint {row}",
     "upper": "upper limit of joint {row}",
-    "x": "tool point, x",
-    "y": "tool point, y",
-    "z": "tool point, z",
-    "roll": "tool, roll",
-    "pitch": "tool, pitch",
-    "yaw": "tool, yaw",
+    "x": "x of the tool point",
+    "y": "y of the tool point",
+    "z": "z of the tool point",
+    "roll": "roll of the tool",
+    "pitch": "pitch of the tool",
+    "yaw": "yaw of the tool",
 }
 
 
@@ -37,7 +37,7 @@ def _name_reached_bound(parameter: DesignParameter, value: float) -> str:
 
 
 def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
-    """Name the parameters of the best design (k,) that are at their bounds, if any are."""
+    """Return a notice with the parameters of the best design (k,) that are at their bounds, if any."""
     bounded = [
         f"{parameter.name} ({parameter.text(value)})"
         for parameter, value in zip(space.parameters, best.tolist(), strict=True)
@@ -46,16 +46,16 @@ def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
     if not bounded:
         return []
     verb_phrase = "is at its bound" if len(bounded) == 1 else "are at their bounds"
-    text = f"{', '.join(bounded)} of the best design {verb_phrase}: wider ones may give more, if that can be built."
+    text = f"{', '.join(bounded)} of the best design {verb_phrase}. Wider bounds may give a better design, if it can be built."
     return [Notice(text, title="Bounds")]
 
 
 def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
-    """Tabulate the parameters of the given arm and of the best design (k,); a section of the page shows them."""
+    """Tabulate the parameters of the baseline arm and of the best design (k,); a section of the page contains this table."""
     columns = [
         Header("parameter", "parameter"),
-        Header("description", "what it is"),
-        Header("given", "given arm"),
+        Header("description", "description"),
+        Header("given", "baseline arm"),
         Header("best", "best design"),
         Header("bounds", "bounds"),
         Header("remark", ""),
@@ -68,19 +68,19 @@ def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
         bounds = f"{parameter.text(parameter.lower)} to {parameter.text(parameter.upper)}"
         remark = f"at the {bound_name} bound" if bound_name else ""
         rows.append([parameter.name, description, parameter.text(before), parameter.text(after), bounds, remark])
-    title = "Rows and joints are numbered from the base, in the Denavit-Hartenberg table of the arm"
+    title = "Design parameters in the Denavit-Hartenberg table of the arm, with rows and joints numbered from the base"
     return TableSpec(title, columns, rows, on_page=False)
 
 
 def build_arm_section(
     space: DesignSpace, best: FloatArray, arm_file: str, remark: str, further_blocks: Sequence[Block] = ()
 ) -> Section:
-    """Build the section with the parameters of the best design (k,), and its arm as a file that every command takes."""
+    """Build the section with the parameters of the best design (k,), and its arm file, which every command accepts."""
     from markupsafe import Markup
 
     from holdfast.interface.presentation.renderers import build_table_block
     from holdfast.interface.report.page import Code, Section, Text
 
     table = build_table_block(tabulate_parameters(space, best).texts())
-    label = Markup("The best arm as a file, <code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
-    return Section("What to build", [table, Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])
+    label = Markup("File of the best arm, <code>{}</code>, which every command accepts as ARM:").format(ARM_FILE)
+    return Section("Best design", [table, Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])

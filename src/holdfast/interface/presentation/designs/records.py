@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from holdfast.interface.report.page import Section
 
 PAGE_FILE = "records.html"
-_ZERO_GAP = 1e-8  # relative: rounding
+_ZERO_GAP = 1e-8  # relative gap that is due to rounding
 
 
 def to_dict(result: RecordBook | DesignRecord | RecordCheck) -> dict[str, Any]:
@@ -44,13 +44,13 @@ def present(result: RecordBook | DesignRecord | RecordCheck) -> Presentation:
     null_spaces = [record for record in result.values() if record.arm is None]
     open_count = sum(record.gap > _ZERO_GAP for record in null_spaces)
     answer = (
-        f"{len(result)} records: the best that anybody has found. For {open_count} of {len(null_spaces)} null spaces the value "
-        "is below the proved bound: those are open."
+        f"{len(result)} records, each the best value found so far. For {open_count} of {len(null_spaces)} null spaces the "
+        "value is below the proved upper bound, so these cases are open."
     )
     return Presentation(
         "Record book",
         answer,
-        about="What is left of an arm or its workspace after the worst locks, or how far its joints turn on one self-motion",
+        about="Remaining manipulability or workspace after the worst locks, or number of joint revolutions in one self-motion",
         tables=[_tabulate_records(result.values(), on_page=False)],
         sections=partial(_build_sections, result),
         method=[("Checks", "Each record is one file and is checked by independent code: holdfast record-designs check.")],
@@ -62,33 +62,33 @@ def _describe_record(record: DesignRecord) -> str:
     kind, bound = record.data.kind, record.data.proven_bound
     quantity_texts = {
         "relative-manipulability": f"{kind.failures} locked at once",
-        "self-motion-size": "whole turns in one self-motion",
-        "tolerant-workspace": f"m^2 whichever locks, {TOTAL_LINK_LENGTH_M:g} m of links, each at least "
-        f"{format_percent(kind.least_link)} of it",
+        "self-motion-size": "full revolutions in one self-motion",
+        "tolerant-workspace": f"m^2 whichever joint locks, {TOTAL_LINK_LENGTH_M:g} m of links, each at least "
+        f"{format_percent(kind.least_link)} of this length",
     }
     arm_prefix = "" if kind.of is None else f"{kind.of}, "
     class_text = (
         f"{arm_prefix}{kind.task or f'any task of {kind.rows} rows'}, {kind.joints} joints, {quantity_texts[kind.quantity]}"
     )
-    beaten_text = f"; beaten by {record.data.beaten_by}" if record.data.beaten_by else ""
-    value_text = f"{record.data.value:.10g}; no arm can beat {bound.value:.10g} ({bound.by}){beaten_text}"
+    beaten_text = f"; superseded by {record.data.beaten_by}" if record.data.beaten_by else ""
+    value_text = f"{record.data.value:.10g}; no arm can exceed {bound.value:.10g} ({bound.by}){beaten_text}"
     return f"{record.id}: {class_text}: {value_text}."
 
 
 def _present_check(check: RecordCheck) -> Presentation:
-    """Present whether the claims hold, and the comparison with the current record."""
+    """Present which claims hold, and compare the record with the current one of its class."""
     record, current, lines = check.record, find_best_record(check.record.data.kind), []
     if check.ok and current is None:
-        lines.append("It is the first of its class.")
+        lines.append("It is the first record of its class.")
     elif check.ok and current is not None and current.id != record.id:
         relative_gain = record.data.value / current.data.value - 1
-        verb = "beats" if relative_gain > 1e-9 else "does not beat"
+        verb = "is better than" if relative_gain > 1e-9 else "is not better than"
         lines.append(f"It {verb} {current.id}: {100 * relative_gain:+.2g} %.")
     return Presentation(
         f"Check of record {record.id}",
-        f"{record.id} {'holds' if check.ok else 'does not hold'}.",
+        f"{record.id} {'passes' if check.ok else 'fails'} the check.",
         lines=lines,
-        notices=[Notice(f"Not so: {claim}", "bad") for claim, holds in check.claims if not holds],
+        notices=[Notice(f"Does not hold: {claim}", "bad") for claim, holds in check.claims if not holds],
         tables=[_tabulate_claims(check)],
     )
 
@@ -100,7 +100,7 @@ def _tabulate_claims(check: RecordCheck) -> TableSpec:
 def _tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
     """Tabulate records, a row for each."""
     keys = ("record", "task", "joints", "locked", "value", "bound", "by", "gap")
-    columns = [Header(key, "no arm can beat" if key == "bound" else key) for key in keys]
+    columns = [Header(key, "upper bound" if key == "bound" else key) for key in keys]
     rows = []
     for record in records:
         kind, bound = record.data.kind, record.data.proven_bound
@@ -121,7 +121,7 @@ def _build_sections(book: RecordBook) -> list[Section]:
 
 
 def save(result: RecordBook | DesignRecord | RecordCheck, folder: Path, command: str = "") -> list[Path]:
-    """Save the page; of the book with the YAML file of each record and the URDF file of each arm, to which the page leads."""
+    """Save the page; for the book, also the YAML file of each record and the URDF file of each arm, which the page links."""
     if not isinstance(result, RecordBook):
         return renderers.save(result, folder, command)
     files = {f"{record.id}.yaml": record.text for record in result.values()}

@@ -1,4 +1,4 @@
-"""Sections of the page of a search of designs: the distribution of the index, the best arm as a file, the command."""
+"""Sections of the page of a design search: the best arm as a file, the distribution of the index, and the command."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from holdfast.studies.designs.designs import Designs, HeldOutResult, format_leve
 
 
 def build_sections(designs: Designs) -> list[Section]:
-    """Build the best arm, and the distribution of the index before and after."""
+    """Build the sections with the best arm, and with the distribution of the index for both arms."""
     assess_command = (
         f"holdfast assess {ARM_FILE} --region region.yaml --task {_format_task_option(designs)} --optimise --out check"
     )
@@ -32,10 +32,13 @@ def build_sections(designs: Designs) -> list[Section]:
         designs.space,
         designs.values[designs.best],
         format_arm_file(designs),
-        "It has no masses: those of links of other lengths are not known.",
-        [Code(assess_command, "Its own report over the same region:")],
+        "The file has no link masses, because those of links with other lengths are not known.",
+        [Code(assess_command, "Command that assesses this arm over the same region:")],
     )
-    return [arm_section, Section("How the index is distributed, before and after", _build_distribution_blocks(designs))]
+    return [
+        arm_section,
+        Section("Distribution of the index", _build_distribution_blocks(designs)),
+    ]
 
 
 def _build_distribution_blocks(designs: Designs) -> list[Block]:
@@ -43,29 +46,29 @@ def _build_distribution_blocks(designs: Designs) -> list[Block]:
     extremes = [checked.distribution.highest for checked in (baseline, best) if checked.distribution.reached]
     extremes = [value for value in extremes if np.isfinite(value)]
     if not extremes:
-        return [Text("Neither arm reaches a pose of the region.")]
+        return [Text("Neither arm reaches any pose of the region.")]
     bound = designs.index.bound
     marks = [drawing.Mark(bound, f"no configuration can exceed {bound:.3f}", "bound")] if bound else []
     axis_values = np.linspace(0.0, 1.04 * max(*extremes, *[mark.x for mark in marks]), 801)
-    curves = [_make_curve(checked, name, axis_values) for checked, name in ((best, "best design"), (baseline, "given arm"))]
+    curves = [_make_curve(checked, name, axis_values) for checked, name in ((best, "best design"), (baseline, "baseline arm"))]
     unit_text = "" if designs.index.unit == "1" else f", {designs.index.unit}"
     label = drawing.format_label(f"worst-case {designs.index.name}{unit_text}")
     figure = drawing.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
     explanation = (
-        f"{best.distribution.samples:,} fresh poses of the region, each at its best configuration; a pose that is not reached "
-        f"counts as 0. A curve crosses {format_level(1 - designs.level)} at the quantile in the table."
+        f"{best.distribution.samples:,} held-out poses of the region, each at its best configuration; a pose that is not "
+        f"reached counts as 0. A curve crosses {format_level(1 - designs.level)} at the quantile in the table."
     )
-    return [Picture(drawing.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), explanation)]
+    return [Picture(drawing.svg(figure, "cdf", "Cumulative distributions of baseline arm and best design"), explanation)]
 
 
 def _make_curve(checked: HeldOutResult, name: str, axis_values: FloatArray) -> drawing.Curve:
     band = checked.distribution.band()
     label = f"{drawing.format_label(name, 40)}, 95 % band ±{band:.3f}"
-    return drawing.Curve(axis_values, checked.distribution.cdf(axis_values), label, second=name == "given arm", band=band)
+    return drawing.Curve(axis_values, checked.distribution.cdf(axis_values), label, second=name == "baseline arm", band=band)
 
 
 def format_arm_file(designs: Designs) -> str:
-    """Format the best arm as a file that every command takes."""
+    """Format the best arm as a file that every command accepts."""
     arm = designs.arm(designs.best)
     return format_dh_file(designs.space.table_of(designs.values[designs.best]), arm.name, arm.gravity, arm.source)
 

@@ -1,4 +1,4 @@
-"""Text and JSON of indices and susceptibilities at one configuration (n,)."""
+"""Console text and JSON of indices and susceptibilities at one configuration (n,)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
-    """Return the index after each failure, the worst of them, and its gradient."""
+    """Return the index after each failure, the worst case, and the gradient of the worst case, as JSON data."""
     result, names = index.evaluate(q), index.arm.joint_names
     singular = bool(result.status == Status.SINGULAR)
     return {
@@ -44,7 +44,7 @@ def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
 
 
 def susceptibility_values(measure: Susceptibility, q: FloatArray) -> dict[str, Any]:
-    """Return the susceptibility, the contribution of each joint, and the gradient."""
+    """Return the susceptibility, the contribution of each joint, and the gradient, as JSON data."""
     result, names = measure.evaluate(q), measure.arm.joint_names
     return {
         **measure.arm.entry(),
@@ -66,7 +66,7 @@ def susceptibility_values(measure: Susceptibility, q: FloatArray) -> dict[str, A
 
 
 def show_index(index: Index, q: FloatArray, out: Console) -> None:
-    """Print the worst case, then a table of the failures."""
+    """Print the worst case, a table of the failures, and the gradient."""
     from rich.markup import escape
 
     results, unit = index_values(index, q), _unit_suffix(index)
@@ -75,9 +75,8 @@ def show_index(index: Index, q: FloatArray, out: Console) -> None:
         bound = f"; at most {format_number(index.bound, 4)} for any configuration" if index.bound is not None else ""
         if index.ceiling is not None:
             bound = f"; {index.ceiling.compare_value(results['value'])}"
-        verdict = (
-            f"[bold]{format_number(results['value'], 6)}{unit}[/], worst when [bold]{escape(results['worst'])}[/] locks{bound}"
-        )
+        value_text = f"[bold]{format_number(results['value'], 6)}{unit}[/]"
+        verdict = f"Worst case {value_text}, a lock of [bold]{escape(results['worst'])}[/]{bound}"
     values = zip(results["by_failure"], format_column(results["by_failure"].values(), digits=6), strict=True)
     rows = [(name, value_text, "[bold]worst[/]" if name == results["worst"] else "") for name, value_text in values]
     _show_measure(index, q, verdict, ("failure", f"{index.name}{unit}", ""), rows, out)
@@ -85,12 +84,12 @@ def show_index(index: Index, q: FloatArray, out: Console) -> None:
 
 
 def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) -> None:
-    """Print the value, then a table of the joints, and the meaning of their states."""
+    """Print the susceptibility, a table of the joints, and the meaning of their states."""
     results = susceptibility_values(measure, q)
     kinds, values = list(results["joint_unit"].values()), list(results["by_joint"].values())
     states = ["" if state == "ok" else state.replace("_", " ") for state in results["joint_status"].values()]
     rows = list(zip(results["by_joint"], format_positions(values, kinds, 6), states, strict=True))
-    verdict = f"[bold]{format_number(results['value'], 6)}{_unit_suffix(measure)}[/], smaller is better"
+    verdict = f"Susceptibility [bold]{format_number(results['value'], 6)}{_unit_suffix(measure)}[/]; smaller is better"
     _show_measure(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
     for state in dict.fromkeys(results["joint_status"].values()):
         if state != "ok":

@@ -1,1 +1,1 @@
-"""Reports of configurations of poses."""
+"""Reports of optimal configurations and self-motions."""

@@ -1,4 +1,4 @@
-"""Presentation of the best configurations of poses."""
+"""Presentation of the best configurations of tool poses."""
 
 from __future__ import annotations
 
@@ -29,14 +29,13 @@ if TYPE_CHECKING:
     from holdfast.interface.report.page import Section
 
 
-# _NEGLIGIBLE_CHANGE and _MAX_RELATIVE_CHANGE: changes that are none, and those that a fraction would not tell
-_NEGLIGIBLE_CHANGE = 1e-4
-_MAX_RELATIVE_CHANGE = 10.0
-MANY_AGREEING_FRACTION = 0.5  # fraction of starts that agree, below which more starts are worth it
+_NEGLIGIBLE_CHANGE = 1e-4  # relative change below which the configuration before counts as the best one
+_MAX_RELATIVE_CHANGE = 10.0  # larger relative changes are not printed, because a percentage would not be informative
+MANY_AGREEING_FRACTION = 0.5  # fraction of agreeing starts below which more starts may find a better optimum
 
 
 def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
-    """Return all poses by name; ``asked`` contains the objective in the wording of the command line."""
+    """Return the results of all poses as JSON data; ``asked`` is the objective as worded on the command line."""
     optima_rows, names = optima.rows, optima.arm.joint_names
     value_before, before, is_worse = optima_rows.value_before, optima_rows.q_before, optima_rows.worse
     clearance_before, clearance_after = optima_rows.clearance_at(optima_rows.q_before), optima_rows.clearance_at(optima_rows.q)
@@ -89,7 +88,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
 
 
 def present(optima: Optima, asked: str = "") -> Presentation:
-    """Present the gain of the best configurations over those before; ``asked`` is the objective as on the command line."""
+    """Present the gain of the best configurations; ``asked`` is the objective as worded on the command line."""
     rows, name, unit = optima.rows, optima.objective.name, _display_unit(optima)
     is_solved, reference, is_single = rows.success, f"the {_name_reference(optima)}", len(rows.poses) == 1
     before, after = (
@@ -105,31 +104,35 @@ def present(optima: Optima, asked: str = "") -> Presentation:
         ]
     if is_single:
         agreeing, starts = float(rows.agreeing[0]), int(rows.starts[0])
-        phrase = f"of the {starts:,} starts that were followed to the end agree"
-        facts.append(Fact("starts that were climbed from" if rows.free else "starts that met the pose", starts))
-        facts.append(Fact("starts that agree", agreeing, phrase=phrase, style="percent"))
+        phrase = f"of the {starts:,} completed local searches found the same optimum"
+        facts.append(Fact("completed local searches" if rows.free else "local searches that met the pose", starts))
+        facts.append(Fact("searches that found this optimum", agreeing, phrase=phrase, style="percent"))
         if not agreeing >= MANY_AGREEING_FRACTION:
-            lines.append("There are many optima: more --starts may find a better one.")
+            lines.append("The objective has many local optima, so more --starts may find a better one.")
         if is_solved[0] and not rows.free:
             facts += [
                 Fact("position error", float(rows.position_error[0]), "m", digits=2),
                 Fact("rotation error", float(rows.rotation_error[0]), "rad", digits=2),
             ]
     else:
-        facts.append(Fact("", f"{int(is_solved.sum())} of {len(is_solved)}", phrase="poses have a configuration"))
-        lines.append(f"Before: {reference}; configurations go to --csv FILE or --json.")
+        facts.append(
+            Fact("", f"{int(is_solved.sum())} of {len(is_solved)}", phrase="poses for which a configuration was found")
+        )
+        lines.append(f"Before: {reference}. Use --csv FILE or --json to get the configurations.")
     failures = _format_failures(optima)
-    shape = "not looked at" if optima.clearance is None else describe_shape(optima.clearance, optima.margin)
+    shape = "not checked" if optima.clearance is None else describe_shape(optima.clearance, optima.margin)
     notices = list_limit_violations(optima.arm, rows.q_before[0], " before") if is_single else []
     notices += [
         Notice(f"{_status_name(status).replace('_', ' ')}: {Status(status).sentence}")
         for status in sorted({*map(int, rows.status)} - {int(Status.OK)})
     ]
     if optima.cap is not None:
-        notices.append(Notice(f"{optima.cap}. To optimise without it: --failures '{_format_remaining_failures(optima)}'."))
+        notices.append(Notice(f"{optima.cap}. Use --failures '{_format_remaining_failures(optima)}' to optimise without it."))
     if optima.initial is not None and rows.worse.any():
         pose_count = "" if is_single else f" of {int(rows.worse.sum())} poses"
-        notices.append(Notice(f"The configuration given{pose_count} is better than any found; give more --starts."))
+        notices.append(
+            Notice(f"The given configuration{pose_count} is better than any configuration found; use more --starts.")
+        )
     if optima.clearance is not None:
         clearance_facts, sentence = _compare_clearance(rows)
         facts += clearance_facts
@@ -148,7 +151,7 @@ def present(optima: Optima, asked: str = "") -> Presentation:
         method=[
             ("Objective", f"{name}, {optima.objective.better} is better"),
             ("Task", optima.task.describe()),
-            ("Starts", f"{starts_text} random ones{' for each pose' * (not optima.free)}, seed {optima.seed}"),
+            ("Starts", f"{starts_text} random starts{' for each pose' * (not optima.free)}, seed {optima.seed}"),
             ("Clearance", shape),
         ],
         arm=optima.arm,
@@ -162,22 +165,22 @@ def _compose_answer(optima: Optima, before: float, after: float) -> str:
     reference, is_solved, has_many_poses = f"the {_name_reference(optima)}", rows.success, len(rows.poses) > 1
     subject = f"the median of {optima.objective.name}" if has_many_poses else optima.objective.name
     change = abs(after - before) / abs(before) if before else np.inf
-    count_text = f" ({int(is_solved.sum())} of {len(is_solved)} poses have a configuration)" * has_many_poses
+    count_text = f" (a configuration was found for {int(is_solved.sum())} of {len(is_solved)} poses)" * has_many_poses
     if not is_solved.any():
         pose = "any pose" if has_many_poses else "the pose"
         return f"No configuration of {pose} was found: {Status(int(rows.status[0])).sentence}."
     if optima.initial is not None and rows.worse[is_solved].all():
         answer = f"No configuration better than {reference} was found: {subject} stays {before_text}"
     elif change < _NEGLIGIBLE_CHANGE:
-        answer = f"{capitalise_first(reference)} is the best that was found already: {subject} is {after_text}"
+        answer = f"No configuration better than {reference} was found: {subject} is {after_text}"
     elif rows.free:
         answer = f"The best configuration found has a {optima.objective.name} of {after_text}; {reference} has {before_text}"
     else:
         is_larger = optima.objective.better == "larger"
         change_text = f", {format_percent(change)} {'more' if is_larger else 'less'}" * bool(change < _MAX_RELATIVE_CHANGE)
         answer = (
-            f"Moving the arm on the spot {'raises' if is_larger else 'lowers'} {subject} from {format_number(before, 4)} to "
-            f"{after_text}{change_text}; the tool stays where it is"
+            f"A self-motion {'raises' if is_larger else 'lowers'} {subject} from {format_number(before, 4)} to "
+            f"{after_text}{change_text}; the tool pose does not change"
         )
     return f"{answer}{count_text}."
 
@@ -199,8 +202,8 @@ def _tabulate_poses(rows: Optima, unit: str) -> TableSpec:
         Header("pose", "pose"),
         Header("before", "before", unit, digits=6, aligned=False),
         Header("best", "best", unit, digits=6, aligned=False),
-        Header("agreeing", "agreeing", style="percent"),
-        Header("starts", "of starts"),
+        Header("agreeing", "same optimum", style="percent"),
+        Header("starts", "of searches"),
         Header("status", ""),
     ]
     status_texts = ["" if status == Status.OK else _status_name(status).replace("_", " ") for status in rows.status]
@@ -210,7 +213,7 @@ def _tabulate_poses(rows: Optima, unit: str) -> TableSpec:
 
 
 def _compare_clearance(rows: Optima) -> tuple[list[Fact], str]:
-    """Return the clearance before and after, and a sentence about configurations rejected because they are too close."""
+    """Return the clearance before and after, and a sentence on better configurations that were rejected as too close."""
     assert rows.clearance is not None
     collision_phrase, blocked_count = rows.clearance.too_close(rows.margin), int(rows.blocked.sum())
     if len(rows.poses) == 1:
@@ -218,15 +221,15 @@ def _compare_clearance(rows: Optima) -> tuple[list[Fact], str]:
             Fact(f"clearance {moment}", float(rows.clearance_at(q)[0]), "m", digits=3)
             for moment, q in (("before", rows.q_before), ("of the best", rows.q))
         ]
-        text = f"The arm is checked against {rows.clearance.everything}"
+        text = f"The arm was checked for collisions with {rows.clearance.everything}"
         if blocked_count:
-            text += f"; a better configuration {collision_phrase} and was not taken: {rows.obstacles[0]}"
+            text += f"; a better configuration {collision_phrase} and was rejected: {rows.obstacles[0]}"
     else:
         facts = []
         before, after = (int(rows.close(q).sum()) for q in (rows.q_before, rows.q))
         text = f"The arm {collision_phrase} in {before} of {len(rows.poses)} configurations before, in {after or 'none'} after"
         if blocked_count:
-            text += f"; at {blocked_count} poses a better configuration does and was not taken"
+            text += f"; at {blocked_count} poses a better configuration does and was rejected"
     return facts, f"{text} ({describe_shape(rows.clearance, rows.margin)})."
 
 
@@ -234,8 +237,8 @@ def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
     from holdfast.interface.presentation.arm.view import build_view_section
 
     pose_index = int(rows.success.argmax())
-    caption = f"The arm at its best configuration and, see-through, at {reference}"
-    caption += "." if rows.free else "; the tool is in the same place."
+    caption = f"The arm at its best configuration and, transparent, at {reference}"
+    caption += "." if rows.free else ". Both have the same tool pose."
     section = build_view_section(
         "Before and best",
         rows.arm,
@@ -250,7 +253,7 @@ def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
 
 
 def to_csv(optima: Optima, path: Path) -> Path:
-    """Write the configurations as rows of a table."""
+    """Write the configurations as a CSV file, one row for each pose."""
     optima_rows = optima.rows
     names = [f"{joint.name}_{joint.unit}" for joint in optima_rows.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
@@ -272,7 +275,7 @@ def to_csv(optima: Optima, path: Path) -> Path:
 
 
 def _format_failures(optima: Optima) -> str | None:
-    """Format the failures of an index for --failures; None where they are those of each joint alone."""
+    """Format the failures of an index for --failures; None if they are the default, each joint alone."""
     index = optima.objective
     if not isinstance(index, Index) or index.failures == tuple((joint,) for joint in range(index.arm.n)):
         return None

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from holdfast.kinematics.solvers.self_motions import SelfMotion
     from holdfast.model.arm.machine import Joint
 
-_MAX_DRAWN_CURVES = 6  # the longest ones are drawn
+_MAX_DRAWN_CURVES = 6  # only the longest curves are drawn
 _DRAWN_CONFIGURATIONS = 6
 
 
@@ -54,41 +54,43 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
 
 
 def present(motion: SelfMotion) -> Presentation:
-    """Present the number of curves that reach the target, and the locks that it survives."""
+    """Present the self-motion curves of the target, and the lock positions that keep the target within reach."""
     arm, count = motion.arm, len(motion.components)
     facts: list[Fact] = []
     if not len(motion.q):
         is_proved = motion.status != Status.NOT_FOUND
-        reason = f": {motion.summary}" if is_proved else ", which does not prove that there is none"
+        reason = f": {motion.summary}" if is_proved else ", which does not prove that none exists"
         answer = f"No configuration of the target was found{reason}"
     elif count:
         closed_count = sum(component.closed for component in motion.components)
-        collision_text = "" if motion.clearance is None else f", by {motion.clearance.others}"
-        ends_text = f"{closed_count} closed"
-        if closed_count in (0, count):
-            ends_text = "closed" if closed_count else f"ended by limits{collision_text} or singular configurations"
-        answer = f"The target is reached on {format_count(count, 'curve')} of configurations, {ends_text}"
+        collision_text = "" if motion.clearance is None else f", collisions with {motion.clearance.others}"
+        curves_text = format_count(count, "closed curve" if closed_count == count else "curve")
+        if not closed_count:
+            curves_text += f", bounded by joint limits{collision_text} or singular configurations"
+        elif closed_count < count:
+            curves_text += f", {closed_count} of them closed"
+        answer = f"The configurations found for the target form {curves_text}"
     else:
         answer = (
-            f"The target is reached on a manifold of dimension {motion.redundancy}, of which "
-            f"{len(motion.q):,} configurations were found, {motion.spacing:.3g} rad apart"
+            f"The configurations of the target form a manifold of dimension {motion.redundancy}, of which "
+            f"{len(motion.q):,} were found, {motion.spacing:.3g} rad apart"
         )
     if len(motion.q) and motion.bounds is not None:
         free, restricted = _classify_joints(motion)
         answer += f"; {_describe_surviving_locks(free, restricted)}"
         if restricted:
             worst = min(restricted, key=lambda joint_name: restricted[joint_name])
-            phrase = f"of the range of {worst} keeps the target, the joint that is most bound"
+            phrase = f"of the range of {worst}, the most restricted joint, keeps the target within reach after a lock"
             facts.append(Fact("", restricted[worst], phrase=phrase, style="percent"))
         if free:
-            facts.append(Fact("", f"{len(free)} of {arm.n}", phrase="joints may lock anywhere in their range"))
+            facts.append(Fact("", f"{len(free)} of {arm.n}", phrase="joints may lock at any position in their range"))
     if count:
         longest = max(component.length for component in motion.components)
-        phrase = f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left"
-        facts += [Fact("", count, phrase=phrase), Fact("", longest, "rad", phrase="length of the longest in joint space")]
+        phrase = "curve" if count == 1 else "separate curves; the arm must leave the target to change from one to another"
+        facts += [Fact("", count, phrase=phrase), Fact("", longest, "rad", phrase="length of the longest curve in joint space")]
         if not arm.prismatic.all():
             turns = f"{motion.size / (2 * np.pi):.2f} of {np.count_nonzero(~arm.prismatic)}"
-            facts.append(Fact("whole turns of its joints on one curve", turns))
+            facts.append(Fact("full revolutions of the joints on one curve", turns))
     return Presentation(
         f"All configurations of {arm.name} for one target",
         f"{answer}.",
@@ -101,10 +103,10 @@ def present(motion: SelfMotion) -> Presentation:
             ("Task", motion.task.describe()),
             (
                 "Points",
-                f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; curves that no random start converges to are missed",
+                f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; a curve to which no random start converges is not found",
             ),
-            ("Where joints may lock", "the values that each joint takes over all configurations found"),
-            ("Clearance", "not looked at" if motion.clearance is None else describe_shape(motion.clearance, motion.margin)),
+            ("Allowed lock positions", "the values that each joint takes over all configurations found"),
+            ("Clearance", "not checked" if motion.clearance is None else describe_shape(motion.clearance, motion.margin)),
         ],
         arm=arm,
     )
@@ -115,7 +117,7 @@ def _format_target(motion: SelfMotion) -> str:
 
 
 def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
-    """Return the joints that may lock anywhere, and for the others the allowed fraction of their range."""
+    """Return the joints that may lock at any position, and the allowed fraction of the range of each other joint."""
     from holdfast.model.arm.configurations import sampling_limits
 
     free: list[str] = []
@@ -139,19 +141,19 @@ def _may_lock_anywhere(motion: SelfMotion, joint_index: int) -> bool:
 def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> str:
     critical_joints = [name for name, fraction in restricted.items() if not fraction]
     if critical_joints:
-        return f"it is lost wherever {list_alternatives(critical_joints)} locks"
+        return f"the target is lost after every lock of {list_alternatives(critical_joints)}"
     if not restricted:
-        return "it stays within reach wherever a single joint locks"
+        return "the target stays within reach wherever a single joint locks"
     worst = min(restricted, key=lambda joint_name: restricted[joint_name])
-    anywhere = f"anywhere of {list_alternatives(free)}, but " if free else ""
+    anywhere = f"the target stays within reach wherever {list_alternatives(free)} locks; " if free else ""
     return (
-        f"it survives a lock {anywhere}in only {format_percent(restricted[worst])} of the range of {worst}, the joint "
-        f"that is most bound"
+        f"{anywhere}the most restricted joint is {worst}, whose locks keep the target within reach in "
+        f"{format_percent(restricted[worst])} of its range"
     )
 
 
 def _build_tables(motion: SelfMotion) -> list[TableSpec]:
-    """Tabulate the curves, and where each joint may lock."""
+    """Tabulate the curves, and the allowed lock positions of each joint."""
     columns = [
         Header("curve", "curve"),
         Header("length_rad", "length, rad", aligned=False),
@@ -168,25 +170,27 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
             )
             for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]
-        title = "A lock keeps the target within reach if and only if it lies there"
-        specs.append(TableSpec(title, [Header("joint", "joint"), Header("may_lock_at", "may lock at")], lock_rows))
+        title = "After a lock of one joint, the target stays within reach if and only if the joint locks in these ranges"
+        specs.append(TableSpec(title, [Header("joint", "joint"), Header("may_lock_at", "allowed lock positions")], lock_rows))
     return specs
 
 
 def _animate_self_motion(motion: SelfMotion) -> list[Section]:
-    """Animate the arm on its longest self-motion; for a sample draw a few configurations."""
+    """Animate the arm on its longest self-motion curve; draw a few configurations if there are no curves."""
     from holdfast.interface.presentation.arm.view import build_view_section
 
     if not len(motion.q):
         return []
     if not motion.components:
         configurations = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
-        caption = "The arm in a few of the configurations; the tool is at the target in each."
+        caption = "The arm in some of the configurations found, each with the tool at the target."
         return [build_view_section("The arm at the target", motion.arm, configurations, caption, cell=motion.cell)]
     q = max(motion.components, key=lambda component: component.length).q
     if len(q) < 2:
         return []
-    caption = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
+    caption = (
+        f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion; the tool stays at the target."
+    )
     options: dict[str, Any] = {"time": np.linspace(0.0, 8.0, len(q)), "targets": [motion.pose], "cell": motion.cell}
     return [build_view_section("The self-motion", motion.arm, q, caption, **options)]
 
@@ -204,7 +208,7 @@ def _format_bound(value: float) -> str:
 
 
 def _describe_figure(motion: SelfMotion) -> FigureSpec:
-    """Return the figure of the curves; its preview has lock ranges only if they are known: their computation takes longest."""
+    """Return the figure of the curves; its preview omits lock ranges that are not known, which take long to compute."""
     known_ranges: Any = [[]] * motion.arm.n if motion.bounds is None else motion.bounds
 
     def draw() -> Figure:
@@ -218,10 +222,10 @@ def _describe_figure(motion: SelfMotion) -> FigureSpec:
         return _draw_self_motion(motion, lock_ranges)
 
     caption = (
-        "Shaded: values at which a joint may lock and the target stays within reach; the curves are the self-motions, and the "
-        "arm is drawn in a few of their configurations."
+        "Shaded: positions at which a joint may lock so that the target stays within reach. The curves are the self-motions, "
+        "and the arm is drawn in some of their configurations."
     )
-    return FigureSpec(draw, "Where each joint may lock", caption, preview=partial(_draw_self_motion, motion, known_ranges))
+    return FigureSpec(draw, "Allowed lock positions", caption, preview=partial(_draw_self_motion, motion, known_ranges))
 
 
 def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:

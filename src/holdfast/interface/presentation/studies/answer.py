@@ -1,4 +1,4 @@
-"""Answer of a study in a few sentences: the arm that retains most, or the reason why no arm does."""
+"""Answer of a study in a few sentences: the arm that meets the threshold most often, or the reason why no arm does."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from holdfast.studies.study_files.results import AssessedCell, DesignSweep, read
 
 
 def compose_answer(rankings: Sequence[ArmRanking], sweeps: Sequence[DesignSweep] = (), has_rankings: bool = True) -> str:
-    """Compose the answer: the leader for the first index, as found and at its best, and the law and arm with the most
-    successes, and the best design of each sweep.
+    """Compose the answer: the best arm for the first index, at the configurations found and at the best ones; the law and
+    arm with the most successes; and the best design of each sweep.
     """
     return " ".join([*([_compare_arms(rankings)] if has_rankings else []), *map(_describe_best_design, sweeps)])
 
@@ -36,11 +36,11 @@ def _compare_arms(rankings: Sequence[ArmRanking]) -> str:
         top = max(law_standings, key=lambda standing: standing.ranked_entries[0][1].value)
         success_rate = format_interval(top.ranked_entries[0][1])
         parts.append(
-            f"With a locked joint that nobody has noticed hardly any motion reaches its target under any law: of {top.about} "
-            f"{success_rate} for {name_leader(top)} under {top.law}."
+            f"After an undetected lock hardly any motion reaches its target under any law: the largest fraction of {top.about} "
+            f"is {success_rate}, for {name_leader(top)} under {top.law}."
             if top.is_uninformative
-            else f"With a locked joint that nobody has noticed, {name_leader(top)} reaches its target most often, under "
-            f"{top.law}: {success_rate} of the motions."
+            else f"After an undetected lock, {name_leader(top)} reaches its target most often, under {top.law}: in "
+            f"{success_rate} of the motions."
         )
     return " ".join(parts)
 
@@ -58,7 +58,7 @@ def _describe_leader(standing: ArmRanking, best: ArmRanking | None) -> str:
 
 
 def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
-    """Explain why hardly any pose meets the threshold, with the next informative numbers."""
+    """Explain why hardly any pose meets the threshold, with the best median and the most frequent worst failure."""
     text = (
         f"After any failure considered, hardly any pose keeps {indefinite_article(standing.question)} "
         f"{standing.question}{format_unit(standing.unit)}: at most "
@@ -74,27 +74,25 @@ def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
             leader_suffix = "" if best.median[0] == name else f" ({best.median[0]})"
             sentences[-1] += f"; in the best configurations {best.median[1]}{leader_suffix}"
         sentences[-1] += f". Its worst failure is most often a lock of {standing.worst}." if standing.worst else "."
-    sentences += [
-        f"{name} keeps nothing: once {joint} locks, it is singular everywhere." for name, joint in standing.ended.items()
-    ]
+    sentences += [f"{name} is singular in every configuration once {joint} locks." for name, joint in standing.ended.items()]
     return " ".join(sentences)
 
 
 def name_leader(standing: ArmRanking) -> str:
-    """Name the arm that leads, with those that share the lead."""
+    """Name the best arm, with the arms whose intervals overlap with its own."""
     leader, *others = standing.tied_with_first
-    return f"{leader} (level with {', '.join(others)})" if others else leader
+    return f"{leader} (not distinguishable from {', '.join(others)})" if others else leader
 
 
 def list_leaders(standings: Sequence[ArmRanking]) -> list[Fact]:
-    """List the leaders of the first questions; the best median where hardly anything is retained."""
+    """List the best arm for each of the first questions; the best median where hardly any pose meets the threshold."""
     facts = []
     for standing in standings[:4]:
         (leader, fraction), *_ = standing.ranked_entries
         if not standing.is_uninformative:
             facts.append(Fact("", fraction, phrase=f"{leader}, {standing.question}", style="percent"))
         elif standing.median:
-            phrase = f"{standing.median[0]}, the best median; {standing.question}: hardly any pose"
+            phrase = f"best median, {standing.median[0]}; hardly any pose has {standing.question}"
             facts.append(Fact("", standing.median[1], phrase=phrase))
     return facts
 
@@ -104,12 +102,12 @@ def _describe_best_design(swept: DesignSweep) -> str:
     best = choose_best_design(swept.guaranteed, swept.reach)
     fraction = format_level(swept)
     text = (
-        f"Of {format_count(len(swept.values), 'design')} of {swept.labels['arm']} the best one guarantees a "
-        f"{format_index_name(swept)} of "
-        f"{format_number(float(swept.guaranteed[best]))} for {fraction} of the poses and reaches {swept.reach[best]:.3f} m"
+        f"Of {format_count(len(swept.values), 'design')} of {swept.labels['arm']} the best one has a "
+        f"{format_index_name(swept)} of at least "
+        f"{format_number(float(swept.guaranteed[best]))} at {fraction} of the poses, and a reach of {swept.reach[best]:.3f} m"
     )
     if swept.start is not None:
-        text += f"; the given arm {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m"
+        text += f" (baseline arm {format_number(float(swept.guaranteed[swept.start]))} and {swept.reach[swept.start]:.3f} m)"
     return f"{text}. {describe_farther_design(swept.guaranteed, swept.reach, best)}".rstrip()
 
 
@@ -119,16 +117,16 @@ def format_index_name(swept: DesignSweep) -> str:
 
 
 def format_level(swept: DesignSweep) -> str:
-    """Format the fraction of the poses for which a sweep guarantees the index."""
+    """Format the fraction of the poses that have at least the index quantile of a sweep."""
     return f"{100 * swept.plan['level']:.4g} %"
 
 
 def read_cells(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    """Read the results of the cells of one kind of job, as far as they exist."""
+    """Read the existing results of all combinations (cells) with one kind of job."""
     matching = [cell for cell in range(len(study.cells)) if read_labels(study, cell)["job"] == job]
     return [read(study, cell) for cell in matching if study.cell_folder(cell).exists()]
 
 
 def get_index_key(assessed: AssessedCell) -> Key:
-    """Return the index and the task of a cell."""
+    """Return the index and the task of an assessed combination."""
     return assessed.labels["index"], assessed.labels["task"]

@@ -1,4 +1,4 @@
-"""Sweep of designs in the report of a study: the influence of each parameter of the arm, and the non-dominated designs."""
+"""Design sweep in the report of a study: the effect of each parameter of the arm, and the Pareto front."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from holdfast.studies.designs.search import find_pareto_front
 from holdfast.studies.study_files.jobs.designs import read_design_space
 from holdfast.studies.study_files.results import DesignSweep
 
-_MAX_FRONT_DESIGNS = 8  # designs of the front in the table
+_MAX_FRONT_DESIGNS = 8  # designs of the Pareto front in the table
 
 
 def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
-    """Build the figures and tables of a sweep; the place makes their names unique in the page."""
+    """Build the figures and tables of a sweep; ``place``, its number from 0, makes the names of figures unique in the page."""
     space = read_design_space(dict(swept.plan))
     factors = np.array([parameter.display_unit[0] for parameter in space.parameters])
     shown_values = swept.values * factors
     parameter_labels = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in space.parameters]
-    label = figures.format_label(f"guaranteed {format_index_name(swept)} ({format_level(swept)} of the poses)")
+    label = figures.format_label(f"{format_index_name(swept)} of {format_level(swept)} of the poses, at least")
     best, front = choose_best_design(swept.guaranteed, swept.reach), find_pareto_front(swept.reach, swept.guaranteed)
     baseline = None if swept.start is None else (float(swept.reach[swept.start]), float(swept.guaranteed[swept.start]))
     figure = draw_pareto_front(swept.reach, swept.guaranteed, front.tolist(), best, baseline, label, _find_index_bound(swept))
     explanation = (
-        f"Guaranteed: the worst-case {format_index_name(swept)} that {format_level(swept)} of {swept.plan['poses']:,} poses of "
+        f"Index quantile: worst-case {format_index_name(swept)} that {format_level(swept)} of {swept.plan['poses']:,} poses of "
         f"the region ({swept.labels['region']}) have at least, each at its best configuration; a pose that is not reached "
-        "counts as 0. Reach: the largest distance of the tool point from the base within the joint limits."
+        "counts as 0. Reach: largest distance of the tool point from the base within the joint limits."
     )
     by_parameter = draw_parameters(
         parameter_labels,
@@ -46,9 +46,10 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         label,
     )
     parameters = TableSpec(
-        "Rank correlation (Spearman) of the parameter alone with the guaranteed index: near 1 or -1 it decides, near 0 it "
-        "hardly matters, or its best value lies inside. In the best tenth: the middle half of its values there",
-        [Header(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "in the best tenth")],
+        "Spearman rank correlation of each parameter with the index quantile. Near 1 or -1 the parameter dominates; near 0 it "
+        "has little effect, or its best value lies between the bounds. Best tenth: middle half of its values in the best 10 % "
+        "of the designs",
+        [Header(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "best tenth")],
         [
             [
                 *(parameter.name, parameter.display_unit[1], (parameter.lower * factor, parameter.upper * factor)),
@@ -64,11 +65,11 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
     )
     columns = [
         Header("reach", "reach, m"),
-        Header("guaranteed", "guaranteed"),
+        Header("guaranteed", "index quantile"),
         Header("reached", "poses reached", style="percent"),
     ]
     designs = TableSpec(
-        f"Designs of the front ({len(selected)} of {len(front)}): none of the sweep has more of both",
+        f"Designs of the Pareto front ({len(selected)} of {len(front)})",
         [*columns, *(Header(label, label) for label in parameter_labels)],
         [
             [
@@ -79,15 +80,15 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         ],
     )
     optimism_text = (
-        "The best of many looks better than it is on the poses on which it was chosen: 'holdfast design' searches further and "
-        "checks what it finds on fresh poses."
+        "The best design is overestimated on the poses on which it was selected. 'holdfast design' searches further and "
+        "evaluates its result on held-out poses."
     )
     return [
-        Picture(figures.svg(figure, f"front{place}", "Guaranteed index against reach of all designs"), explanation),
+        Picture(figures.svg(figure, f"front{place}", "Index quantile against reach of all designs"), explanation),
         build_table_block(designs.texts()),
         Picture(
-            figures.svg(by_parameter, f"parameters{place}", "Guaranteed index against each parameter"),
-            "Each design by one parameter at a time; the others differ too.",
+            figures.svg(by_parameter, f"parameters{place}", "Index quantile against each parameter"),
+            "Each panel shows all designs against one parameter; the other parameters also vary.",
         ),
         build_table_block(parameters.texts()),
         Text(optimism_text, quiet=True),
@@ -95,7 +96,7 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
 
 
 def _compute_parameter_effect(values: FloatArray, swept: DesignSweep, factor: float) -> tuple[float, tuple[float, float]]:
-    """Compute the rank correlation of a parameter with the guaranteed value, and its middle half in the best tenth."""
+    """Compute the rank correlation of a parameter with the index quantile, and its quartiles in the best tenth."""
     from scipy import stats
 
     is_constant = len(values) < 3 or np.ptp(values) == 0 or np.ptp(swept.guaranteed) == 0

@@ -1,4 +1,4 @@
-"""Console text and JSON of the estimated effort of a study."""
+"""Console text and JSON of the estimated time and size of a study."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def summarize_estimates(estimates: Sequence[CellEstimate]) -> dict[str, Any]:
-    """Summarize the estimated effort of a study, cell by cell, as JSON data."""
+    """Summarise the estimated time and size of a study, cell by cell, as JSON data."""
     return {
         "cells": [
             {
@@ -35,7 +35,7 @@ def summarize_estimates(estimates: Sequence[CellEstimate]) -> dict[str, Any]:
 
 
 def show_estimates(estimates: Sequence[CellEstimate], out: Console) -> None:
-    """Print the estimated effort of a study."""
+    """Print the estimated time and size of a study."""
     total, threads = summarize_estimates(estimates), thread_count()
     table_rows = [
         (
@@ -48,12 +48,12 @@ def show_estimates(estimates: Sequence[CellEstimate], out: Console) -> None:
         )
         for estimate in estimates
     ]
-    print_table(out, TextTable(("cell", "rows", "chunks", "processor time", "a chunk", "size, at most"), table_rows))
+    print_table(out, TextTable(("cell", "rows", "chunks", "processor time", "time per chunk", "size, at most"), table_rows))
     seconds = total["thread_seconds"]
     out.print(
         f"{format_count(len(estimates), 'cell')}, {total['chunks']:,} chunks: about {format_duration(seconds)} of processor "
-        f"time, {format_duration(seconds / threads)} with the {threads} of this machine; at most "
-        f"{_format_size(total['bytes'])} on the disk (estimated from up to {max(estimate.tried for estimate in estimates)} "
+        f"time, or {format_duration(seconds / threads)} with the {threads} threads of this machine; at most "
+        f"{_format_size(total['bytes'])} on disk (estimated from up to {max(estimate.tried for estimate in estimates)} "
         "rows of each cell)",
         soft_wrap=True,
     )

@@ -37,22 +37,22 @@ def build_sections(
 ) -> list[Section]:
     """Build the sections of the report."""
     return [
-        Section("Which arm for what", build_ranking_blocks(ranking)),
+        Section("Ranking of the arms", build_ranking_blocks(ranking)),
         Section("Single points of failure by structure", build_structure_blocks(fatal_structures)),
         *[
             Section(f"Designs of {item.labels['arm']}", build_sweep_blocks(item, position))
             for position, item in enumerate(sweeps)
         ],
-        Section("Arms, indices and laws", _build_table_blocks(assessed, laws, limits)),
-        Section("How the indices are distributed", _build_distribution_blocks(assessed, limits)),
-        Section("Which joint is the worst to lose", _build_worst_joint_blocks(assessed)),
-        Section("Reaching the target with a locked joint that nobody has noticed", _build_law_blocks(laws)),
+        Section("All arms, indices and laws", _build_table_blocks(assessed, laws, limits)),
+        Section("Distributions of the indices", _build_distribution_blocks(assessed, limits)),
+        Section("Worst failure of each arm", _build_worst_joint_blocks(assessed)),
+        Section("Convergence after an undetected lock", _build_law_blocks(laws)),
         Section(
-            "Starts that still reach the target",
+            "Start positions from which the target is still reached",
             _build_measure_blocks(study, "workspace", results.read_workspace, "starts", "percent"),
         ),
         Section(
-            "Tasks that the computer drives",
+            "Tasks under computer control",
             _build_measure_blocks(study, "bank", results.read_bank, "sets of tasks", "percent, or cycles"),
         ),
     ]
@@ -70,7 +70,7 @@ def _get_row_key(labels: dict[str, Any]) -> tuple[str, ...]:
 
 
 def build_ranking_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
-    """Build the first section of a study of several arms: a figure of all questions, and the leader of each."""
+    """Build the ranking of several arms: a figure with a row for each question, and a table of the best arms."""
     names = list(dict.fromkeys(name for standing in ranking for name, _ in standing.entries))
     if len(names) < 2:
         return []
@@ -89,27 +89,27 @@ def build_ranking_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
     for standing in ranking:
         (name, fraction), *runners_up = standing.ranked_entries
         tied_arms = standing.tied_with_first[1:]
-        lead_text = "clearly ahead" if fraction.low > 0 else "perhaps 0 as well"  # the others may be 0 for certain
-        certainty = "–" if not runners_up else f"level with {', '.join(tied_arms)}" if tied_arms else lead_text
+        lead_text = "significant" if fraction.low > 0 else "may be 0, too"  # the others may be 0 for certain
+        certainty = "–" if not runners_up else f"overlaps with {', '.join(tied_arms)}" if tied_arms else lead_text
         certainty += "".join(f"; {arm}: 0 by structure" for arm in standing.ended)
         next_text = f"{runners_up[0][0]}, {format_percent(runners_up[0][1].value)}" if runners_up else "–"
         question = standing.question + (f", in {standing.unit}" if standing.unit else "")
         rows.append([question, name, fraction, next_text, certainty, standing.about])
     explanation = (
-        "Of each question the arm with the largest fraction. Clearly ahead: its 95 % interval lies above those of all others; "
-        "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
-        "index meets the threshold whatever single failure happens. Converges: the arm reaches its target with a locked "
-        "joint that its controller does not know of"
+        "Arm with the largest fraction for each question. Significant: its 95 % interval lies above those of all other arms. "
+        "Overlaps: the intervals overlap, so more samples are needed to distinguish the arms. Rows of an index: fraction of "
+        "the poses at which the index meets the threshold after every failure considered. Converges: fraction of the motions "
+        "that reach their target after an undetected lock"
     )
-    head = ["question", "first", "fraction, with 95 % interval", "next", "how sure", "of each arm"]
+    head = ["question", "best arm", "fraction, with 95 % interval", "next", "difference", "samples of each arm"]
     return [
-        Picture(figures.svg(figure, "standings", "Fractions of all arms for every question"), "More is better in every row."),
+        Picture(figures.svg(figure, "standings", "Fractions of all arms for every question"), "Larger is better in every row."),
         _tabulate(explanation, head, rows),
     ]
 
 
 def build_structure_blocks(fatal_structures: dict[Ended, tuple[AssessmentPlan, Structure]]) -> list[Block]:
-    """Build a callout for each arm and task that some lock makes impossible."""
+    """Build a callout for each arm and task that some lock makes singular in every configuration."""
     return [Callout(explain(job_plan.arm, analysis, []), "bad") for job_plan, analysis in fatal_structures.values()]
 
 
@@ -149,15 +149,15 @@ def _build_table_blocks(assessed: Sequence[AssessedCell], laws: Sequence[DrivenC
     caption = ""
     if keys:
         caption += (
-            "Fraction of the poses of the region whose index meets the threshold whatever single failure happens, with its 95 "
-            "% interval; optimised: at the best configuration of each pose. Thresholds are one for all arms. "
+            "Fraction of the poses of the region at which the index meets the threshold after every failure considered, with "
+            "its 95 % interval; optimised: at the best configuration of each pose. All arms have the same threshold. "
         )
         if any(entry.labels["region"] == "default region" for entry in assessed):
-            caption += "Default regions are around the home of each arm, sized by its reach, or the paper's. "
+            caption += "The default region is around the home of each arm and scaled by its reach, or that of a paper. "
     if law_keys:
         caption += (
-            "Converges: fraction of random motions that reach their target with one joint locked from the start and a "
-            "controller that does not know it, mean over the joints; every law has the same motions of an arm."
+            "Converges: fraction of random motions that reach their target with one joint locked from the start, undetected, "
+            "averaged over the joints; every law was simulated on the same motions of an arm."
         )
     return [_tabulate(caption, head, rows)]
 
@@ -167,7 +167,7 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
     blocks: list[Block] = []
     for number_, (key, limit) in enumerate(limits.items()):
         matching = [entry for entry in assessed if get_index_key(entry) == key and entry.plain is not None]
-        samples = [("As inverse kinematics found them", [(entry, entry.plain) for entry in matching])]
+        samples = [("At the configurations found", [(entry, entry.plain) for entry in matching])]
         if any(entry.optimised is not None for entry in matching):
             samples.append(
                 ("At the best configurations", [(entry, entry.optimised) for entry in matching if entry.optimised is not None])
@@ -244,10 +244,10 @@ def _build_worst_joint_blocks(assessed: Sequence[AssessedCell]) -> list[Block]:
             entry.plain.unreached_share,
         ]
         rows.append([*row, "–" if entry.survival_fraction is None else entry.survival_fraction][: 6 + has_survival])
-    head = ["arm", "index", "median", "bound", "worst failure", "poses not reached", "left after a lock"][: 6 + has_survival]
+    head = ["arm", "index", "median", "bound", "worst failure", "poses not reached", "reached after a lock"][: 6 + has_survival]
     title = (
-        "Median over the reached poses, → at the best configurations; the bound is what no configuration can exceed; the worst "
-        "failure is the one that most often leaves the least"
+        "Median over the reached poses, → at the best configurations. No configuration can exceed the bound. The worst failure "
+        "is the one that most often has the worst index, with the fraction of poses"
     )
     return [_tabulate(title, head, rows)] if rows else []
 
@@ -265,17 +265,17 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
             Stack(name=arm, bars=[result.labels["law"] for result in arm_results], shares=shares, low=lower, high=upper)
         )
     motion_count = format_count_range([result.motions for result in laws])
-    figure = stack_figure(stacks, _OUTCOME_LABELS, "fraction of the runs, mean over the joint that is locked")
+    figure = stack_figure(stacks, _OUTCOME_LABELS, "fraction of the runs, averaged over the locked joint")
     blocks: list[Block] = [
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
-            f"{motion_count} random motions of each arm, between places of the end effector at random configurations, each "
-            "with every joint locked in turn from the start. Not every target is in reach with a joint locked; undecided: at "
-            "the time limit, or next to a singular configuration.",
+            f"{motion_count} random motions of each arm between the end-effector positions of random configurations, each "
+            "repeated with every joint locked from the start. Not every target is within reach of the arm with a locked joint. "
+            "Undecided: stopped at the time limit or near a singular configuration.",
         )
     ]
     rows: list[list[Any]] = []
-    touches = [] if laws[0].touched is None else ["touches something, at most"]
+    touches = [] if laws[0].touched is None else ["collides, at most"]
     for result in laws:
         reference = next(
             candidate
@@ -291,8 +291,8 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
         rows.append([*row, worst, result.reaches[-1], result.in_reach, *[result.touched or 0.0] * len(touches)])
     head = ["arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
     title = (
-        "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
-        "configuration at the target exists"
+        "95 % intervals. The gain is paired, because both laws were simulated on the same motions. In reach: fraction of the "
+        "runs with a locked joint for which a configuration at the target exists"
     )
     return [*blocks, _tabulate(title, [*head, *touches], rows)]
 
@@ -311,5 +311,5 @@ def _build_measure_blocks(
             interval_text = "" if np.isnan(lower) else f" ({lower:.1f} to {upper:.1f})"
             cells.append("–" if np.isnan(value) else f"{value:.1f}{interval_text}")
         rows.append([table.labels["arm"], table.labels["law"], table.samples, *cells])
-    title = f"{unit.capitalize()}, with 95 % intervals; of an arbitrary joint"
+    title = f"{unit.capitalize()}, with 95 % intervals, for an arbitrary locked joint"
     return [_tabulate(title, ["arm", "law", noun, *measure_names], rows)]

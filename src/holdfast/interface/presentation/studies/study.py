@@ -1,4 +1,4 @@
-"""Presentation of a study: its progress, and its report on the fractions that each arm retains, under which law."""
+"""Presentation of a study: its progress, and its report with the ranking of arms and laws."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from holdfast.studies.study_files.study_file import read_thresholds
 if TYPE_CHECKING:
     from holdfast.interface.report.page import Block
 
-_MAX_TABLE_CELLS = 40  # cells in a table
+_MAX_TABLE_CELLS = 40  # combinations (cells of the study) in a table
 
 
 def to_dict(study: Study) -> dict[str, Any]:
@@ -53,7 +53,7 @@ def to_dict(study: Study) -> dict[str, Any]:
 
 
 def present(study: Study) -> Presentation:
-    """Present the progress of a study; of many cells the table has only those that are not complete."""
+    """Present the progress of a study; if there are many cells, the table lists only those that are not complete."""
     cells = study.status()
     done, total = sum(cell.chunks_done for cell in cells), sum(cell.chunks for cell in cells)
     state = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
@@ -71,16 +71,16 @@ def present(study: Study) -> Presentation:
         for cell in listed_cells[:_MAX_TABLE_CELLS]
     ]
     title = f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if is_cut else ""
-    answer = f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {state}, {spent} of processor time to compute"
+    answer = f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {state}, {spent} of processor time"
     return Presentation(study.name, answer, tables=[TableSpec(title, columns, rows)])
 
 
 @reports_progress("drawing the report")
 def write(study: Study, path: Path, command: str = "") -> Path:
-    """Write the report of a study, also of one that is not complete; the report contains the instructions that repeat it.
+    """Write the report of a study, complete or not; the report contains the file and the command that repeat the study.
 
     Raises:
-        StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
+        StoreError: No chunk has been computed, a chunk is damaged, or the file cannot be written.
     """
     from holdfast.interface.presentation.renderers import build_page
     from holdfast.interface.report import page
@@ -94,10 +94,10 @@ def save(study: Study, folder: Path, command: str = "") -> list[Path]:
 
 
 def present_results(study: Study) -> Presentation:
-    """Present the results: the arm and the law that retain most, with the reasons.
+    """Present the results: the best arm and law, with the reasons.
 
     Raises:
-        StoreError: Nothing is computed, or a chunk is damaged.
+        StoreError: No chunk has been computed, or a chunk is damaged.
     """
     cells = study.status()
     chunks_done, chunk_count = sum(item.chunks_done for item in cells), sum(item.chunks for item in cells)
@@ -113,7 +113,7 @@ def present_results(study: Study) -> Presentation:
         limits,
         {key: _format_fatal_joints(job_plan, item) for key, (job_plan, item) in fatal_structures.items()},
     )
-    missing = f"{chunks_done:,} of {chunk_count:,} chunks are computed; run the same command again to resume."
+    missing = f"{chunks_done:,} of {chunk_count:,} chunks have been computed. Repeat the command to resume."
     arm_names = list(dict.fromkeys(cell["labels"]["arm"] for cell in study.cells))
 
     def build_sections() -> Sequence[Any]:
@@ -125,7 +125,7 @@ def present_results(study: Study) -> Presentation:
         study.name,
         compose_answer(ranking, sweeps, has_rankings=bool(assessed or laws or not sweeps)),
         about=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
-        notices=[Notice(missing, "bad", "Not complete.")] if chunks_done < chunk_count else [],
+        notices=[Notice(missing, "bad", "Not complete")] if chunks_done < chunk_count else [],
         facts=list_leaders(ranking),
         sections=build_sections,
         method=_list_method(study, assessed),
@@ -134,7 +134,7 @@ def present_results(study: Study) -> Presentation:
 
 
 def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[Key, float]:
-    """Return the threshold of each index and task: the one of the study file, else one chosen from the results."""
+    """Return the threshold of each index and task from the study file, or else one chosen from the results."""
     specified = read_thresholds(study.source)
     groups: dict[Key, list[AssessedCell]] = {}
     for entry in assessed:
@@ -143,7 +143,7 @@ def _choose_thresholds(study: Study, assessed: Sequence[AssessedCell]) -> dict[K
 
 
 def find_fatal_structures(assessed: Sequence[AssessedCell]) -> dict[Ended, tuple[AssessmentPlan, Structure]]:
-    """Return the structure of each arm and task that some lock makes impossible in every configuration, with its plan."""
+    """Return the structure, with its plan, of each arm and task that some lock makes singular in every configuration."""
     fatal: dict[Ended, tuple[AssessmentPlan, Structure]] = {}
     structures: dict[tuple[str, str], Structure] = {}
     for entry in assessed:
@@ -157,7 +157,7 @@ def find_fatal_structures(assessed: Sequence[AssessedCell]) -> dict[Ended, tuple
 
 
 def _format_fatal_joints(plan: AssessmentPlan, analysis: Structure) -> str:
-    """Name the joints whose lock ends a task in every configuration."""
+    """Name the joints whose lock makes a task singular in every configuration."""
     return list_alternatives([plan.arm.joint_names[joint] for joint in analysis.fatal]) if analysis.fatal else "any joint"
 
 
@@ -172,13 +172,12 @@ def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[s
             "Cells",
             f"{len(cells):,}, {sum(cell.chunks_done for cell in cells):,} of {sum(cell.chunks for cell in cells):,} chunks",
         ),
-        ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
+        ("Samples", f"{samples:,} rows (poses, motions, starts)"),
         (
             "Time",
-            f"{format_duration(processor_time)} of processor time to compute; runs that ended took "
-            f"{format_duration(wall_time)}",
+            f"{format_duration(processor_time)} of processor time; completed runs took {format_duration(wall_time)}",
         ),
-        ("On the disk", f"{size / 1e6:.3g} MB"),
+        ("Size on disk", f"{size / 1e6:.3g} MB"),
     ]
     for position, run in enumerate(study.runs[-5:]):
         run_text = f"{run['started']}: {run['chunks']:,} chunks in {format_duration(run['seconds'])} on {run['on']}"
@@ -186,7 +185,8 @@ def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[s
     for position, maker in enumerate(study.makers):
         entries.append(("Computed on" if not position else "", _describe_maker(maker)))
     if len(study.makers) > 1:
-        entries.append(("Agreement", "computed on one of these alone, values agree to 1e-12; on one kind, in every bit"))
+        text = "values agree with those of a single machine to 1e-12; machines of one kind agree bit for bit"
+        entries.append(("Agreement", text))
     for region in dict.fromkeys((entry.labels["arm"], entry.plan.region.describe()) for entry in assessed):
         entries.append((f"Region of {region[0]}", region[1]))
     entries.append(
@@ -205,7 +205,7 @@ def _build_rerun_blocks(study: Study) -> list[Block]:
 
     from holdfast.interface.report.page import Code, Text
 
-    blocks: list[Block] = [Text("Same file, same versions, same kind of processor: the same bits.", quiet=True)]
+    blocks: list[Block] = [Text("The same file, versions and kind of processor give the same bits.", quiet=True)]
     if study.source:
         lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]
         commands = [

@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
-    """Build the sheet as a page: the orders of the tasks on one sheet, then a sheet for each subject.
+    """Build the allocation as a page: one sheet with the orders of the tasks, then a sheet for each subject.
 
-    Rows of the balanced square are given to those who *complete* a session, so that the row of a subject is known only when
-    he or she comes: the sheets hold for an experiment in which nobody drops out. The order of scenarios goes with the
-    subject's running number.
+    A new subject gets the row of the balanced square that the fewest subjects have *completed*, so it is known only when the
+    session starts, and the sheets are valid only if no subject drops out. The order of the scenarios depends on the running
+    number of the subject.
 
     Args:
-        protocol: The protocol.
-        subjects: How many sheets; as many as the protocol wants if not given.
+        protocol: Protocol of the experiment.
+        subjects: Number of sheets; the number of subjects in the protocol if None.
 
     Raises:
         InputError: Fewer than one subject.
@@ -30,17 +30,17 @@ def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Pa
 
     count = protocol.subjects if subjects is None else subjects
     if count < 1:
-        raise InputError(f"{count} subjects cannot be given an order; give 1 or more")
+        raise InputError(f"subjects is {count}; it must be 1 or more")
     order = protocol.task_order()
     order_table = Table(
         [[str(row_index + 1), " ".join(str(task + 1) for task in row)] for row_index, row in enumerate(order)],
-        ["row", "tasks in the order in which they are done"],
+        ["row", "order of the tasks"],
     )
     scenario_table = Table([[str(scenario.number), scenario.label] for scenario in protocol.scenarios], ["scenario", ""])
     explanation = (
-        f"Each task occurs equally often in each position, and each ordered pair of neighbours equally often, over "
-        f"{len(order)} rows. A new subject gets the row that the fewest have completed, so the rows of those who drop out "
-        f"are used again; the sheets below are valid as long as nobody drops out."
+        f"Over {len(order)} rows, each task occurs equally often in each position, and each ordered pair of neighbours equally "
+        f"often. A new subject gets the row that the fewest subjects have completed, so the row of a subject who drops out "
+        f"is used again. The sheets below are valid as long as no subject drops out."
     )
     return Page(
         f"Allocation: {protocol.name}",
@@ -69,13 +69,21 @@ def _subject_sheet(protocol: Protocol, subject: int, rows: int) -> Section:
         table_rows.append(
             [str(position + 1), str(task + 1), protocol.arm.joint_names[joint] if joint >= 0 else "none", *scenarios]
         )
-    header = ["place", "task", "joint that fails", *("scenario" for _ in range(scenario_count))]
+    header = ["position", "task", "failing joint", *("scenario" for _ in range(scenario_count))]
     table = Table(table_rows, header, frozenset({1}), marks=frozenset(range(3, 3 + scenario_count)))
     return Section(f"Subject number {subject + 1}, row {subject % rows + 1}", [table], sheet=True)
 
 
 def write_allocation(protocol: Protocol, path: str | Path, subjects: int | None = None) -> Path:
-    """Write the sheet as one HTML file that prints a subject on a page.
+    """Write the allocation sheets as one HTML file, in which each subject starts a new printed page.
+
+    Args:
+        protocol: Protocol of the experiment.
+        path: HTML file to write.
+        subjects: Number of sheets; the number of subjects in the protocol if None.
+
+    Returns:
+        Path of the file.
 
     Raises:
         InputError: Fewer than one subject.

@@ -1,4 +1,4 @@
-"""Presentation of the analysis of an experiment: the effect of the law on the operators with the failed arm."""
+"""Presentation of the analysis of an experiment: the effect of the control law on operators with the failed arm."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(analysis: Analysis) -> dict[str, Any]:
-    """Return the subjects, and every table, row by row."""
+    """Return the subjects, and the rows of every table, as JSON data."""
     data = {
         "subjects": list(analysis.observed.subjects),
         "simulated": analysis.is_simulated,
@@ -57,7 +57,7 @@ def save(
     paths: Paths | None = None,
     show: Sequence[int] | None = None,
 ) -> list[Path]:
-    """Write report.html as :func:`write` does, and every table as CSV with a data dictionary; files with other names stay."""
+    """Write report.html as :func:`write` does, and every table as CSV with a data dictionary; other files are not changed."""
     tables = write_tables(analysis, folder)
     return [write(analysis, folder / "report.html", protocol, paths, show), *tables]
 
@@ -68,22 +68,22 @@ def present(
     paths: Paths | None = None,
     shown_tasks: Sequence[int] | None = None,
 ) -> Presentation:
-    """Present the effect of the law with the failed arm, with its tests.
+    """Present the effect of the control law on operators with the failed arm, and its statistical tests.
 
     Args:
-        analysis: The analysis.
-        protocol: Of the experiment: the workspace, the targets and what a failure takes away are drawn from it.
-        paths: Gives the tool points of recorded trials; without it no motions are drawn.
-        shown_tasks: Tasks, by number, whose motions and distributions are drawn; the middle one of each group if not given.
+        analysis: Analysis to present.
+        protocol: Protocol of the experiment, from which workspace and targets are drawn; None if not available.
+        paths: Function that returns the tool positions of recorded trials; no motions are drawn if None.
+        shown_tasks: Numbers of the tasks whose motions and distributions are drawn; the middle task of each group if None.
 
     Raises:
-        InputError: A task to show that there is not.
+        InputError: A task in ``shown_tasks`` does not exist.
     """
     observed = analysis.observed
     tasks = middle_tasks(analysis) if shown_tasks is None else list(shown_tasks)
     for task in tasks:
         if task not in observed.tasks:
-            raise InputError(f"there is no task {task} to show; there are {observed.tasks[0]} to {observed.tasks[-1]}")
+            raise InputError(f"there is no task {task}; the tasks are {observed.tasks[0]} to {observed.tasks[-1]}")
     missing = int((observed.cause != "").sum())
     lines = [
         f"{analysis.subject_phrase}, {len(observed.tasks)} tasks, {len(observed.conditions)} scenarios: "
@@ -105,21 +105,21 @@ def present(
         method=[
             (
                 "CPM",
-                f"sum of {len(observed.normalisers)} measures, each divided by its largest value over all trials compared "
-                f"(eq. 11). The measures are a reconstruction: the table of the paper is lost",
+                f"sum of {len(observed.normalisers)} measures, each divided by its largest value over all compared trials "
+                f"(eq. 11). The measures are a reconstruction, because the table of the paper is lost",
             ),
             (
                 "Tests",
                 "The ANOVA, the sphericity corrections and the effect sizes are computed by holdfast",
             ),
-            ("Trials", "training trials are not analysed"),
-            ("Tables", "each is a CSV file next to this report; data_dictionary.csv explains every column"),
+            ("Trials", "without training trials"),
+            ("Tables", "each table is a CSV file next to this report; data_dictionary.csv explains every column"),
         ],
     )
 
 
 def middle_tasks(analysis: Analysis) -> list[int]:
-    """Return the task of middle difficulty of each group."""
+    """Return the number of the task of median difficulty in each group of tasks."""
     table = analysis.table("tasks")
     chosen = []
     for group in analysis.groups.names:
@@ -131,11 +131,12 @@ def middle_tasks(analysis: Analysis) -> list[int]:
 def _list_notices(analysis: Analysis) -> list[Notice]:
     notices = []
     if analysis.is_simulated:
-        notices.append(Notice("Every operator is a program; nothing here is measured on people.", "bad", "Simulated"))
+        notices.append(Notice("Every operator is a program; no number was measured on people.", "bad", "Simulated"))
     if analysis.left_out:
-        notices.append(Notice(f"Left out because of empty cells: {', '.join(analysis.left_out)}.", "bad", "Not all subjects"))
+        text = f"Excluded because of empty cells: {', '.join(analysis.left_out)}."
+        notices.append(Notice(text, "bad", "Not all subjects"))
     if analysis.mixed is not None and not analysis.mixed.converged:
-        notices.append(Notice("Its numbers must not be used.", "bad", "The mixed model did not converge"))
+        notices.append(Notice("Do not use its numbers.", "bad", "The mixed model did not converge"))
     if analysis.notes:
         text = " ".join(f"{note.removesuffix('.')}." for note in analysis.notes)
         notices.append(Notice(text, "note", "Before using these numbers"))
@@ -145,15 +146,15 @@ def _list_notices(analysis: Analysis) -> list[Notice]:
 def _compose_answer(analysis: Analysis) -> str:
     means = sorted(analysis.law_means().items(), key=lambda law_mean: law_mean[1])
     text = (
-        f"With a failed joint the {means[0][0]} law makes {analysis.subject_phrase} perform best on average: mean CPM "
+        f"With a failed joint, {analysis.subject_phrase} perform best on average under the {means[0][0]} law: mean CPM "
         f"{format_number(means[0][1])}, "
     )
-    text += f"against {' and '.join(f'{format_number(mean)} ({law})' for law, mean in means[1:])}"
+    text += f"compared with {' and '.join(f'{format_number(mean)} ({law})' for law, mean in means[1:])}"
     if analysis.anova is not None:
         effect = analysis.anova.effects[0]
         text += f"; F({effect.df}, {effect.df_error}) = {format_number(effect.F)}, p {format_p_relation(effect.p_gg)}"
         if effect.p_gg >= analysis.limit:
-            text += ", which may be chance"
+            text += ", which is not significant"
     elif analysis.mixed is not None:
         wald_test = analysis.mixed.tests[0]
         text += f"; mixed model, chi²({wald_test.df}) = {format_number(wald_test.chi2)}, p {format_p_relation(wald_test.p)}"
@@ -177,10 +178,10 @@ def _describe_mixed_model(model: MixedModel) -> str:
     text = (
         f"Linear mixed model of {model.trials:,} single trials, restricted maximum likelihood ({model.optimiser}, "
         f"{'converged' if model.converged else 'NOT converged'}); standard deviations of the random intercepts: {deviations}. "
-        f"The tests are asymptotic. Tasks are random here: the model speaks of other tasks too, so difficulty is tested more "
-        f"strictly than in an ANOVA."
+        f"The tests are asymptotic. Tasks are a random effect, so the model generalises to other tasks, and difficulty is "
+        f"tested more strictly than in an ANOVA."
     )
-    return text + (f" The software said: {'; '.join(model.messages)}." if model.messages else "")
+    return text + (f" Messages of the software: {'; '.join(model.messages)}." if model.messages else "")
 
 
 # ---- page ----------------------------------------------------------------------------------------------------------------

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 def bank_figure(
     bank: TaskBank, cells: Binning, chosen: IndexArray | None = None, *, special: IndexArray | None = None
 ) -> Figure:
-    """Draw CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks have their numbers.
+    """Draw CPM4/CPM3 of the tasks of a bank against CPM3, with the grid of cells and the numbers of the chosen tasks.
 
     Args:
-        bank: The tasks as the computer did them.
-        cells: The grid.
-        chosen: (k,) indices into the bank: numbered from 1, in this order.
-        special: Indices into the bank of special tasks: numbered on from there, and marked otherwise. Those that were
-            not completed in every scenario have no place in the plane and are named below it.
+        bank: Tasks with the performance measures under computer control.
+        cells: Grid of cells of CPM3 and CPM4/CPM3.
+        chosen: (k,) indices of chosen tasks in the bank, which are numbered from 1 in this order.
+        special: Indices of special tasks in the bank, which have the next numbers and other markers. Special tasks that were
+            not completed in every scenario have no position in the figure; its title names them.
 
     Source: Goel et al. 2003, Fig. 2.
     """
@@ -44,7 +44,7 @@ def bank_figure(
         _label_tasks(axes, bank, special_tasks[is_drawable], len(chosen_tasks) + 1 + np.flatnonzero(is_drawable), special=True)
         missing_numbers = [str(len(chosen_tasks) + 1 + index) for index in np.flatnonzero(~is_drawable)]
         incomplete_count = int((~bank.is_completed()).sum())
-        title = f"{len(bank)} tasks under computer control; {len(cells.occupied_cells)} of {_count_cells(cells)} cells hold one"
+        title = f"{len(bank)} tasks under computer control in {len(cells.occupied_cells)} of {_count_cells(cells)} cells"
         if incomplete_count:
             title += f"; {incomplete_count} not completed in every scenario are not shown"
         if missing_numbers:
@@ -64,7 +64,7 @@ def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
     if lower < 1:
         axes.axhspan(lower, min(1.0, upper), color="#e3eef7", zorder=0)
         axes.annotate(
-            "failure-tolerant inverse does better",
+            "failure-tolerant inverse is better",
             (hardest, min(1.0, upper)),
             (-6, -6),
             textcoords="offset points",

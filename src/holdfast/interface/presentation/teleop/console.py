@@ -1,4 +1,4 @@
-"""Text of an experiment: its protocol, its subjects, the allocation, and the results of simulated operators."""
+"""Console text of an experiment: protocol, subjects, allocation, and results of simulated operators."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ def _make_grid(*head: str) -> Any:
 
 
 def show_experiment(records: Records, out: Console) -> None:
-    """Print the outcomes of the trials of simulated people."""
+    """Print the outcomes of the trials of simulated operators."""
     from holdfast.teleop.records.entries import TrialKind
     from holdfast.teleop.trials.recordings import End
 
     people = records.subjects()
     finished = [scenario for scenario in people if scenario.state == "completed"]
     training = len(records.entries(kind=TrialKind.TRAINING))
-    out.print(f"{len(people)} simulated operators, {len(finished)} trained and done; {training} training tasks", soft_wrap=True)
-    table = _make_grid("scenario", "", "completed", "aborted", "time over")
+    text = f"{len(finished)} of {len(people)} simulated operators completed the experiment; {training} training tasks."
+    out.print(text, soft_wrap=True)
+    table = _make_grid("scenario", "", "completed", "aborted", "timed out")
     entries = records.entries(kind=TrialKind.TRIAL)
     for index, scenario in enumerate(records.protocol.scenarios):
         endings = [ending.end for ending in entries if ending.scenario == index]
@@ -40,7 +41,7 @@ def show_experiment(records: Records, out: Console) -> None:
 
 
 def show_subjects(records: Records, out: Console) -> None:
-    """Print the progress of the sessions."""
+    """Print the subjects with the progress of their sessions."""
     from rich.markup import escape
 
     from holdfast.teleop.records.session import Session
@@ -60,19 +61,18 @@ def show_protocol(protocol: Protocol, out: Console) -> None:
     from rich.markup import escape
 
     training = protocol.training
-    limit = "no limit" if protocol.cycle_limit is None else f"at most {protocol.cycle_limit} cycles"
+    limit = "no time limit" if protocol.cycle_limit is None else f"at most {protocol.cycle_limit} cycles"
     for sentence in (
         f"{protocol.name}",
-        f"arm {protocol.arm.name}, task {protocol.rows.name}, {protocol.rate:g} cycles/s, {protocol.substeps} "
-        f"sub-steps in each",
-        f"stick: up to {protocol.stick.limit:g} m/cycle ({protocol.stick.limit * protocol.rate:g} m/s), dead zone "
+        f"Arm {protocol.arm.name}, task {protocol.rows.name}, {protocol.rate:g} cycles/s of {protocol.substeps} sub-steps",
+        f"Joystick: up to {protocol.stick.limit:g} m/cycle ({protocol.stick.limit * protocol.rate:g} m/s), dead zone "
         f"{protocol.stick.dead_zone:g} m/cycle",
-        f"a trial ends at rest within {protocol.radius:g} m of the target; {limit}",
-        f"training: {training.at_least} tasks or more of {training.distance:g} m, the last {training.in_a_row} in a row within "
-        f"{training.limit:g} cycles ({training.limit / protocol.rate:.3g} s), at most {training.most}",
-        f"{protocol.subjects} subjects, {len(protocol.task_order())} rows of the balanced square, "
+        f"End of a trial: at rest within {protocol.radius:g} m of the target; {limit}",
+        f"Training: {training.at_least} to {training.most} tasks of {training.distance:g} m, until {training.in_a_row} in a "
+        f"row take at most {training.limit:g} cycles ({training.limit / protocol.rate:.3g} s)",
+        f"Subjects: {protocol.subjects}, {len(protocol.task_order())} rows of the balanced square, "
         f"{len(protocol.tasks) * len(protocol.scenarios)} trials each",
-        f"rating: {', '.join(protocol.rating)}",
+        f"Rating: {', '.join(protocol.rating)}",
     ):
         out.print(escape(sentence), soft_wrap=True)
     table = _make_grid("scenario", "")
@@ -82,7 +82,7 @@ def show_protocol(protocol: Protocol, out: Console) -> None:
         )
         table.add_row(str(scenario.number), escape(scenario.label + (f" ({options})" if options else "")))
     out.print(table)
-    tasks = _make_grid("task", "joint that fails", "from start to target, m", "note")
+    tasks = _make_grid("task", "failing joint", "distance to target, m", "note")
     start = protocol.arm.forward_kinematics(protocol.tasks.q0)[:, :3, 3] @ protocol.rows.rows[:, :3].T
     for key, note in enumerate(protocol.notes):
         joint = protocol.arm.joint_names[protocol.tasks.joint[key]] if protocol.tasks.joint[key] >= 0 else "none"
@@ -92,9 +92,9 @@ def show_protocol(protocol: Protocol, out: Console) -> None:
 
 
 def show_allocation(protocol: Protocol, subjects: int | None, out: Console) -> None:
-    """Print a line for each subject: the row of the square, and the tasks with their scenarios in order."""
+    """Print a line for each subject: the row of the balanced square, and the tasks with their scenarios in order."""
     order = protocol.task_order()
-    table = _make_grid("subject", "row", "tasks in order, each with its scenarios in order")
+    table = _make_grid("subject", "row", "order of the tasks, each with the order of its scenarios")
     for subject in range(protocol.subjects if subjects is None else subjects):
         session = protocol.session_order(subject % len(order), subject).reshape(len(protocol.tasks), -1, 2) + 1
         task_texts = " ".join(f"{trials[0, 0]}:{'/'.join(map(str, trials[:, 1]))}" for trials in session)

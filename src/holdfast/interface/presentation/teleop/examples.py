@@ -1,4 +1,4 @@
-"""Single tasks in the report: the motions in every scenario, and the distributions of the measures."""
+"""Single tasks in the report: motions in every scenario, and distributions of the measures."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 
 def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | None, paths: Paths | None) -> list[Block]:
-    """Build the motions of one task, if there are any, and the distributions of its measures.
+    """Build the figure of the motions of one task, if any were recorded, and the distributions of its measures.
 
     Args:
-        analysis: The analysis.
-        task: Its number.
-        protocol: Of the experiment; task k there is number k + 1 here.
-        paths: See :meth:`holdfast.teleop.analysis.Analysis.report`.
+        analysis: Analysis of the experiment.
+        task: Number of the task, from 1.
+        protocol: Protocol of the experiment; its task with index k has the number k + 1.
+        paths: Function that returns recorded tool positions; see :meth:`holdfast.teleop.analysis.Analysis.report`.
     """
     task_index = analysis.observed.tasks.index(task)
     blocks: list[Block] = []
@@ -51,14 +51,14 @@ def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | Non
     note = "" if protocol is None or task > len(protocol.notes) else protocol.notes[task - 1]
     caption = (
         f"{operator_note}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of {analysis.subject_phrase} "
-        "in each scenario, of the trials that reached the target. Circles: the computer."
+        "in each scenario, over the trials that reached the target. Circles: computer control."
     )
     figure = figures.measures_figure(values, computer_values, [condition.scenario for condition in observed.conditions])
     return [*blocks, Picture(svg(figure, f"task-{task}-measures", caption), caption)]
 
 
 def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths: Paths, operator_note: str) -> list[Block]:
-    """Draw the motions of the median operator and of the computer, as far as they were recorded."""
+    """Draw the recorded motions of the median operator and under computer control."""
     observed, task = analysis.observed, analysis.observed.tasks[task_index]
     median_subject = median_operator(observed, task_index, observed.condition_index(analysis.conditions[0].scenario))
     tasks, task_row = protocol.tasks, task - 1
@@ -94,9 +94,9 @@ def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths
     joint = "" if tasks.joint[task_row] < 0 else f"; {protocol.arm.joint_names[int(tasks.joint[task_row])]} fails"
     operator_text = "" if median_subject is None else f" of the median operator, {observed.subjects[median_subject]},"
     caption = (
-        f"{operator_note}Motions{operator_text} and of the computer in task {task}{joint}: from light to dark, from the dot to "
-        "the target circle, with the straight way dashed."
+        f"{operator_note}Motions{operator_text} and under computer control in task {task}{joint}: from the dot to the target "
+        "circle, darker with time, with the straight path dashed."
     )
     if healthy_ring is not None:
-        caption += " Circle: what the healthy arm reaches; grey: what the failure takes away (not shown to operators)."
+        caption += " Circle: workspace of the healthy arm; grey: part lost by the failure (not shown to operators)."
     return [Picture(svg(motions_figure(motions), f"task-{task}-motions", caption), caption)]

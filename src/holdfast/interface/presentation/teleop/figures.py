@@ -1,4 +1,4 @@
-"""Figures of an analysis: difficulty, gains, cell means, distributions, and power."""
+"""Figures of an analysis: difficulty, gains, means, distributions, and statistical power."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ SERIES_COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", "#c58a00", "#4aa3d6")
 _SERIES_MARKERS = ("o", "^", "s", "D", "v", "P")
 _NEUTRAL_COLOR = "#c3c9cf"
 _ROUNDING_TOLERANCE = 1e-9
-_LOG_SCALE_RATIO = 30  # largest over smallest: beyond, the axis is logarithmic
+_LOG_SCALE_RATIO = 30  # ratio of largest to smallest value above which the axis is logarithmic
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scatter:
-    """Tasks in a plane, with their correlation."""
+    """Scatter plot of tasks: coordinates (T,), axis labels, correlation, and group (T,) of each task."""
 
     x: FloatArray
     y: FloatArray
@@ -51,7 +51,12 @@ class Scatter:
 
 
 def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
-    """Draw one dot for each task, coloured by its group (Fig. 3)."""
+    """Draw scatter plots with one dot for each task, coloured by its group (Fig. 3).
+
+    Args:
+        panels: Contents of each panel.
+        names: Names of the groups.
+    """
     with style():
         figure = Figure(figsize=(WIDTH_IN * len(panels) / 3 if len(panels) < 3 else WIDTH_IN, 3.9))
         for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
@@ -78,7 +83,12 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
 
 
 def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
-    """Draw the CPM of each task under each law, sorted by the reference law; operators and computer (Fig. 4)."""
+    """Draw the CPM of each task under each law, sorted by the CPM of the reference law (Fig. 4).
+
+    Args:
+        analysis: Analysis of the experiment.
+        titles: Titles of the panels of the operators and of computer control.
+    """
     table = analysis.table("tasks")
     kinds = [("median_operator", titles[0])] + ([] if analysis.computer is None else [("computer", titles[1])])
     scenarios = [condition.scenario for condition in analysis.conditions]
@@ -121,7 +131,7 @@ def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
 
 
 def draw_cell_means(analysis: Analysis) -> Figure:
-    """Draw the cell means with their intervals, and every subject behind them."""
+    """Draw the mean of each law and group with its interval, and the means of every subject as dots."""
     from scipy import stats
 
     values, names = analysis.cells.values, analysis.cells.groups
@@ -172,18 +182,18 @@ def draw_cell_means(analysis: Analysis) -> Figure:
 def measures_figure(
     values: Sequence[Sequence[FloatArray]], computer: Sequence[FloatArray] | None, scenarios: Sequence[int]
 ) -> Figure:
-    """Draw for CPM and each measure, in each scenario, the range, a histogram, mean, median, and the computer (Figs 5 to 7).
+    """Draw CPM and each measure by scenario: range, histogram, mean, median, and value under computer control (Figs. 5 to 7).
 
     Args:
-        values: For CPM and each measure (13, or 12 without ratings), for each scenario, the operators' values.
-        computer: For CPM and M1 to M11 the computer's value in each scenario; None without one.
-        scenarios: Their numbers.
+        values: Values of the operators for CPM and each measure (13, or 12 without ratings), and for each scenario.
+        computer: Value under computer control in each scenario, for CPM and M1 to M11; None if not available.
+        scenarios: Numbers of the scenarios.
     """
     with style():
         columns = 5
         row_count = -(-len(values) // columns)
         height = 2.2 * row_count + 0.9
-        # Many panels: placed by hand, the automatic layout would take most of the time.
+        # Fixed layout: an automatic layout of this many panels would take most of the time.
         figure = Figure(figsize=(WIDTH_IN, height))
         figure.set_layout_engine("none")
         layout = {"left": 0.05, "right": 0.995, "top": 1 - 0.4 / height, "bottom": 0.8 / height, "wspace": 0.34, "hspace": 0.46}
@@ -197,7 +207,7 @@ def measures_figure(
             _draw_distributions(
                 axes, [factor * scenario_values for scenario_values in values[measure]], computer_values, scenarios
             )
-            # In two lines where need be: panels are narrow, and titles of neighbours must not touch.
+            # Titles are wrapped, because the panels are narrow and neighbouring titles must not touch.
             axes.set_title(fill("CPM" if measure == 0 else label_measure(measure - 1)[0], 22), fontsize=8, pad=4)
         for axes in panels[max(0, len(values) - columns) : len(values)]:
             axes.set_xlabel("scenario")
@@ -206,7 +216,7 @@ def measures_figure(
 
 
 def label_measure(measure: int) -> tuple[str, float]:
-    """Return the name of a measure, from 0, with its display unit, and the factor that converts its values."""
+    """Return the name of a measure (index from 0) with its display unit, and the factor that converts its values."""
     definition = PERFORMANCE_MEASURES[measure]
     if definition.name == "M12":
         return "M12 rating", 1.0
@@ -226,7 +236,7 @@ def _draw_distributions(
     )
     everything = np.concatenate([*finite_values, computer_values[np.isfinite(computer_values)]])
     if not everything.size:
-        axes.annotate("none reached the target", (0.5, 0.5), xycoords="axes fraction", ha="center", color=SOFT)
+        axes.annotate("no trial reached the target", (0.5, 0.5), xycoords="axes fraction", ha="center", color=SOFT)
         return
     lower, upper = float(everything.min()), float(everything.max())
     is_log = lower > 0 and upper > _LOG_SCALE_RATIO * lower
@@ -281,7 +291,7 @@ def _legend_handles(computer: bool) -> list[Line2D | Patch]:
 
 
 def draw_power(analysis: Analysis) -> Figure:
-    """Draw the power over the number of subjects, one panel for each effect."""
+    """Draw the statistical power against the number of subjects, one panel for each effect."""
     table = analysis.table("power_curve")
     effects = list(dict.fromkeys(table["effect"]))
     with style():

@@ -23,7 +23,7 @@ _LOST_COLOR = "#e4e7ea"
 
 @dataclass(frozen=True)
 class Ring:
-    """Workspace of a planar arm: the ring between two circles about a centre, m."""
+    """Ring that is the workspace of a planar arm: centre (x, y), inner radius, and outer radius, m."""
 
     centre: tuple[float, float]
     inner: float
@@ -31,15 +31,16 @@ class Ring:
 
 
 def ring(arm: Arm, q: FloatArray, locked: int | None = None) -> Ring | None:
-    """Return the ring that the tool point of a planar arm can reach, with one joint locked at its angle in ``q`` or with none.
+    """Return the ring that the tool point of a planar arm can reach, healthy or with one joint locked.
 
     Args:
-        arm: The arm.
-        q: (n,) configuration, rad.
+        arm: Arm of the experiment.
+        q: (n,) configuration, rad; the joint is locked at its position in ``q``.
         locked: Index of the locked joint from 0; None for the healthy arm.
 
     Returns:
-        None unless all axes are parallel to z, all joints turn, and none has a limit: only then is it a ring.
+        The ring, or None if the reachable set is not a ring, which requires that all axes are parallel to z and that all
+        joints are revolute and unlimited.
     """
     jacobian = arm.jacobian(q)
     rotation_row = jacobian[5]
@@ -60,12 +61,12 @@ class Motion:
     """Motion of one trial.
 
     Attributes:
-        path: (K, 2) tool points, m.
-        title: A few words.
-        target: (2,) m.
-        radius: Of the target circle, m.
-        whole: What the healthy arm reaches; None if that is not drawn.
-        left: What is left of it; None if nothing is lost.
+        path: (K, 2) tool positions, m.
+        title: Title of the panel.
+        target: (2,) position of the target, m.
+        radius: Radius of the target circle, m.
+        whole: Workspace of the healthy arm; None if it is not drawn.
+        left: Workspace that remains after the failure; None if nothing is lost.
     """
 
     path: FloatArray
@@ -77,9 +78,7 @@ class Motion:
 
 
 def motions_figure(motions: Sequence[Motion]) -> Figure:
-    """Draw trials side by side, coloured from light to dark over time, with the lost part of the workspace grey
-    (Figs 5 to 7).
-    """
+    """Draw motions of trials side by side, darker with time, with the lost part of the workspace in grey (Figs. 5 to 7)."""
     with style():
         columns = min(4, len(motions))
         row_count = -(-len(motions) // columns)

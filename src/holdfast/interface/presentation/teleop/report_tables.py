@@ -1,4 +1,4 @@
-"""Tables of the means and tests of an experiment, for the console and the page."""
+"""Tables of the means and the statistical tests of an experiment, for the console and the page."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def format_p_relation(probability: float) -> str:
 
 
 def make_table(analysis: Analysis, title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> TableSpec:
-    """Make a table, which marks simulated operators; its section of the page shows it."""
+    """Make a table, whose title marks simulated operators; a section of the page contains it."""
     title = f"{title} (simulated operators)" if analysis.is_simulated else title
     return TableSpec(title, [Header(label, label, aligned=False) for label in head], rows, on_page=False)
 
 
 def build_tables(analysis: Analysis) -> list[TableSpec]:
-    """Build the tables of the means, and of the tests."""
+    """Build the tables of the means and of the statistical tests."""
     tables = [_tabulate_means(analysis)]
     if analysis.anova is not None:
         tables.append(_tabulate_anova(analysis, analysis.anova))

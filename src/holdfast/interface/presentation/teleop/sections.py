@@ -36,20 +36,20 @@ def build_sections(
 ) -> list[Section]:
     """Build the sections of the report."""
     return [
-        Section("The failed arm under each law", _build_law_blocks(analysis)),
+        Section("Control laws with the failed arm", _build_law_blocks(analysis)),
         Section("Anticipated, actual and perceived difficulty", _build_difficulty_blocks(analysis)),
-        Section("Task by task: operators and computer", _build_task_blocks(analysis)),
+        Section("Operators and computer control, by task", _build_task_blocks(analysis)),
         Section("Distributions of all measures", _build_distribution_blocks(analysis)),
         *(Section(f"Task {task}", build_example_blocks(analysis, task, protocol, paths)) for task in shown_tasks),
-        Section("The healthy arm: what tolerance costs before a failure", _build_healthy_blocks(analysis)),
-        Section("How many subjects would have been enough", _build_power_blocks(analysis)),
-        Section("What is missing", _build_missing_trial_blocks(analysis)),
+        Section("Control laws with the healthy arm", _build_healthy_blocks(analysis)),
+        Section("Sufficient number of subjects", _build_power_blocks(analysis)),
+        Section("Missing data", _build_missing_trial_blocks(analysis)),
         Section("Normalisers of CPM", [build_table_block(_tabulate_normalisers(analysis).texts())]),
     ]
 
 
 def draw_figure(analysis: Analysis, name: str) -> Figure:
-    """Draw a figure that depends on the analysis alone."""
+    """Draw a figure, by name, that depends only on the analysis."""
     if name == "cells":
         return drawing.draw_cell_means(analysis)
     if name == "difficulty":
@@ -70,7 +70,7 @@ def _build_law_blocks(analysis: Analysis) -> list[Block]:
     """Build the comparison of the laws with the failed arm: means, tests, and every measure."""
     grouping = "computer" if analysis.groups.by == "computer" else "median operator"
     caption = (
-        f"Mean CPM of each subject (dots), over subjects (large) with {100 * analysis.confidence:g} % intervals; "
+        f"Mean CPM of each subject (dots), and mean over subjects (large) with {100 * analysis.confidence:g} % intervals; "
         f"{analysis.subject_phrase}, tasks grouped by the {grouping}'s CPM."
     )
     blocks: list[Block] = [_draw_with_caption(analysis, "cells", caption)]
@@ -107,7 +107,7 @@ def _tabulate_measures(analysis: Analysis, name: str, title: str) -> TableSpec:
     laws = ["first", "second"] if names_laws else [str(table[column].iloc[0]) for column in ("first", "second")]
     head = ["measure", *["laws"] * names_laws, *laws, "first − second", "p Holm", "dz", "p Wilcoxon"]
     title += (
-        f": subjects' means over the tasks they completed under both, {int(table['trials'].iloc[0]):,} pairs of trials; "
+        f": mean of each subject over the tasks completed under both laws, {int(table['trials'].iloc[0]):,} pairs of trials; "
         f"smaller is better"
     )
     return make_table(analysis, title, head, rows)
@@ -126,7 +126,7 @@ def _build_healthy_blocks(analysis: Analysis) -> list[Block]:
             blocks.append(
                 Text(
                     f"With the healthy arm, tasks take {format_percent(abs(change))} {comparison} under {record['second']} "
-                    f"than under {record['first']} ({format_number(record['second_mean'])} against "
+                    f"than under {record['first']} ({format_number(record['second_mean'])} instead of "
                     f"{format_number(record['first_mean'])} cycles)."
                 )
             )
@@ -170,8 +170,8 @@ def _build_difficulty_blocks(analysis: Analysis) -> list[Block]:
 def _build_task_blocks(analysis: Analysis) -> list[Block]:
     caption = (
         f"CPM of each task with the failed arm ({len(analysis.observed.tasks)} tasks). The median operator of a task is the "
-        f"one whose CPM under the reference law is nearest to the median of all. Coloured stems: another law than the "
-        f"reference is better."
+        f"operator whose CPM under the reference law is nearest to the median of all. Coloured stems: the other law is better "
+        f"than the reference."
     )
     blocks: list[Block] = [_draw_with_caption(analysis, "tasks", caption)]
     if "gains" in analysis.tables:
@@ -184,8 +184,9 @@ def _build_task_blocks(analysis: Analysis) -> list[Block]:
             ]
             for _, record in analysis.table("gains").iterrows()
         ]
-        head = ("tasks", "law", "operators gain", "computer gains", "same direction")
-        title = f"Gain and loss against {analysis.conditions[0].law}: a CPM ratio below 1 is a gain. Tasks that both completed"
+        head = ("tasks", "law", "gain, operators", "gain, computer", "same direction")
+        law = analysis.conditions[0].law
+        title = f"Tasks with a gain relative to {law} (CPM ratio below 1), of the tasks completed under both laws"
         table = make_table(analysis, title, (*head, "median ratio, operators", "median ratio, computer"), rows)
         blocks.append(build_table_block(table.texts()))
         for correlation in analysis.correlations:
@@ -214,9 +215,9 @@ def _draw_measures(analysis: Analysis) -> Figure:
 def _build_distribution_blocks(analysis: Analysis) -> list[Block]:
     observed = analysis.observed
     caption = (
-        f"CPM and all measures over {observed.cpm.size:,} trials in {len(observed.tasks)} tasks, without those that did not "
-        f"reach the target. Scenarios: {'; '.join(condition.label for condition in observed.conditions)}. Circles: the "
-        "computer's median over tasks. CPM of operators and computer have different normalisers unless the notes say otherwise."
+        f"CPM and all measures over {observed.cpm.size:,} trials in {len(observed.tasks)} tasks, without trials that did not "
+        f"reach the target. Scenarios: {'; '.join(condition.label for condition in observed.conditions)}. Circles: median over "
+        "tasks under computer control. Unless the notes state otherwise, operators and computer have different CPM normalisers."
     )
     return [_draw_with_caption(analysis, "measures", caption)]
 
@@ -236,16 +237,16 @@ def _build_power_blocks(analysis: Analysis) -> list[Block]:
     head = ("test", "kind", "p below", "observed effect", "lower end", "subjects", "subjects for the lower end")
     title = (
         f"Smallest number of subjects with a power of {analysis.power:g}. Observed here: {analysis.subject_phrase}. "
-        "t-tests by the noncentral t distribution, at the p that Holm's correction asks of the first; F by the noncentral F "
-        "distribution with the epsilon of Greenhouse and Geisser. Assumed: normal differences, and an effect as large as the "
-        f"one observed, or as the lower end of its {100 * analysis.confidence:g} % interval; plan with that"
+        "t-tests: noncentral t distribution, at the p that Holm's correction requires of the smallest one. F tests: noncentral "
+        "F distribution with the epsilon of Greenhouse and Geisser. Assumptions: normal differences, and an effect as large as "
+        f"observed, or as large as the lower end of its {100 * analysis.confidence:g} % interval, which should be used to plan"
     )
     blocks: list[Block] = [build_table_block(make_table(analysis, title, head, rows).texts())]
     if "power_curve" in analysis.tables:
         caption = (
-            f"Lines: noncentral F. Circles: of 2000 random subsets of the {analysis.subject_phrase}, drawn without "
-            f"replacement, the fraction in which the effect has p < {analysis.limit:g}; near all of them the subsets hardly "
-            f"differ."
+            f"Lines: noncentral F distribution. Circles: fraction of 2000 random subsets of the {analysis.subject_phrase}, "
+            f"sampled without replacement, in which the effect has p < {analysis.limit:g}. Subsets with nearly all subjects "
+            f"hardly differ."
         )
         blocks.append(_draw_with_caption(analysis, "power", caption))
     return blocks
@@ -268,7 +269,7 @@ def _build_missing_trial_blocks(analysis: Analysis) -> list[Block]:
         count = missing_trials[grouping].value_counts()
         texts = ", ".join(f"{name} ({trial_count})" for name, trial_count in count.head(_MAX_LISTED).items())
         remainder = "" if len(count) <= _MAX_LISTED else f" and {len(count) - _MAX_LISTED} more"
-        text = f"Trials without a CPM by {grouping}: {texts}{remainder}. Every one is in missing.csv."
+        text = f"Trials without a CPM by {grouping}: {texts}{remainder}. All of them are listed in missing.csv."
         blocks.append(Text(text, quiet=True))
     return blocks
 
@@ -283,4 +284,4 @@ def _tabulate_normalisers(analysis: Analysis) -> TableSpec:
         ]
         for _, record in table.iterrows()
     ]
-    return make_table(analysis, "Largest values, by which CPM divides", ("measure", *sources, "unit"), rows)
+    return make_table(analysis, "Largest values, by which the measures in CPM are divided", ("measure", *sources, "unit"), rows)

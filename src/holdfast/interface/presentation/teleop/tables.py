@@ -17,28 +17,28 @@ if TYPE_CHECKING:
     from holdfast.teleop.analysis.result import Analysis
 
 TABLE_DESCRIPTIONS = {
-    "trials": "one row for each trial that there should be (long format)",
-    "computer": "the same of the computer operator",
+    "trials": "one row for each planned trial (long format)",
+    "computer": "one row for each trial under computer control (long format)",
     "cells": "mean CPM of each subject, law and group of tasks, with the failed arm (long format: R)",
-    "cells_wide": "the same, a row for each subject (wide format: repeated measures ANOVA in JASP)",
-    "means": "cell means over subjects",
+    "cells_wide": "the means of cells.csv, one row for each subject (wide format: repeated measures ANOVA in JASP)",
+    "means": "means over subjects of each law and group of tasks",
     "anova": "within-subjects ANOVA, law x difficulty",
-    "anova_other_groups": "the same with tasks grouped by the other difficulty (computer's in place of "
-    "operators', or the reverse)",
+    "anova_other_groups": "within-subjects ANOVA with tasks grouped by the other difficulty (of the computer instead of the "
+    "operators, or the reverse)",
     "mixed": "linear mixed model: Wald tests",
     "comparisons": "paired comparisons of the laws within each group of tasks",
     "correlations": "correlations over tasks",
     "tasks": "one row for each task, from the easiest",
     "measures": "distributions of CPM and each measure in each scenario",
     "failed": "the laws with the failed arm, measure by measure",
-    "healthy": "the laws with the healthy arm, measure by measure: what tolerance costs before a failure",
-    "ends": "how the trials of each scenario ended",
+    "healthy": "the laws with the healthy arm, measure by measure: the cost of failure tolerance before a failure",
+    "ends": "outcomes of the trials of each scenario",
     "missing": "every trial without a CPM",
-    "normalisers": "largest measures, by which CPM divides",
-    "gains": "tasks in which another law than the reference did better: operators against computer",
-    "power": "how many subjects would have been enough",
-    "power_curve": "power of each effect of the ANOVA over the number of subjects",
-    "data_dictionary": "this list",
+    "normalisers": "largest value of each measure, by which it is divided in CPM",
+    "gains": "tasks in which another law performed better than the reference, for operators and computer",
+    "power": "sufficient number of subjects",
+    "power_curve": "power of each effect of the ANOVA against the number of subjects",
+    "data_dictionary": "this table",
 }
 
 _COLUMN_MEANINGS = (
@@ -55,15 +55,15 @@ _COLUMN_MEANINGS = (
         "",
     ),
     ("cpm", "combined performance measure; smaller is better", "1"),
-    ("tasks|trials|subjects|n", "how many", ""),
+    ("tasks|trials|subjects|n", "number of these", ""),
     (
         "mean|sd|se|lowest|quarter|median|three_quarters|highest",
         "mean, standard deviation and error, and quartiles",
         "as measured",
     ),
     ("first_mean|second_mean", "mean over subjects under each of the two laws", "as measured"),
-    ("effect|test|kind|about|measure|unit", "what the row is about", ""),
-    ("F|df|df_error|p", "F, degrees of freedom, and p with sphericity assumed; of a paired t-test its df and p", "1"),
+    ("effect|test|kind|about|measure|unit", "subject of the row", ""),
+    ("F|df|df_error|p", "F, degrees of freedom, and p with sphericity assumed; for a paired t-test its df and p", "1"),
     ("gg|p_gg|hf|p_hf", "epsilon of Greenhouse and Geisser, of Huynh and Feldt, and p corrected by them", "1"),
     ("partial_eta2|generalised_eta2", "partial and generalised eta squared", "1"),
     ("ss|ss_error", "sums of squares of the effect and of its error", "1"),
@@ -83,13 +83,13 @@ _COLUMN_MEANINGS = (
     ),
     (
         "anticipated|actual|perceived",
-        "the computer's CPM, the operators' median CPM, their median rating, in the reference scenario",
+        "CPM of the computer, median CPM of the operators, and their median rating, in the reference scenario",
         "1",
     ),
     ("median_operator", "subject whose CPM of the reference scenario is nearest to the median", ""),
     (
         r"(median_operator_|computer_)?cpm_\d+",
-        "CPM in that scenario: the operators' median, of the median operator, of the computer",
+        "CPM in that scenario: median of the operators, of the median operator, or of the computer",
         "1",
     ),
     (r"reached_\d+", "operators who reached the target in that scenario", ""),
@@ -100,26 +100,26 @@ _COLUMN_MEANINGS = (
     ("operators|computer", "largest measure", "as measured"),
     (
         "operators_gain|computer_gains|same_direction",
-        "tasks in which the law did better than the other; in which both say the same",
+        "tasks in which the law performed better than the other; tasks in which operators and computer agree",
         "",
     ),
     ("operators_median_ratio|computer_median_ratio", "median of CPM under the law divided by CPM under the other", "1"),
-    ("p_below|observed|least", "p asked for; the effect observed, and the lower end of its interval", "1"),
-    ("sufficient|sufficient_for_least", "subjects with whom the power asked for is reached; none: more than 10,000", ""),
+    ("p_below|observed|least", "required p; the observed effect, and the lower end of its interval", "1"),
+    ("sufficient|sufficient_for_least", "number of subjects that reaches the required power; NA if above 10,000", ""),
     (
         "power|power_for_least",
-        "power with so many subjects, for the effect observed and for the lower end of its interval",
+        "power with this number of subjects, for the observed effect and for the lower end of its interval",
         "1",
     ),
-    ("fraction_of_subsets", "fraction of random subsets of so many subjects with a significant effect", "1"),
+    ("fraction_of_subsets", "fraction of random subsets of this number of subjects with a significant effect", "1"),
     *((m.name, m.about, m.unit) for m in PERFORMANCE_MEASURES),
-    ("table|column|meaning", "of this list", ""),
-    (r"[a-z0-9_]+", "cell mean of the law and group of tasks in its name", "1"),
+    ("table|column|meaning", "table, column, and meaning of the column", ""),
+    (r"[a-z0-9_]+", "mean of the law and group of tasks in the name of the column", "1"),
 )
 
 
 def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
-    """Write every table, and the dictionary; a missing number is NA, and the decimal separator is a point.
+    """Write every table and the data dictionary as CSV; a missing number is NA, and the decimal separator is a point.
 
     Raises:
         StoreError: The folder or a file cannot be written.

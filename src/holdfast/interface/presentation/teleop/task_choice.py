@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(choice: TaskChoice) -> dict[str, Any]:
-    """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario."""
+    """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario, as JSON data."""
     data = {
         **choice.arm.entry(),
         "tasks": len(choice.bank),
@@ -64,18 +64,18 @@ def present(choice: TaskChoice) -> Presentation:
     bank, completed = choice.bank, choice.bank.is_completed()
     cell_count = (len(choice.cells.difficulty) - 1) * (len(choice.cells.ratio) - 1)
     lines = [
-        "The level of CPM is set by the most extreme trial, so compare ratios.",
-        f"{len(choice.cells.occupied_cells)} of {cell_count} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
+        "The scale of CPM depends on the most extreme trial, so compare only ratios.",
+        f"{len(choice.cells.occupied_cells)} of {cell_count} cells of CPM3 and CPM4/CPM3 contain a task. Chosen, by CPM3: "
         f"{' '.join(str(task + 1) for task in choice.chosen)}.",
     ]
     if choice.disorienting is not None:
         trapped = (
-            "No task of the bank draws the failed arm under the pseudoinverse to a stationary point and can yet be steered; "
-            "another seed may have one, and the protocol goel2003 has one by construction."
+            "In no task of the bank does the failed arm converge to a stationary point under the pseudoinverse although the "
+            "target can be reached by steering; another seed may have such a task, and the protocol goel2003 contains one."
             if choice.trapped is None
-            else f"Drawn to a stationary point, and yet can be steered: {choice.trapped + 1}."
+            else f"Task that converges to a stationary point but can be completed by steering: {choice.trapped + 1}."
         )
-        lines += [f"Most disorienting of the others: {choice.disorienting + 1}.", trapped]
+        lines += [f"Most disorienting of the other tasks: {choice.disorienting + 1}.", trapped]
     columns = [
         Header("scenario", "scenario"),
         Header("label", ""),
@@ -93,11 +93,11 @@ def present(choice: TaskChoice) -> Presentation:
     rows = [[summary[column.key] for column in columns] for summary in summaries]
     return Presentation(
         f"Tasks chosen from a bank for {choice.arm.name}",
-        f"With the failed arm the failure-tolerant inverse is better (CPM4/CPM3 below 1) in "
+        f"With the failed arm, the failure-tolerant inverse is better (CPM4/CPM3 below 1) in "
         f"{format_percent(float((bank.ratio[completed] < 1).mean()))} of the tasks.",
-        about=f"Arm {choice.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers",
+        about=f"Arm {choice.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios under computer control",
         lines=lines,
-        tables=[TableSpec("Medians over the tasks that are completed", columns, rows)],
+        tables=[TableSpec("Medians over the completed tasks", columns, rows)],
         figures={"bank": FigureSpec(partial(_draw_bank, choice), "The bank and the chosen tasks")},
         arm=choice.arm,
     )
@@ -113,9 +113,9 @@ def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
     """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
 
     Args:
-        choice: What was chosen.
-        folder: Made if it is not there.
-        spec: What the protocol names the arm by: a built-in name or a file.
+        choice: Chosen tasks.
+        folder: Folder to write; it is created if it does not exist.
+        spec: Arm as named in the protocol: a built-in name or a file.
     """
     from holdfast.interface.report.figures import save_png
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
-    """Return the size of the workspace, its limits, and the losses by the locks of each joint."""
+    """Return the size of the workspace, the joint limits, and the loss by the locks of each joint, as JSON data."""
     names, unit = region.arm.joint_names, region.unit.replace("^", "")
     return {
         **region.arm.entry(),
@@ -38,56 +38,60 @@ def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
 
 
 def present(region: TolerantWorkspace) -> Presentation:
-    """Present the workspace that remains after any lock, and the lock that costs most."""
+    """Present the workspace that remains reachable after any single lock, and the joint whose locks lose most."""
     unit, losses = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
     worst_joint, is_kept = int(losses.argmax()), bool(region.inside.any())
     facts = [
-        Fact("size of the region", region.size, unit, phrase="is kept wherever a joint locks" * is_kept),
-        Fact("healthy workspace", region.healthy_size, unit, phrase="is the workspace of the healthy arm" * is_kept),
+        Fact("failure-tolerant workspace", region.size, unit, phrase="stay reachable wherever a joint locks" * is_kept),
+        Fact("healthy workspace", region.healthy_size, unit, phrase="workspace of the healthy arm" * is_kept),
     ]
     if is_kept:
-        facts.insert(0, Fact("", region.share, phrase="of the workspace is kept wherever a joint locks", style="percent"))
+        facts.insert(
+            0, Fact("", region.share, phrase="of the workspace stays reachable wherever a joint locks", style="percent")
+        )
     sampling_text = f"{len(region.points):,} points, {region.angles} locked values per joint"
-    facts.append(Fact("region", "in closed form for each radius" if region.exact else sampling_text))
+    facts.append(Fact("computation", "in closed form for each radius" if region.exact else sampling_text))
     if not region.exact:
-        label = f"interval of the size, {100 * region.confidence:.4g} %"
+        label = f"{100 * region.confidence:.4g} % interval of the size"
         facts.append(Fact(label, tuple(map(float, region.size_interval)), unit))
     if losses[worst_joint] and region.within.any():
-        phrase = f"of the points within the artificial limits are lost to locks of {region.arm.joint_names[worst_joint]}"
+        phrase = (
+            f"of the points reached within the artificial limits are lost by locks of {region.arm.joint_names[worst_joint]}"
+        )
         facts.append(Fact("", losses[worst_joint], phrase=phrase, style="percent"))
     caption = (
-        "Points that the healthy arm reaches, those within the artificial limits, and those that are kept wherever any joint "
-        "locks; right: the sizes, with what is left after the locks of each joint alone."
+        "Points that the healthy arm reaches, points that it reaches within the artificial limits, and points that stay "
+        "reachable wherever a joint locks. Right: their sizes, and the size that remains after the locks of each joint alone."
     )
     columns = [
         Header("joint", "joint"),
         Header("limits", "artificial limits"),
-        Header("lost", "points lost by its lock", style="percent"),
+        Header("lost", "points lost by its locks", style="percent"),
     ]
     joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
     return Presentation(
-        f"What {region.arm.name} reaches before and after any lock",
+        f"Failure-tolerant workspace of {region.arm.name}",
         _compose_answer(region),
         about=f"Arm {region.arm.title}, task {region.task.describe()}, limits {'optimised' if region.optimised else 'given'}",
         lines=[]
         if region.exact
-        else ["Values between the tried ones, and configurations that were not found, are not in the interval."],
+        else ["The interval does not account for lock values between the tested ones, nor for configurations not found."],
         facts=facts,
         tables=[
             TableSpec(
-                "Limits of the joints, and what their locks lose",
+                "Artificial joint limits, and points lost by the locks of each joint",
                 columns,
                 [(joint.name, format_ranges([limits], joint), loss) for joint, limits, loss in joint_rows],
             )
         ],
-        figures={"region": FigureSpec(partial(_draw_figure, region), "Where it is, and what each lock leaves", caption)},
+        figures={"region": FigureSpec(partial(_draw_figure, region), "Region, and remaining size after each lock", caption)},
         method=[
             (
-                "Kept",
-                "a point that the arm reaches within the artificial limits, and still reaches wherever in them any one joint "
-                "locks",
+                "Failure-tolerant",
+                "a point that the arm reaches within the artificial limits, and still reaches after a lock of any one joint at "
+                "any position within its limits",
             ),
-            ("Limits", "optimised for the largest region" if region.optimised else "given, or the arm's own"),
+            ("Limits", "optimised for the largest region" if region.optimised else "given, or those of the arm"),
         ],
         arm=region.arm,
     )
@@ -96,23 +100,23 @@ def present(region: TolerantWorkspace) -> Presentation:
 def _compose_answer(region: TolerantWorkspace) -> str:
     unit, losses = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
     worst_joint, names = int(losses.argmax()), region.arm.joint_names
-    limits = "Under the limits that were found" if region.optimised else "Under the artificial limits"
+    limits = "With the optimised joint limits" if region.optimised else "With the artificial joint limits"
     if not region.healthy_size:
-        return "The healthy arm reaches none of the points that were tried, so there is nothing to compare."
+        return "The healthy arm reaches none of the sampled points."
     if not region.within.any():
         return (
-            f"{limits} the arm reaches no point even before a joint locks, of "
-            f"{format_number(region.healthy_size, 4)} {unit} within its own."
+            f"{limits} the arm reaches no point even before a joint locks; with its own limits it reaches "
+            f"{format_number(region.healthy_size, 4)} {unit}."
         )
     if not region.inside.any():
-        loss_text = f"the locks of {names[worst_joint]} alone lose {format_percent(losses[worst_joint])} of the points"
-        return f"{limits} no point is kept through every lock: {loss_text}."
+        loss_text = f"locks of {names[worst_joint]} alone lose {format_percent(losses[worst_joint])} of the points"
+        return f"{limits} no point found stays reachable after every lock; {loss_text}."
     answer = (
-        f"{limits} the arm keeps {format_number(region.size, 4)} {unit} of {format_number(region.healthy_size, 4)} {unit}, "
-        f"{format_percent(region.share)} of its workspace, wherever any single joint locks"
+        f"{limits}, {format_number(region.size, 4)} {unit} of {format_number(region.healthy_size, 4)} {unit}, "
+        f"{format_percent(region.share)} of the workspace, stay reachable wherever any single joint locks"
     )
     if losses[worst_joint]:
-        answer += f"; the locks of {names[worst_joint]} take most, {format_percent(losses[worst_joint])} of the points"
+        answer += f"; locks of {names[worst_joint]} lose most, {format_percent(losses[worst_joint])} of the points"
     return f"{answer}."
 
 

@@ -1,5 +1,5 @@
-// What every page has beyond reading: the theme, tables that are sorted, a mark in the contents, copies of commands; and the
-// extras, which files beside this one add.
+// Interactive functions of every report: theme, sortable tables, current entry in the table of contents, copy buttons, and the
+// extras, which other scripts add.
 "use strict";
 const extras = {};
 
@@ -11,7 +11,7 @@ function element(name, text, className) {
   return made;
 }
 
-// A button that copies what text() says; where the browser refuses, the text is selected instead.
+// A button that copies text(); if the browser refuses, the text is selected instead.
 function copier(text, shown) {
   const button = element("button", "Copy", "copy");
   button.addEventListener("click", function () {
@@ -23,7 +23,7 @@ function copier(text, shown) {
   return button;
 }
 
-// What a cell is sorted by: a number if it begins with one, else its text; null where there is nothing.
+// Sort key of a cell: its leading number, or else its text; null for an empty cell.
 function sortKey(text) {
   const plain = text.trim().replace(/\u2212/g, "-").replace(/[\u00a0\u202f]/g, " ");
   if (plain === "" || plain === "\u2013") { return null; }
@@ -45,7 +45,7 @@ function firstLine(cell) {
   return nodes.slice(0, end < 0 ? nodes.length : end).map(function (node) { return node.textContent; }).join("");
 }
 
-// Rows in the order of a column; what holds nothing comes last, either way.
+// Rows in the order of a column; empty cells come last in both directions.
 function sortedRows(rows, column, direction) {
   const keyed = rows.map(function (row) { return { row: row, key: sortKey(firstLine(row.cells[column])) }; });
   return keyed.sort(function (a, b) {
@@ -97,7 +97,7 @@ function makeSortable(table) {
     say();
   }
 
-  // A region that shows all it has needs no stop of the keyboard.
+  // A region that does not scroll is removed from the tab order.
   function stops() {
     const seen = new ResizeObserver(function (changed) {
       changed.forEach(function (entry) {
@@ -136,7 +136,7 @@ function makeSortable(table) {
     document.querySelectorAll("table.sortable").forEach(makeSortable);
     document.querySelectorAll("pre").forEach(function (pre) {
       const text = pre.textContent, shown = element("span");
-      text.split(/(--[a-z][a-z-]*)/).forEach(function (part, k) { // a browser breaks lines behind a hyphen
+      text.split(/(--[a-z][a-z-]*)/).forEach(function (part, k) { // browsers break lines after hyphens
         shown.append(k % 2 ? element("span", part, "option") : part);
       });
       pre.replaceChildren(copier(function () { return text; }, shown), shown);

@@ -1,5 +1,5 @@
-// Poses that can be pointed at in the figure above: index, worst joint, configuration, and the command that opens it in the
-// studio. A click pins one; the slider goes through all of them, from the worst to the best.
+// Poses that can be selected in the figure above: index, worst joint, configuration, and the command that opens it in the
+// studio. A click pins a pose; the slider selects any pose, from the worst to the best.
 extras.poses = function (box, data) {
   const figure = box.previousElementSibling.querySelector("svg"), slider = box.querySelector("input");
   const bytes = Uint8Array.from(atob(data.rows), function (c) { return c.charCodeAt(0); });

@@ -1,5 +1,5 @@
-// A threshold on a distribution: its line in the figure above, the probability of meeting it, and what prevents that.
-// Every number was written when the report was made; nothing is computed here.
+// A threshold on a distribution: its line in the figure above, the probability of meeting it, and the failures that prevent it.
+// All numbers were computed when the report was written; this script computes nothing.
 extras.threshold = function (box, data) {
   const slider = box.querySelector("input"), figure = box.previousElementSibling.querySelector("svg");
   const lines = data.frames.map(function () {

@@ -1,1 +1,1 @@
-"""The sections of the report of an assessment, one file each; their order is in ``page``."""
+"""Sections of the report of an assessment, one module each; ``page`` contains their order."""

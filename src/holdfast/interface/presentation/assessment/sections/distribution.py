@@ -10,7 +10,7 @@ from holdfast.interface.report.page import Block, Picture, Text
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
-    """Build the figure of the density and the cumulative distribution, and a threshold to move."""
+    """Build the figure of the density and the cumulative distribution, and the threshold slider."""
     d = facts.distribution
     if not facts.has_finite_values:
         return (
@@ -30,16 +30,16 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         log=facts.is_logarithmic,
     )
     formula = "1 − F" if facts.larger_is_better else "F"
-    text = f"The probability of meeting a threshold is {formula} there"
+    text = f"The probability of meeting a threshold is {formula} at the threshold"
     text += (
         f": {format_interval(facts.probability)} at {format_as_given(facts.threshold)}{facts.unit_suffix}."
         if facts.has_threshold
         else "."
     )
     if d.unreached:
-        text += f" The dashed curve leaves out the {format_count(d.unreached, 'pose')} for which no configuration was found."
+        text += f" The dashed curve excludes the {format_count(d.unreached, 'pose')} for which no configuration was found."
     population = "the reached poses" if d.unreached else f"all {facts.noun}s"
     total = f"the {format_percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
-    text += f" The density is a histogram of {len(facts.histogram.heights)} bins over {population} and adds up to {total}."
+    text += f" The density is a histogram of {len(facts.histogram.heights)} bins over {population}; its area is {total}."
     picture = Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)
     return [picture, *thresholds.blocks(facts, figure)]

@@ -1,4 +1,4 @@
-"""Gain from choosing configurations: the distribution before and after, and each pose."""
+"""Gain from choosing the best configurations: distributions before and after optimisation, and the gain of each pose."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         return []
     blocks: list[Block] = [
         Text(
-            f"After: for each pose the best configuration found that keeps the pose{_describe_constraints(facts)}. "
-            "Found by a local search from several starts: a lower bound of what is possible."
+            f"After: the best configuration found of each pose, subject to the pose{_describe_constraints(facts)}. "
+            "A local search from several starts found it, so its index is a lower bound on the best possible value."
         ),
     ]
     if facts.has_finite_values:
         figure = draw_gain(facts, optimised)
         blocks.append(
             Picture(
-                figures.svg(figure, "gain", "Distribution of the index before and after choosing configurations"),
-                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses in "
-                "the order of the index before; what a pose gains is the height of its dot above the line."
+                figures.svg(figure, "gain", "Distribution of the index before and after choosing the best configurations"),
+                f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses, "
+                "sorted by the index before. The gain of a pose is the height of its dot above the line."
                 + _describe_blocked_poses(facts),
             )
         )
@@ -44,19 +44,20 @@ def _describe_constraints(facts: AssessmentFacts) -> str:
     """Describe the constraints of the best configurations in addition to the pose."""
     clearance, margin = facts.assessment.plan.clearance, facts.assessment.plan.margin
     if clearance is None:
-        return " and the joint limits, even where the arm collides with itself"
-    clearance_text = f"a clearance of {margin:g} m" if margin else f"the arm clear of {facts.avoided_objects}"
+        return " and the joint limits; self-collision is not checked"
+    obstacles = f"no collision of the arm with {facts.avoided_objects}"
+    clearance_text = f"a clearance of at least {margin:g} m" if margin else obstacles
     return f", the joint limits and {clearance_text} ({clearance.capsules.describe(facts.assessment.arm)})"
 
 
 def _describe_blocked_poses(facts: AssessmentFacts) -> str:
     blocked = facts.assessment.collisions.hopeless if facts.assessment.collisions is not None else 0
-    obstacles = "the arm itself" if facts.collision_objects == "itself" else facts.avoided_objects
-    return f" {format_count(blocked, 'pose')} without a configuration clear of {obstacles} have no dot." if blocked else ""
+    reason = "no dot because no configuration with the required clearance was found"
+    return f" {format_count(blocked, 'pose')} {'has' if blocked == 1 else 'have'} {reason}." if blocked else ""
 
 
 def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
-    """Draw the two cumulative distributions (left) and both values of each pose, sorted by the first (right; Figs. 6 and 7)."""
+    """Draw the cumulative distributions before and after (left), and both values of each pose (right; Figs. 6 and 7)."""
     curves = build_gain_curves(facts, best)
     axis_values = curves[0].x
     with figures.style():
@@ -92,7 +93,7 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
 
 
 def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]:
-    """Return the distributions after and before choosing configurations over one axis, each with its 95 % band."""
+    """Return the distributions after and before optimisation over one axis, each with its 95 % band."""
     extremes = [
         value
         for distribution in (facts.distribution, best)
@@ -102,8 +103,8 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
     lower = min(0.0, *extremes) if not facts.is_logarithmic else min(extremes)
     axis_values = (np.geomspace if facts.is_logarithmic else np.linspace)(lower, max(extremes) * 1.02, 400)
     samples = (
-        (best, "after: the best configurations", False),
-        (facts.distribution, "before: as inverse kinematics found them", True),
+        (best, "after: best configurations", False),
+        (facts.distribution, "before: found by inverse kinematics", True),
     )
     return [
         Curve(

@@ -1,4 +1,4 @@
-"""Worst poses of a region, and maps of its regions of low tolerance."""
+"""Worst poses of a region, and maps of the average index."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     if poses is None and not facts.distribution.reached:
         return []
     if poses is None:
-        return [Text(f"The {facts.noun}s of this run were not kept (keep=False), so the report cannot list or map them.")]
+        return [Text(f"The {facts.noun}s of this run were not stored (keep=False), so the report cannot list or map them.")]
     if not poses.reached.any():
         return []
     if facts.is_worst_everywhere:
-        return [Text(f"Every {facts.noun} reached is equally bad, so there is nothing to list or map.")]
+        return [Text(f"Every {facts.noun} reached has the same, worst index, so none are listed or mapped.")]
     reached_samples = [
         (name, distribution, sampled)
         for name, distribution, sampled in facts.samples
@@ -60,16 +60,16 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         weights=poses.weight,
     )
     text = (
-        f"{average} index of the {facts.reached_noun} in each cell, over the whole depth of the region, and below it how many "
-        f"{'poses were reached of how many drawn' if facts.distribution.unreached else f'{facts.noun}s there are'}; "
-        f"{len(poses.value):,} in all."
+        f"{average} index of the {facts.reached_noun} in each cell, over the whole depth of the region, with the number of "
+        f"{'reached and of sampled poses' if facts.distribution.unreached else f'{facts.noun}s'} below, out of "
+        f"{len(poses.value):,}."
     )
     if len(index_values) > 1:
-        text += " Above at the configurations found, below at the best ones, in the same colours."
+        text += " Upper row: at the configurations found; lower row: at the best ones, on the same colour scale."
     if facts.assessment.region.kind == "joints":
-        text += " Positions are those of the tool."
+        text += " Positions are tool positions."
     if facts.distribution.has_weights:
-        text += f" Within a cell {facts.noun}s count by weight; cells without weight are grey."
+        text += f" Within a cell the {facts.noun}s are weighted; cells without weight are grey."
     return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
 
 
@@ -80,13 +80,13 @@ def _find_worst_poses(facts: AssessmentFacts, poses: EvaluatedPoses) -> NDArray[
 
 
 def _build_worst_commands(facts: AssessmentFacts, poses: EvaluatedPoses) -> list[Block]:
-    """Build the commands that search the best configuration of each of the worst poses."""
+    """Build the commands that search for the best configuration of each of the worst poses."""
     if facts.assessment.region.kind == "joints":
         return []
     matrices = np.tile(np.eye(4), (len(chosen := _find_worst_poses(facts, poses)), 1, 1))
     matrices[:, :3, 3], matrices[:, :3, :3] = poses.position[chosen], poses.rotation[chosen]
     commands = "\n".join(build_pose_command(facts.assessment.arm, matrix) for matrix in matrices)
-    return [Code(commands, "The same poses, in the same order, as commands:")]
+    return [Code(commands, "Commands that search for the best configuration of these poses, in the same order:")]
 
 
 def _tabulate_worst_poses(facts: AssessmentFacts, distribution: Distribution, poses: EvaluatedPoses, sample_name: str) -> Table:
@@ -105,14 +105,12 @@ def _tabulate_worst_poses(facts: AssessmentFacts, distribution: Distribution, po
     suffix = f", {sample_name}" if facts.assessment.optimised is not None else ""
     caption = f"The {len(chosen)} worst of {len(reached):,} {facts.reached_noun}{suffix}; R = Rz(yaw) Ry(pitch) Rx(roll)."
     if distribution.unreached:
-        caption += f" The {format_count(distribution.unreached, 'pose')} without one count as worse still and are not listed."
+        caption += f" The {format_count(distribution.unreached, 'pose')} without a configuration are worse, and not listed."
     return Table(cells, header, frozenset(range(8)), caption=caption, wide=True)
 
 
 def _choose_rpy_angles(rotations: FloatArray, region: Region) -> FloatArray:
-    """Return roll, pitch, yaw of rotations; of the two equivalent triples and their full turns the one nearest to the region
-    centre.
-    """
+    """Return roll, pitch, yaw of rotations, rad; among the equivalent triples, the one nearest to the centre of the region."""
     first = zyx_angles(rotations)
     center = np.array(region.center[3:]) if region.kind == "box" else np.zeros(3)
     equivalent = np.stack([first[:, 0] + np.pi, np.pi - first[:, 1], first[:, 2] + np.pi], axis=1)

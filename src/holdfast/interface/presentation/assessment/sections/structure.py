@@ -1,4 +1,4 @@
-"""Every task and the joints whose lock makes it impossible."""
+"""Table of all tasks with the joints that are single points of failure."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from holdfast.interface.report.page import Block, Table, Text
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
-    """Build the table of every task and the joints whose lock makes it impossible."""
+    """Build the table of all tasks with the joints whose lock makes the task singular in every configuration."""
     run_structure, all_structures = facts.task_structures
     joint_names = facts.assessment.arm.joint_names
     table_rows: list[list[str | Markup]] = []
@@ -36,9 +36,9 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             if structure.redundancy <= 0
             else "single point of failure"
             if structure.fatal
-            else "all but one"
+            else "nearly one"
             if structure.nearly
-            else "nearly"
+            else "weak joint"
             if structure.weak
             else "none"
         )
@@ -47,10 +47,10 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     joints = "; ".join(f"{joint + 1} {name}" for joint, name in enumerate(joint_names))
     return [
         Text(
-            "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps. "
-            "A number is the largest relative manipulability found after the lock, where that is next to nothing. A percentage "
-            "is the largest manipulability found after the lock, compared with the largest one of the healthy arm."
+            "A joint is fatal if its lock makes the task singular in every configuration, so no choice of configuration helps. "
+            "A number is the largest relative manipulability found after the lock, printed where it is nearly 0. A percentage "
+            "is the largest manipulability found after the lock, relative to the largest one of the healthy arm."
         ),
         Table(table_rows, header, frozenset({1}), marks=frozenset(range(2, len(joint_names) + 2)), wide=True, sortable=False),
-        Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),
+        Text(f"Joints: {joints}. Redundancy: joints minus task dimensions.", quiet=True),
     ]

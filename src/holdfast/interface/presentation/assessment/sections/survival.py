@@ -1,4 +1,4 @@
-"""Remaining workspace of the region after a joint has locked."""
+"""Fraction of the poses of the region that are still reached after a joint has locked."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _MIN_POSES_FOR_MAP = 200
 
 
 def blocks(facts: AssessmentFacts) -> list[Block]:
-    """Build the figure and the table of the fraction of the region that remains after each lock, if the run tested locks."""
+    """Build the figure and the table of the poses that are still reached after each lock, if the run tested locks."""
     survivors = facts.assessment.survivors
     if survivors is None or not facts.distribution.samples:
         return []
@@ -34,27 +34,28 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         for joint, angle in locks.items()
     }
     bar_labels = [f"{joint + 1} {names[joint]}{position}" for joint, position in positions.items()]
-    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached once the joint has locked"
+    axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached after a lock of the joint"
     figure = figures.bar_figure(
         bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
     )
     is_specified = [angle is not None for angle in locks.values()]
-    place = "where it was at another pose of the region, drawn at random"
+    place = "at its position for another pose of the region, chosen at random"
     if all(is_specified):
-        place = "at the angle that was given"
+        place = "at the given position"
     elif any(is_specified):
-        place = f"at the angle that was given for it, else {place}"
+        place = f"at the given position, or otherwise {place}"
     blocks: list[Block] = [
         Text(
-            f"Healthy, the arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
+            f"The healthy arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
             f"{'the weight of ' if facts.distribution.has_weights else ''}the {facts.distribution.samples:,} "
-            f"poses{_describe_collision_free_fraction(facts)}. The lock that costs most is that of {worst}, {worst_position}: "
-            f"{format_interval(fractions[worst])} of the poses are left."
+            f"poses{_describe_collision_free_fraction(facts)}. The most costly lock is that of {worst}, {worst_position}. The "
+            f"fraction of the poses reached after it is {format_interval(fractions[worst])}."
         ),
         Picture(
             figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
-            f"Each joint is locked {place}. A pose counts as left if one of {LOCK_RESTARTS} starts reaches it with that joint "
-            f"held there{_describe_clearance_method(facts)}; so the fractions are lower bounds.",
+            f"Each joint is locked {place}. A pose counts as reached if inverse kinematics with the locked joint finds a "
+            f"configuration from one of {LOCK_RESTARTS} starts{_describe_clearance_method(facts)}, so the fractions are lower "
+            f"bounds.",
         ),
     ]
     blocks += _build_map_blocks(facts, facts.assessment.arm.joint_index(worst), worst_position)
@@ -67,7 +68,8 @@ def _describe_collision_free_fraction(facts: AssessmentFacts) -> str:
     return (
         ""
         if facts.assessment.clear is None
-        else f" and at least {format_interval(facts.assessment.reached_clear())} of all clear of {facts.avoided_objects}"
+        else f", and at least {format_interval(facts.assessment.reached_clear())} of all poses without collision with "
+        f"{facts.avoided_objects}"
     )
 
 
@@ -76,7 +78,7 @@ def _describe_clearance_method(facts: AssessmentFacts) -> str:
     if facts.assessment.clear is None or clearance is None:
         return ""
     distance_kind = f"exact where small, {clearance.exact_by}" if isinstance(clearance, ExactClearance) else "lower bounds"
-    return f", clear of {facts.avoided_objects} (distances: {distance_kind})"
+    return f" without collision with {facts.avoided_objects} (distances: {distance_kind})"
 
 
 def _get_total_weight(facts: AssessmentFacts) -> float:
@@ -84,7 +86,7 @@ def _get_total_weight(facts: AssessmentFacts) -> float:
 
 
 def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list[Block]:
-    """Map the reached poses of the healthy arm and those that remain after the lock that costs most."""
+    """Map the poses that the arm reaches when healthy and after the most costly lock."""
     poses = facts.poses
     if poses is None or len(poses.reached) < _MIN_POSES_FOR_MAP:
         return []
@@ -98,12 +100,12 @@ def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list
     figure = draw_before_and_after(poses.position, healthy, remaining, view, f"{name} locked", poses.weight)
     total = len(remaining)
     text = (
-        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
-        f"how many poses the cell holds. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
+        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, with the "
+        f"number of poses of the cell below. Left: the healthy arm reaches {int(healthy.sum()):,} of {total:,} poses"
         f"{_describe_clearance_method(facts)}. Right: with {name} locked {position}, {int(remaining.sum()):,} of {total:,}."
     )
     if facts.distribution.has_weights:
-        text += " Fractions count by weight, these numbers do not."
+        text += " The fractions are weighted; these numbers are not."
     return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
@@ -115,6 +117,6 @@ def draw_before_and_after(
     locked_title: str,
     weights: FloatArray | None = None,
 ) -> Figure:
-    """Map the fraction of poses (N, 3), m, reached (N,) before and after a failure, by weight (N,) if there is one."""
+    """Map the fraction of positions (N, 3), m, that are reached (N,) before and after a failure, weighted by (N,) if given."""
     panels = [("Healthy", healthy), (figures.format_label(locked_title, 37), remaining)]
     return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

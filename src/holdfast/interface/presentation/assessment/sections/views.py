@@ -16,7 +16,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     """Draw the arm and the region from the side, from above, and in three dimensions."""
     scene, drawn_count = facts.scene
     distribution = facts.distribution
-    dot_label = f"{facts.noun} drawn" if facts.assessment.region.kind != "joints" else "tool position of a configuration drawn"
+    dot_label = f"sampled {facts.noun}" if facts.assessment.region.kind != "joints" else "tool position of a configuration"
     legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
     if facts.assessment.arm.prismatic.any():
         legend.insert(2, ("slide", "prismatic joint"))
@@ -30,13 +30,13 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     image = figures.svg(figure, "views", f"The arm and the {facts.noun}s of the region, by index")
     text = f"The arm is drawn {facts.drawn_configuration[1]}."
     if not drawn_count and distribution.samples:
-        text += f" The {facts.noun}s of this run were not kept, so none are drawn."
+        text += f" The {facts.noun}s of this run were not stored, so none are shown."
     elif drawn_count < distribution.samples:
-        text += f" Of {distribution.samples:,} {facts.noun}s a random {drawn_count:,} are drawn"
+        text += f" A random {drawn_count:,} of {distribution.samples:,} {facts.noun}s are shown"
     elif drawn_count:
-        text += f" All {format_count(drawn_count, facts.noun)} are drawn"
+        text += f" All {format_count(drawn_count, facts.noun)} are shown"
     if drawn_count:
-        text += "; colour is the index." if len(scene.points) else "."
+        text += "; the colour is the index." if len(scene.points) else "."
     if drawn_count and distribution.infinite:
         text += " Infinite values have the darkest colour."
     return [Picture(image, text), *interactive_poses.blocks(facts, figure), _build_rotatable_view(facts)]
@@ -58,9 +58,9 @@ def _build_rotatable_view(facts: AssessmentFacts) -> Picture:
         cell=facts.assessment.plan.cell,
         **dot_options,
     )
-    text = f"The arm {facts.drawn_configuration[1]}; drag to turn it."
+    text = f"The arm {facts.drawn_configuration[1]}. Drag to rotate the view."
     if dot_options:
-        text += f" A dot is a {facts.noun} that can be chosen; what is chosen above moves the arm."
+        text += f" Click a dot to select its {facts.noun}; a selection in the figure above also moves this arm."
     return Picture(
         view.to_html(interactive_poses.VIEW_ID, f"{facts.assessment.arm.name} and its region in three dimensions"),
         text,

@@ -1,4 +1,4 @@
-"""Frequency of each worst failure, and the index that remains after each failure."""
+"""Frequency with which each failure is the worst one, and the index after each failure."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         )
         population = f"the weight, {total:,.4g}, of the" if weighted else f"{total:,}"
         text = (
-            f"Of {population} {facts.reached_noun} that are not singular; where several failures are equally bad, the "
-            f"first counts."
+            f"Over {population} {facts.reached_noun} that are not singular. If several failures are equally bad, the first "
+            f"one counts."
         )
         blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + remark))
     else:
-        blocks.append(Text(f"Every {facts.noun} reached is singular, so no failure is worse than another."))
+        blocks.append(Text(f"Every {facts.noun} reached is singular, so all failures are equally bad."))
     table = tabulate_failures(facts)
     blocks += [] if table is None else [build_table_block(table.texts())]
     if facts.poses is None:
         blocks.append(
-            Text("The values after each failure were not kept; assess again with a store or with keep=True.", quiet=True)
+            Text("The values after each failure were not stored; assess again with a store or with keep=True.", quiet=True)
         )
     return blocks
