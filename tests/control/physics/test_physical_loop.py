@@ -241,7 +241,7 @@ def test_weak_motors_saturate_within_their_effort_and_lag(panda, home, goal):
     assert run.saturated_fraction[4] == 0
     assert (np.abs(run.reference - run.q) <= effort / run.stiffness + 1e-9).all()
     assert run.path_distance > 2e-3
-    assert any("at their effort" in line for line in run.describe())
+    assert any("at their torque limit" in line for line in run.describe())
 
 
 def test_what_is_not_decided_says_why(two, law, home, goal):

@@ -90,14 +90,14 @@ def test_arms_are_judged_on_the_command_line(tmp_path, cli):
 
 
 def test_ceilings_on_the_command_line(cli):
-    assert "The best that is known is 0.2474358297 = sqrt(3)/7" in cli("upper-bound", "9", "pose", "2")[1]
+    assert "The best known value is 0.2474358297 = sqrt(3)/7" in cli("upper-bound", "9", "pose", "2")[1]
     found = json.loads(cli("upper-bound", "8", "6", "2", "--verify", "--json")[1])
     assert found["attained"]
     assert np.array(found["null_space"]).shape == (8, 2)
     assert len(json.loads(cli("upper-bound", "--table", "--task", "planar", "--json")[1])["ceilings"]) == 13
     for words, said in (
         (("7", "7"), "there is no redundancy"),
-        (("9", "6", "4"), "the ceiling is 0"),
+        (("9", "6", "4"), "relative manipulability is at most 0"),
         (("9", "seven"), "neither a number of rows nor a task"),
         ((), "give the joints and the rows"),
         (("--table", "--task", "7"), "nothing is stored"),

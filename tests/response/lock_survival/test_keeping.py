@@ -60,7 +60,7 @@ def test_with_detours_it_is_an_upper_bound(kept):
     machine, path, _ = kept
     wide = hf.plan_motion(machine, path, samples=5, spacing=0.2, keep=heading(np.deg2rad(89)), mode="detour")
     assert wide.kind == "upper bound"
-    assert "Detours that keep what is kept were not looked for" in " ".join(wide.describe())
+    assert "because detours with the path constraints were not searched" in " ".join(wide.describe())
 
 
 def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
