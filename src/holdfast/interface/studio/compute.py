@@ -16,7 +16,7 @@ from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 
 Progress = Callable[[int, int], None]
-OPTIMUM_RESTARTS = 64  # of the search for a best configuration
+OPTIMUM_RESTARTS = 64  # restarts of the search for a best configuration
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class ExtremeConfigurations:
     """Best and worst configuration of a pose.
 
     Attributes:
-        q: Two configurations (n,), rad and m.
-        values: Of the objective, there and where the arm is.
+        q: Best and worst configuration (n,), rad and m.
+        values: Values of the objective: best, worst, and at the current configuration.
     """
 
     q: tuple[FloatArray, FloatArray]
@@ -33,7 +33,7 @@ class ExtremeConfigurations:
 
 
 def find_best_and_worst(machine: CompiledArm, state: State, progress: Progress) -> ExtremeConfigurations:
-    """Find the best and the worst configuration of the present pose by the objective of the state.
+    """Find the best and the worst configuration of the current pose by the objective of the state.
 
     Raises:
         InputError: The arm has no such objective, or no configuration of the pose was found.
@@ -59,7 +59,7 @@ def find_best_and_worst(machine: CompiledArm, state: State, progress: Progress) 
         )
     if not all(bool(optimum.success) for optimum in optima):
         raise InputError("no configuration of this pose was found; move the end effector and try again")
-    # The searches are local: where the arm is may beat what they found.
+    # The searches are local, so the current configuration can be better or worse than their results.
     current_value, sign = float(objectives[0](q)), 1.0 if objectives[0].better == "larger" else -1.0
     best, worst = ((optimum.q, float(optimum.value)) for optimum in optima)
     best = (q, current_value) if sign * current_value > sign * best[1] else best

@@ -38,22 +38,21 @@ FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
         "none": {},
     }
 )
-LATEST_ONSET_S = 4.0  # s: the last time at which a fault can begin
-# SPEED_LIMIT_M_S, LAW_GAIN_PER_S and MOTION_TIME_LIMIT_S: m/s, 1/s, s: of the motions
+LATEST_ONSET_S = 4.0  # s, the latest onset of a fault
+# Speed limit of the tool, gain of the control law, and time limit of the motions.
 SPEED_LIMIT_M_S = 0.25
 LAW_GAIN_PER_S = 2.0
 MOTION_TIME_LIMIT_S = 8.0
-# HEALTHY_MOTIONS and THRESHOLD_FACTOR: motions that the bounds are of, and what these are multiplied by: few records need more
-# room
+# Number of healthy motions for the thresholds, and the factor on the thresholds, which is high because there are few logs.
 HEALTHY_MOTIONS = 4
 THRESHOLD_FACTOR = 2.0
-# MAX_LINE_POINTS and PLAYBACK_STEPS: of a line, and of the time as it plays
+# Points of a drawn line, and drawn steps of the playback.
 MAX_LINE_POINTS = 150
 PLAYBACK_STEPS = 60
-# _MIN_DRAWN_RATIO and _MAX_DRAWN_RATIO: of a bound: what the drawing shows
+# Drawn range of a residual, divided by its threshold.
 _MIN_DRAWN_RATIO = 0.1
 _MAX_DRAWN_RATIO = 30.0
-# _PANEL_WIDTH_PX and _PANEL_HEIGHT_PX: of one panel
+# Size of one panel.
 _PANEL_WIDTH_PX = 300
 _PANEL_HEIGHT_PX = 74
 
@@ -63,17 +62,17 @@ class MonitorDemo:
     """Motion with a fault, and the output of the monitor.
 
     Attributes:
-        motion: Of the arm with its fault.
-        time: (T,) s.
-        residuals: By what is watched, in units of its bound: (T, n), of the tool (T, 1).
-        onset: Of the fault, s; infinite without one.
-        alarm_time: s; infinite without one.
-        joint: The one that was named, from 0; None if none was.
-        isolation_time: When, s; infinite if none was.
-        kind: Kind of the fault, as the monitor names it.
+        motion: Motion of the arm with its fault.
+        time: Times (T,) of the residuals, s.
+        residuals: Residuals by name, divided by their thresholds: (T, n), or (T, 1) for the tool pose.
+        onset: Onset of the fault, s; infinite without a fault.
+        alarm_time: Time of the alarm, s; infinite without an alarm.
+        joint: Index of the isolated joint, from 0, or None.
+        isolation_time: Time at which the joint is isolated, s; infinite if it is not.
+        kind: Kind of the fault according to the monitor.
         classification_time: Time from which the kind and the findings are known, s; infinite without an alarm.
         findings: Sentences about the fault.
-        inconclusive: What could not be told.
+        inconclusive: Phrases about what the monitor could not decide.
     """
 
     motion: PlayedMotion
@@ -89,22 +88,23 @@ class MonitorDemo:
     inconclusive: tuple[str, ...]
 
 
-_last_thresholds: dict[object, Bounds] = {}  # of the last question: to inject another fault takes one motion, not five
+_last_thresholds: dict[
+    object, Bounds
+] = {}  # of the last request, so that another fault needs one simulated motion instead of five
 
 
 def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> MonitorDemo:
-    """Simulate a motion to the target under the first law during which a joint fails, without any reaction, and run a monitor
-    on its log.
+    """Simulate a motion to the target during which a joint fails, without a fault response, and run a monitor on its log.
 
     Everything is simulated: masses and friction of the robot are up to 20 % off the arm's model, and its sensors are noisy.
 
     Args:
         machine: The arm.
-        state: Where the arm is, its target, the law, and the fault: kind, joint and time.
-        progress: Told of (done, in all) motions; raises to give up.
+        state: The configuration, the target, the control law (the first of the two), and the fault: kind, joint and onset.
+        progress: Function that is called with the numbers of (done, total) motions; it raises to cancel.
 
     Raises:
-        InputError: No target, or no such fault.
+        InputError: There is no target, or no such fault.
         ArmError: The arm's inertial data are missing or impossible.
         HoldfastError: MuJoCo is not installed.
     """
@@ -157,20 +157,22 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
     if verdict.alarm:
         fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
         findings = [fault, *verdict.evidence]
-    inconclusive = [f"did not move enough to tell: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
+    inconclusive = (
+        [f"did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
+    )
     if verdict.alarm and len(verdict.candidates) > 1:
-        inconclusive.append(f"not told apart: {', '.join(verdict.candidates)}")
+        inconclusive.append(f"not distinguished: {', '.join(verdict.candidates)}")
     if not verdict.alarm:
-        inconclusive.insert(0, "no fault was seen, which does not prove that there is none")
+        inconclusive.insert(0, "no fault was detected, which does not prove that there is none")
     residuals = {
-        "torques": _downsample_maxima(scaled.torque, stride),
-        "joint sensors": _downsample_maxima(scaled.tracking, stride),
+        "torque residual": _downsample_maxima(scaled.torque, stride),
+        "tracking error": _downsample_maxima(scaled.tracking, stride),
     }
     if np.isfinite(scaled.tool).any():
-        residuals["the tool's measured pose"] = _downsample_maxima(scaled.tool[:, None], stride)
+        residuals["tool-pose residual"] = _downsample_maxima(scaled.tool[:, None], stride)
     motion_samples = slice(None, None, max(1, len(run.time) // (4 * MOTION_SAMPLES)))
     return MonitorDemo(
-        motion=PlayedMotion("the arm with the fault, nobody reacts", run.time[motion_samples], "s", run.q[motion_samples]),
+        motion=PlayedMotion("the arm with the fault, no response", run.time[motion_samples], "s", run.q[motion_samples]),
         time=run.time[::stride],
         residuals=residuals,
         onset=onset,
@@ -199,7 +201,7 @@ def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
 def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
     """Draw the residuals up to the current time, each in units of its threshold, and the findings of the monitor so far."""
     end = float(demo.time[-1])
-    # Or the page would be sent thirty times a second.
+    # Without these steps, the drawing would be sent thirty times a second.
     current = current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
     panels = [
         _draw_panel(quantity, demo, values, current, names)
@@ -209,7 +211,7 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
     findings = demo.findings if current >= demo.classification_time else ()
     lines = [*findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    legend = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
+    legend = "Each line is a joint. Dashed: threshold; purple: onset of the fault; orange: alarm."
     return (
         f'<div class="hf-watch"{" data-alarm" if current >= demo.alarm_time else ""}>'
         f'<strong class="hf-head">{escape(_describe_alarm(demo, names, current))}</strong><div class="hf-soft">{legend}</div>'
@@ -218,16 +220,16 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
 
 
 def _describe_alarm(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
-    """Describe when the alarm came, and which joint and which kind of fault the monitor has named by the current time."""
+    """Describe the time of the alarm, and the joint and the kind of fault that the monitor has found by the current time."""
     if current < demo.alarm_time:
         return "No alarm so far."
     delay = demo.alarm_time - demo.onset
     when = f"at {demo.alarm_time:.3f} s, before any fault" if delay < 0 else f"{1000 * delay:.0f} ms after the fault"
-    joint = "not known"
+    joint = "not identified"
     if demo.joint is not None and current >= demo.isolation_time:
         is_classified = current >= demo.classification_time and demo.kind != "unknown"
         joint = names[demo.joint] + (f", {demo.kind}" if is_classified else "")
-    return f"Alarm {when}; the joint: {joint}."
+    return f"Alarm {when}; joint: {joint}."
 
 
 def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: float, names: tuple[str, ...]) -> str:
@@ -257,10 +259,10 @@ def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: f
         for column in range(values.shape[1])
         if values.shape[1] > 1 and np.nanmax(np.append(values[is_past, column], 0)) > 1
     ]
-    label = f"{quantity}, in units of their bounds, to {current:.2f} s; over: {', '.join(exceeding) or 'none'}"
+    label = f"{quantity} / threshold until {current:.2f} s; above it: {', '.join(exceeding) or 'none'}"
     polylines = "".join(text for _, text in sorted(lines))
     return (
-        f"<figure><figcaption>{escape(quantity)}, of the bound</figcaption>"
+        f"<figure><figcaption>{escape(quantity)} / threshold</figcaption>"
         f'<svg viewBox="0 0 {_PANEL_WIDTH_PX} {_PANEL_HEIGHT_PX}" role="img" '
         f'aria-label="{escape(label, quote=True)}">{polylines}'
         f'<line class="hf-bound" x1="0" x2="{_PANEL_WIDTH_PX}" y1="{bound:.1f}" y2="{bound:.1f}"/>{"".join(marks)}'

@@ -18,8 +18,9 @@ class Player:
     Args:
         stage: The scene.
         panel: The controls.
-        clock: What plays; nothing else uses it at the same time.
-        on_moved: Is told the time of the motion and, where no ghost shows it, the configuration (n,) of the arm itself.
+        clock: Clock of the playback; nothing else uses it at the same time.
+        on_moved: Function that is called with the time of the motion and the configuration (n,) of the arm, or None if ghosts
+            show the motion.
     """
 
     def __init__(
@@ -42,7 +43,7 @@ class Player:
     def show_motions(self, motions: list[PlayedMotion], colors: tuple[Any, ...], time: float) -> None:
         """Show motions, each by a ghost of its colour, or the first one by the arm itself if there are no colours.
 
-        What was asked for moves at once; a view that a command line brought back (at a time above 0) stays where it was.
+        A new motion starts to play immediately; a view that a command line restored (at a time above 0) stays at this time.
         """
         self.discard_motions()
         self._motions = motions
@@ -97,7 +98,7 @@ class Player:
         end = max(float(motion.time[-1]) for motion in self._motions)
         if self._current_time >= end * (1 - 1e-9):
             self._current_time = 0.0
-        # What takes longer than ten seconds is played in ten; a swing in real time shows best.
+        # Motions longer than ten seconds are played in ten seconds, shorter ones in real time.
         pace = max(end / 10.0, 1.0) if self._motions[0].unit == "s" else end / 10.0
 
         def advance() -> None:

@@ -22,11 +22,11 @@ class ViewSaver:
     """Saver of one client's view; the files are named after the arm.
 
     Args:
-        client: Of Viser; it is sent the files.
-        machine: The arm.
-        stage: What the client sees of it.
-        on_saved: Is told in a sentence what was saved.
-        on_error: Is told what went wrong.
+        client: The viser client that receives the files.
+        machine: The compiled arm.
+        stage: The scene of the client.
+        on_saved: Function that is called with a sentence about the saved file.
+        on_error: Function that is called with an exception.
     """
 
     def __init__(
@@ -48,8 +48,8 @@ class ViewSaver:
         """Save the scene as ``png`` or ``svg``, or the cell as ``cell-file``.
 
         Args:
-            file_kind: Which of them.
-            state: What is shown.
+            file_kind: Kind of the file.
+            state: The displayed state.
             ghosts: Configurations (n,) of ghost arms.
         """
         match file_kind:
@@ -100,7 +100,9 @@ class ViewSaver:
             cell = self._machine.cell_with_moved(state.moved)
             name = f"{re.sub(r'[^A-Za-z0-9._-]+', '-', cell.name).strip('-.') or 'cell'}.yaml"
             content = cell_file.format_cell(cell.to_dict()).encode()
-            self._send_file(name, content, f" From its folder: {replace(state, cell=name, moved=()).to_command()}")
+            self._send_file(
+                name, content, f" To open it, run in its folder: {replace(state, cell=name, moved=()).to_command()}"
+            )
 
         self._worker.submit(write_and_send)
 

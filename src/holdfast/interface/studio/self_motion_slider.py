@@ -18,11 +18,11 @@ class SelfMotionSlider:
     """Self-motion slider of one window.
 
     Args:
-        machine: The arm.
+        machine: The compiled arm.
         panel: The controls.
-        clock: What moves it on; nothing else uses it at the same time.
-        current_state: The configuration (n,) and the failed joints now.
-        set_configuration: Is told every new configuration (n,).
+        clock: Clock that advances the motion; nothing else uses it at the same time.
+        current_state: Function that returns the current configuration (n,) and the failed joints.
+        set_configuration: Function that is called with every new configuration (n,), rad and m.
     """
 
     def __init__(
@@ -62,11 +62,11 @@ class SelfMotionSlider:
         q, failed = self._current_state()
         directions = self._machine.self_motion_directions(q, failed)
         if not len(directions):
-            self._stop_with_reason("There is no self-motion here: every joint that is left is needed to hold the tool.")
+            self._stop_with_reason("There is no self-motion here, because holding the tool pose needs every healthy joint.")
             return
         if not np.any(self._direction):
             chosen_direction = directions[min(self._direction_number, len(directions) - 1)]
-            # Always the same way at the same place: the largest part counts up.
+            # The sign is chosen so that the largest component is positive, always the same way at the same configuration.
             self._direction = chosen_direction * np.sign(chosen_direction[int(np.abs(chosen_direction).argmax())])
         length = min(abs(self._rate) * MAX_SLIDE_SPEED_RAD_S * TICK_S, MAX_SLIDE_STEP)
         sign = np.sign(self._rate)
@@ -76,7 +76,7 @@ class SelfMotionSlider:
             self._stop_with_reason("The self-motion ends here, at a joint limit.")
             return
         self._direction = sign * direction
-        self._panel.show_message("Sliding along the self-motion: the end effector is still.")
+        self._panel.show_message("Moving along the self-motion; the end effector does not move.")
         self._set_configuration(q_next)
 
     def _stop_with_reason(self, reason: str) -> None:

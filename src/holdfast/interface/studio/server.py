@@ -36,10 +36,10 @@ class Studio:
     """Running studio server.
 
     Attributes:
-        url: Where it is.
-        host: The address it listens on.
-        port: The port it listens on.
-        windows: One for each open page, by number.
+        url: URL of the page.
+        host: Address that the server listens on.
+        port: Port that the server listens on.
+        windows: Windows of the open pages, by the number of the client.
     """
 
     def __init__(self, server: Any, machine: CompiledArm, state: State, *, parts: list[MeshPart], note: str) -> None:
@@ -52,7 +52,7 @@ class Studio:
         self.windows: dict[int, Window] = {}
         self.machine = machine
         self._worker_process = WorkerProcess(machine.arm, machine.task, machine.cell)
-        self._own_processes: dict[int, WorkerProcess] = {}  # of windows with an arm of their own
+        self._own_processes: dict[int, WorkerProcess] = {}  # of windows with an uploaded arm
         self._stopped = threading.Event()
 
         def open_client(client: Any) -> None:
@@ -73,7 +73,7 @@ class Studio:
         self.windows[client.client_id] = self._window_class(
             client, machine, worker_process, state, parts=parts, note=note, load_arm=self._load_arm
         )
-        if client.client_id not in self._server.get_clients():  # gone before it was there
+        if client.client_id not in self._server.get_clients():  # the client left before its window existed
             self._close_window(client.client_id)
 
     def _close_window(self, number: int) -> None:
@@ -89,7 +89,7 @@ class Studio:
 
         machine, state, parts, note = read_uploaded_arm(name, content)
         q = np.array(state.q)
-        # Nothing is given up for an arm that cannot be shown.
+        # The old window stays if the new arm cannot be shown.
         machine.evaluate_live_reading(q, (), state.index, state.susceptibility)
         self._close_window(client.client_id)
         client.gui.reset()
@@ -130,22 +130,26 @@ def serve(
 ) -> Studio:
     """Open the studio of an arm and serve it until :meth:`Studio.stop`.
 
-    Everyone who opens the page has an arm of his own there, which begins with ``state``. Nothing is asked of any other host.
+    Every open page has its own arm, which begins with ``state``. The server sends no request to any other host.
 
     Args:
         arm: The arm.
-        state: What is shown at first; all joints healthy, in a generic configuration, if not given.
-        host: The address to listen on. Only pages that it has served itself are let in, but whoever reaches it can open such a
-            page: other than the loopback address only in a network where all are trusted.
-        port: The port; 0: any that is free.
-        task: The task, where its name in ``state`` does not say it all.
+        state: Initial state. Default: all joints healthy, in a generic configuration.
+        host: Address to listen on. The server admits only pages that it served itself, but every computer that reaches the
+            address can open such a page. Use an address other than the loopback address only in a trusted network.
+        port: Port to listen on; 0 for any free port.
+        task: The task, if its name in ``state`` does not define it.
         cell: The objects around the arm, which can be dragged.
-        ready: Told the address as soon as a browser may open it; the arm comes while the browser loads the page.
+        ready: Function that is called with the URL as soon as a browser may open it; the arm is loaded while the browser loads
+            the page.
+
+    Returns:
+        The running studio.
 
     Raises:
-        HoldfastError: Viser is not installed; it comes with ``holdfast-arms[view]``.
-        InputError: The port is in use, the host is not an address of this machine, or the arm's base touches an object.
-        TaskError: A task that does not fit the arm.
+        HoldfastError: Viser is not installed; it is part of ``holdfast-arms[view]``.
+        InputError: The port is in use, the host is not an address of this machine, or the base of the arm touches an object.
+        TaskError: The task does not fit the arm.
     """
     if find_spec("viser") is None:
         raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast-arms[view]'")
@@ -153,9 +157,9 @@ def serve(
         q = tuple(float(value) for value in generic_configuration(arm))
         state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))
     machine = CompiledArm(arm, task or as_task(arm, state.task), cell)
-    machine.get_clearance(state.moved)  # what is wrong with it is said before anybody comes
+    machine.get_clearance(state.moved)  # raises errors of the cell before the page opens
     bound_port = find_free_port(host, port)
-    # Before anybody can come: a page that is open already keeps the view that it began with.
+    # Chosen before the server starts, because a page that is already open keeps its first view.
     camera_position, look_at = _choose_camera(machine, np.array(state.q))
     import viser
 
@@ -186,7 +190,7 @@ def _start_private_server(viser: Any, host: str, port: int) -> Any:
     with (
         AccessFilter(host).filter_requests(),
         redirect_stdout(io.StringIO()),
-    ):  # it prints a box with the address, whatever it is told
+    ):  # viser prints a box with the address even if it is not verbose
         return Private(host=host, port=port, label="holdfast", verbose=False)
 
 
@@ -194,7 +198,7 @@ def find_free_port(host: str, port: int) -> int:
     """Return the port if it is not in use, or any free port for 0.
 
     Raises:
-        InputError: It is in use, not a port, or the host is not an address of this machine.
+        InputError: The port is in use or out of range, or the host is not an address of this machine.
     """
     if not 0 <= port <= 65535:
         raise InputError(f"port {port} is not a port; give a number from 0 (any that is free) to 65535")
@@ -212,7 +216,7 @@ def find_free_port(host: str, port: int) -> int:
 
 
 def _is_portrait(client: Any) -> bool:
-    """Return whether a client's picture is higher than wide, as on a phone, where the controls cover its lower half."""
+    """Return whether the view of a client is higher than wide, as on a phone, where the controls cover its lower half."""
     return bool(client.camera.image_height > client.camera.image_width)
 
 
@@ -239,5 +243,5 @@ def _choose_camera(machine: CompiledArm, q: Any, portrait: bool = False) -> tupl
 
 def _compile_first_view(machine: CompiledArm, state: State) -> None:
     """Compile the functions of the first picture while the browser loads the page."""
-    with suppress(HoldfastError):  # the window says it
+    with suppress(HoldfastError):  # the window shows the error
         machine.evaluate_live_reading(np.array(state.q), state.failed_joints, state.index, state.susceptibility)

@@ -20,27 +20,28 @@ class State:
 
     Attributes:
         arm: The arm as given on the command line: a built-in name or a file.
-        names: (n,) names of its joints.
-        q: (n,) configuration, rad and m.
-        task: Rows of the pose that matter, as on the command line.
-        base, tip: Links of the file, if chosen.
-        hold: Joints of the file that are held, and where, rad or m.
-        conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
-        index: The index of the bars.
-        susceptibility: The susceptibility of the bars.
-        objective: What best and worst configurations are chosen by: an index or a susceptibility, by name.
-        laws: Two control laws side by side, as ``slug`` or ``slug:setting``.
-        target: Where they should bring the end effector: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
-        show: What is shown beside the arm: nothing else (``arm``), ghosts in the ``best-worst`` configuration of this pose, a
-            motion under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
-        file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
-        region: A results folder of ``assess``, or None: then a region around the end effector.
-        time: Where a motion is shown, s (or whatever its first column counts).
-        cell: A cell file, or None: no objects.
-        meshes: A folder in which meshes that the arm's file names are looked for first, or None.
-        fault: What is injected and watched: its kind, the joint and when, s. No joint: the middle one. It is not in the
-            command line.
-        moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
+        names: Names of the joints (n,).
+        q: Configuration (n,), rad and m.
+        task: Task as on the command line, for example ``pose``.
+        base, tip: Base and tip link in the file of the arm, or None.
+        hold: Joints of the file that are held, each with its value, rad or m.
+        conditions: Condition of each joint (n,): ``healthy``, ``locked`` or ``free`` (swinging).
+        index: Index of the bars, by name.
+        susceptibility: Susceptibility of the bars, by name.
+        objective: Index or susceptibility, by name, that ranks the best and the worst configuration.
+        laws: Two control laws to compare, as ``slug`` or ``slug:setting``.
+        target: Target of the end effector for both laws: x, y, z (m) and quaternion x, y, z, w; None if there is none.
+        show: Content in addition to the arm: none (``arm``), ghosts in the ``best-worst`` configurations of this pose, a motion
+            under two ``laws``, the free ``swing``, the cloud of a ``region``, the motion of a ``file``, or the demonstration
+            of the monitor (``watch``).
+        file: File of a motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
+        region: Results folder of ``assess``; None for a region around the end effector.
+        time: Displayed time of a motion, s (or the unit of its first column).
+        cell: Cell file, or None.
+        meshes: Folder that is searched first for the meshes named by the file of the arm, or None.
+        fault: Fault of the demonstration: its kind, the joint (empty for the middle one), and its onset, s. The command line
+            does not contain it.
+        moved: Dragged objects of the cell, each with its name, x, y, z (m) and quaternion x, y, z, w.
     """
 
     arm: str
@@ -85,7 +86,7 @@ class State:
 
     @property
     def failed_joints(self) -> tuple[int, ...]:
-        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes catch them."""
+        """Indices from 0 of the joints that the controller cannot move, because they are locked or free."""
         return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
 
     @property

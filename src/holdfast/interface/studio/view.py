@@ -28,11 +28,11 @@ class StudioView:
     """Scene and controls of one client, and the state that they show.
 
     Args:
-        client: Of viser.
-        machine: The arm.
-        state: What is shown at first.
-        parts: What the arm is made of.
-        request_action: ``ask(what, value)`` is told of everything that a person does.
+        client: The viser client.
+        machine: The compiled arm.
+        state: The initial state.
+        parts: The meshes of the arm.
+        request_action: Function ``ask(action, value)`` that is called for every action of the user.
     """
 
     def __init__(
@@ -40,8 +40,8 @@ class StudioView:
     ) -> None:
         self.client, self.machine, self.state = client, machine, state
         self._initial_state = state
-        self.updates = 0  # pictures sent
-        self.dragged: str | int | None = None  # what a person holds: the end effector, or a slider
+        self.updates = 0  # number of updates sent to the client
+        self.dragged: str | int | None = None  # what the user drags: the end effector, or a slider
         self.cloud: RegionCloud | None = None
         self.monitor_demo: MonitorDemo | None = None
         self._reading: LiveReading | None = None
@@ -66,7 +66,7 @@ class StudioView:
         self._refresh()
 
     def _refresh(self) -> None:
-        """Show the state: the arm at once, then the effect of a failure."""
+        """Show the state: first the arm, then the effect of a failure."""
         q, state = self.q, self.state
         frames = self.machine.arm.frames(q)
         with self.client.atomic():
@@ -128,7 +128,7 @@ class StudioView:
     def _on_pick(self, name: str) -> None:
         if self.objects is not None:
             self.objects.toggle_handle(name)
-            self.panel.show_message(f"Drag {name} by its handle; click it again to leave it there.")
+            self.panel.show_message(f"Drag {name} by its handle. Click it again to hide the handle.")
 
     def _on_object(self, value: tuple[str, tuple[float, ...]]) -> None:
         if self.objects is not None:
@@ -144,7 +144,7 @@ class StudioView:
             self._set_configuration(q)
 
     def _on_time(self, value: float) -> None:
-        self.player.pause()  # who takes the slider stops what plays
+        self.player.pause()  # moving the slider stops the playback
         self.player.show_motions_at(value)
 
     def _on_play(self, _: Any) -> None:
@@ -164,7 +164,7 @@ class StudioView:
         self.stage.target.visible = True
 
     def _is_at_target(self) -> bool:
-        """Return whether the end effector is at the target, by the rows of the task."""
+        """Return whether the end effector is at the target in all task dimensions."""
         target = self.state.target
         return (
             target is not None

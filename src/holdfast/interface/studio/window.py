@@ -31,24 +31,26 @@ from holdfast.model.arm.poses import pose_from_quaternion, pose_numbers
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
-STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # what is of where the arm is, and of what has failed
-INDEX_ROUNDING = 1e-9  # of an index: below it a number says nothing
+STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # depend on the configuration and on the failed joints
+INDEX_ROUNDING = 1e-9  # smaller index values are rounding
 
 
 class Window(StudioView):
-    """Client of the studio, with an arm of its own.
+    """Window of one client of the studio, with its own arm.
 
-    All changes of the state happen on one thread (``live``), in the order in which people ask, the newest of a kind only; what
-    takes long is done beside it (``worker``), where a newer request cancels the older one, and comes back as a change.
+    One thread (``live``) makes all changes of the state, in the order of the requests; of waiting requests of one kind it
+    executes only the newest. Long computations run on a second thread (``worker``), where a newer request cancels the older
+    one; their results come back as a change of the state.
 
     Args:
-        client: Of viser.
-        machine: The arm.
-        worker_process: The process for what takes long.
-        state: What is shown at first.
-        parts: What the arm is made of.
-        note: A sentence for people about these parts.
-        load_arm: ``load(client, name, content)`` opens a file of another arm in place of this window, or raises and leaves it.
+        client: The viser client.
+        machine: The compiled arm.
+        worker_process: The process for long computations.
+        state: The initial state.
+        parts: The meshes of the arm.
+        note: A sentence for the user about these parts, or an empty text.
+        load_arm: Function ``load(client, name, content)`` that opens the file of another arm in place of this window, or
+            raises an error and leaves the window unchanged.
     """
 
     def __init__(
@@ -102,7 +104,7 @@ class Window(StudioView):
                 return True
         return False
 
-    # ---- what people do --------------------------------------------------------------------------------------------
+    # ---- actions of the user --------------------------------------------------------------------------------------------
 
     def request_action(self, action: str, value: Any = None) -> None:
         """Request an action as soon as possible; of several waiting requests of one kind, only the newest is executed."""
@@ -142,7 +144,7 @@ class Window(StudioView):
         if self.state.target is not None:
             self._show_target()
         self._refresh()
-        with suppress(HoldfastError):  # said when somebody drags
+        with suppress(HoldfastError):  # the error is shown when the user drags the handle
             self.machine.solve_pose_near(self.q, self.machine.tool_pose(self.q), ())  # compiled while the browser draws
         first_action: str | None = self.state.show if self.state.show in (*STATE_DEPENDENT_SHOWS, "file") else None
         if self.state.show == "region":
@@ -173,14 +175,14 @@ class Window(StudioView):
         self._discard_results(q)
         self._set_configuration(q)
         if is_reached:
-            self.panel.show_message("The end effector follows.")
+            self.panel.show_message("The end effector follows the handle.")
         else:
-            self.panel.show_message(f"Out of reach{locked}: the arm is as near as it gets from here.", is_error=True)
+            self.panel.show_message(f"Out of reach{locked}. The arm is as close as it gets from here.", is_error=True)
 
     def _on_slide(self, value: float) -> None:
         if value:
             self.player.pause()
-            if self.state.show != "best-worst":  # of the pose, which stays
+            if self.state.show != "best-worst":  # the pose does not change, so its best and worst configurations remain valid
                 self._discard_results()
         self._self_motion_slider.start(float(value))
 
@@ -199,7 +201,9 @@ class Window(StudioView):
             return
         self._cancel_work()
         if self.player.ghosts:
-            self.panel.show_message("The ghosts were for the previous configuration; ask again for this one.")
+            self.panel.show_message(
+                "The ghost arms belonged to the previous configuration and were removed. Repeat the request for this one."
+            )
         self.player.remove_ghosts()
         self.state = replace(self.state, show="arm", time=0.0)
 
@@ -237,7 +241,7 @@ class Window(StudioView):
     def _format_failed_joints(self) -> str:
         return " and ".join(f"{self.state.names[joint]} ({self.state.conditions[joint]})" for joint in self.state.failed_joints)
 
-    # ---- what takes long -------------------------------------------------------------------------------------------
+    # ---- long computations -------------------------------------------------------------------------------------------
 
     def _start_work(self, text: str, job: str, show_result: Callable[[Any], None]) -> None:
         """Run a job in the worker process; the live thread shows its result unless there was a newer request."""
@@ -273,10 +277,12 @@ class Window(StudioView):
             best, worst, current = ("0" if abs(value) < INDEX_ROUNDING else f"{value:.4g}" for value in extremes.values)
             labels = [f"best: {best}", f"worst: {worst}"]
             self.player.place_ghosts(list(extremes.q), labels)
-            self.panel.show_message(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {current} here.")
+            self.panel.show_message(
+                f"{name} of this pose: best found {best} (green), worst found {worst} (orange), here {current}."
+            )
             self._refresh()
 
-        self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show_extremes)
+        self._start_work("Searching for the best and the worst configuration of this pose", "best-worst", show_extremes)
 
     def _on_laws(self, value: tuple[str, str] | None) -> None:
         if value is not None:  # another law was chosen
@@ -288,7 +294,7 @@ class Window(StudioView):
             self._on_target(None)
         if self._is_at_target():
             self.panel.show_message(
-                "The end effector is at the target already: drag the second handle away, then move under both laws.",
+                "The end effector is already at the target. Drag the second handle away, then move under both laws.",
                 is_error=True,
             )
             return
@@ -303,7 +309,7 @@ class Window(StudioView):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE_RGB,), found[0].label)
         )
 
-    def _on_inject(self, _: Any) -> None:  # up to now the motion is the same, whatever the fault
+    def _on_inject(self, _: Any) -> None:  # until this time the motion does not depend on the fault
         self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))
         self._on_watch(self.state.time)
 
@@ -315,15 +321,17 @@ class Window(StudioView):
         def show_demo(demo: MonitorDemo) -> None:
             self.monitor_demo = demo
             self._show_motions(
-                [demo.motion], (ORANGE_RGB,), "A joint fails while the arm moves; the monitor sees what a robot would."
+                [demo.motion],
+                (ORANGE_RGB,),
+                "A joint fails while the arm moves. The monitor reads the same signals as on a robot.",
             )
             if current:
                 self.player.toggle_play()
 
-        self._start_work("Simulating healthy motions, and one with the fault", "watch", show_demo)
+        self._start_work("Simulating healthy motions and one with the fault", "watch", show_demo)
 
     def _on_file(self, _: Any) -> None:
-        if self._initial_state.file is not None:  # as the command line has named it: no path comes from the page
+        if self._initial_state.file is not None:  # only a path from the command line, never one from the page
             self._open_motion(read_motion(self.machine.arm, self._initial_state.file), self._initial_state.file)
 
     def _on_open(self, value: tuple[str, bytes]) -> None:
@@ -337,7 +345,7 @@ class Window(StudioView):
             try:
                 self._load_arm(self.client, name, content)
             except HoldfastError as error:
-                raise InputError(f"nothing was opened, and nothing has changed: {error}") from error
+                raise InputError(f"the file was not opened, and nothing has changed: {error}") from error
 
         self.worker.submit(load_file)
 
@@ -354,7 +362,7 @@ class Window(StudioView):
         self._start_work("Assessing a region around the end effector", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
-        if self._initial_state.region is not None:  # as the command line has named it: no path comes from the page
+        if self._initial_state.region is not None:  # only a path from the command line, never one from the page
             self.state = replace(self.state, region=self._initial_state.region)
             self._start_work("Reading the results", "region", self._show_cloud)
 
@@ -393,7 +401,7 @@ class Window(StudioView):
                 self.state, target=pose_numbers(self.machine.tool_pose(self.machine.nearby_configuration(self.q)))
             )
         self._show_target()
-        self.panel.show_message("Drag the second handle to where the end effector should go, or take it as it is.")
+        self.panel.show_message("Drag the second handle to the target of the end effector, or keep the suggested target.")
         self._refresh()
 
     def _on_goal(self, value: tuple[str, FloatArray, FloatArray]) -> None:

@@ -1,4 +1,4 @@
-"""Threads for quick work, of which only the newest request counts, and for long work, which newer requests cancel."""
+"""Threads for quick work, which execute only the newest requests, and for long work, which newer requests cancel."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 Task = Callable[[], None]
 Complain = Callable[[BaseException], None]
-TICK_S = 1 / 30  # s between two pictures of what moves by itself
+TICK_S = 1 / 30  # s between two updates of an animation
 
 
 class Cancelled(Exception):
@@ -16,12 +16,12 @@ class Cancelled(Exception):
 
 
 class LatestRequests:
-    """Thread that executes the latest requests: of requests with the same key only the newest is done.
+    """Thread that executes, of the waiting requests with the same key, only the newest.
 
-    So that an end effector that is dragged faster than pictures can be made is always where the mouse is, and not where it was.
+    An end effector that is dragged faster than the scene can be updated therefore stays at the mouse and does not lag behind.
 
     Args:
-        on_error: Told of every exception of a request; the thread continues.
+        on_error: Function that is called with every exception of a request; the thread continues.
     """
 
     def __init__(self, on_error: Complain) -> None:
@@ -45,7 +45,7 @@ class LatestRequests:
             return self._changed.wait_for(lambda: not self._pending and not self._busy, seconds)
 
     def stop(self) -> None:
-        """End the thread after the present request."""
+        """End the thread after the current request."""
         with self._changed:
             self._stopped = True
             self._pending.clear()
@@ -71,8 +71,8 @@ class Clock:
     """Repeats one action on a :class:`LatestRequests` until it is stopped.
 
     Args:
-        live: Where it is done.
-        period: s from one time to the next.
+        live: Thread that executes the action.
+        period: Time from one repetition to the next, s.
     """
 
     def __init__(self, live: LatestRequests, period: float) -> None:
@@ -80,7 +80,7 @@ class Clock:
         self._ended: threading.Event | None = None
 
     def start(self, action: Task) -> None:
-        """Repeat this action from now on, and no other."""
+        """Repeat this action from now on, in place of an earlier one."""
         self.stop()
         ended = self._ended = threading.Event()
 
@@ -101,7 +101,7 @@ class LongJobWorker:
     """Thread for long computations; the newest request cancels the running one.
 
     Args:
-        on_error: Told of every exception of a request that was not cancelled.
+        on_error: Function that is called with every exception of a request that was not cancelled.
     """
 
     def __init__(self, on_error: Complain) -> None:

@@ -1,4 +1,4 @@
-"""Worker process next to the server for long computations, because building a law keeps Python busy for seconds.
+"""Separate process for long computations, because building a control law blocks Python for seconds.
 
 The parent sends pickled requests to its standard input and reads pickled answers from its standard output.
 """
@@ -23,7 +23,7 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 
 Progress = Callable[[int, int], None]
-CANCEL_TIMEOUT_S = 2.0  # s that a request gets to give up before its process is ended
+CANCEL_TIMEOUT_S = 2.0  # s after which the process of a cancelled request is killed
 _POLL_INTERVAL_S = 0.02  # s
 
 
@@ -31,7 +31,7 @@ class WorkerProcess:
     """Worker process, started on first use, and killed and restarted if a request is not cancelled in time."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
-        self._inputs = replace(arm), task, cell  # without what has been compiled
+        self._inputs = replace(arm), task, cell  # a copy of the arm without compiled functions
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._request_lock = threading.Lock()
@@ -41,14 +41,17 @@ class WorkerProcess:
         """Run a job of :mod:`holdfast.interface.studio.compute` for a state.
 
         Args:
-            job_name: Its name.
-            state: What it is of.
-            check: Called 50 times a second; raises to give up.
-            progress: Told of (done, in all).
+            job_name: Name of the job.
+            state: State that the job computes its result for.
+            check: Function that is called 50 times a second; it raises to cancel the job.
+            progress: Function that is called with (done, total).
+
+        Returns:
+            The result of the job.
 
         Raises:
-            Cancelled: As ``check`` raises it.
-            HoldfastError: What the job raised, or that its process ended.
+            Cancelled: ``check`` raised it.
+            HoldfastError: The job raised it, or the process ended.
         """
         while not self._request_lock.acquire(timeout=_POLL_INTERVAL_S):
             check()
@@ -76,7 +79,7 @@ class WorkerProcess:
                     try:
                         pipe.close()
                     except OSError:
-                        continue  # what was not sent yet cannot be sent any more
+                        continue  # unsent data of the pipe are lost
 
     def _ensure_started(self) -> None:
         if self._process is not None and self._process.poll() is None:
@@ -92,12 +95,12 @@ class WorkerProcess:
 
     def _send_message(self, message: Any) -> None:
         if self._process is None or self._process.stdin is None:
-            raise HoldfastError("the computation was ended; ask again")
+            raise HoldfastError("the computation was stopped; request it again")
         try:
             pickle.dump(message, self._process.stdin)
             self._process.stdin.flush()
         except (OSError, ValueError) as error:
-            raise HoldfastError("the computation ended unexpectedly; ask again") from error
+            raise HoldfastError("the computation ended unexpectedly; request it again") from error
 
     def _await_answer(self, check: Callable[[], None], progress: Progress) -> Any:
         while True:
@@ -132,7 +135,7 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
         try:
             answers.put(pickle.load(pipe))
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            answers.put(("error", HoldfastError("the computation ended unexpectedly; ask again")))
+            answers.put(("error", HoldfastError("the computation ended unexpectedly; request it again")))
             return
 
 
@@ -142,21 +145,21 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
 def main() -> None:
     """Answer requests until the parent process ends."""
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
-    sys.stdout = sys.stderr  # what a library prints must not get between the answers
+    sys.stdout = sys.stderr  # prints of libraries must not mix with the answers
     arm, task, cell = pickle.load(requests)
 
     from holdfast.interface.studio.compute import JOB_FUNCTIONS
     from holdfast.interface.studio.scene.machine import CompiledArm, describe_error
 
     machine, pending = CompiledArm(arm, task, cell), queue.SimpleQueue[Any]()
-    newest_cancelled = [0]  # the newest request that is of no interest any more
+    newest_cancelled = [0]  # number of the newest cancelled request
 
     def read_requests() -> None:
         while True:
             try:
                 message = pickle.load(requests)
             except (EOFError, OSError, pickle.UnpicklingError):
-                os._exit(0)  # the parent is gone: nobody waits for what is under way
+                os._exit(0)  # the parent process ended, so the result is not needed
             if message[1] == "cancel":
                 newest_cancelled[0] = message[0]
             else:

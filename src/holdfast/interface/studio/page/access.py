@@ -1,7 +1,7 @@
 """Access control: only pages served by this studio are admitted, so that no other web page can connect to it.
 
-The rule is that of :mod:`holdfast.core.files.hosts`. Programs other than browsers run on this machine, or in a network that
-``--host`` has let in.
+The rule is that of :mod:`holdfast.core.files.hosts`. Programs other than browsers are not restricted; they run on this machine
+or in a network that ``--host`` admits.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 from holdfast.core.errors import HoldfastError
 from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 
-# Bytes of one message of a browser: a picture of the scene has less, and so has a part of an upload.
+# Bytes of one browser message; a picture of the scene and a part of an upload are smaller.
 MAX_MESSAGE_BYTES = 8 << 20
 _VISER_TITLE_HTML = "<title>Viser</title>"
 _HEAD_END_HTML = "</head>"
@@ -32,9 +32,9 @@ def is_own_request(hosts: Sequence[str], origins: Sequence[str], served: str) ->
     """Return whether a request addresses this studio and comes from one of its pages or from no page.
 
     Args:
-        hosts: Its ``Host`` headers.
-        origins: Its ``Origin`` headers.
-        served: The address that the studio listens on, as it was given.
+        hosts: ``Host`` headers of the request.
+        origins: ``Origin`` headers of the request.
+        served: Address that the studio listens on, as the user gave it.
     """
     return (
         request_rejection_reason(
@@ -57,7 +57,7 @@ class AccessFilter:
     """Request filter of a viser server, which rejects strangers and gives the page its title, style and script.
 
     Args:
-        served: The address that the studio listens on.
+        served: Address that the studio listens on.
     """
 
     def __init__(self, served: str) -> None:
@@ -69,7 +69,7 @@ class AccessFilter:
         """Install the filter in the viser server that starts inside the block, for all its requests.
 
         Raises:
-            HoldfastError: It did not ask: then nothing would be refused.
+            HoldfastError: The server did not use the filter, so that no request would be rejected.
         """
         from websockets.asyncio import server as sockets
 
@@ -77,7 +77,7 @@ class AccessFilter:
 
         def serve_filtered(*positional: Any, process_request: Any = None, **options: Any) -> Any:
             if not getattr(process_request, "__module__", "").startswith("viser."):
-                # Somebody else's, at the same time.
+                # Another server that starts at the same time.
                 return original_serve(*positional, process_request=process_request, **options)
 
             def process_filtered(connection: Any, request: Any) -> Any:
@@ -87,17 +87,17 @@ class AccessFilter:
             self.was_consulted = True
             return original_serve(*positional, process_request=process_filtered, **(options | {"max_size": MAX_MESSAGE_BYTES}))
 
-        with _PATCH_LOCK:  # viser has no place for this
+        with _PATCH_LOCK:  # viser has no option for this
             sockets.serve = serve_filtered  # type: ignore[misc,assignment]
             try:
                 yield
             finally:
                 sockets.serve = original_serve  # type: ignore[misc]
         if not self.was_consulted:
-            raise HoldfastError("this version of viser cannot be kept from pages of others; install viser 1.1")
+            raise HoldfastError("this version of viser cannot reject requests of other web pages; install viser 1.1")
 
     def _filter_response(self, request: Any) -> Any:
-        """Return the page, a refusal, or None for a request that viser answers."""
+        """Return the page, a rejection, or None for a request that viser answers."""
         hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
         if not is_own_request(hosts, origins, self._served):
             refusal = (

@@ -24,7 +24,7 @@ MAX_FILE_BYTES = 4 << 20  # bytes
 MAX_JOINTS = 40  # more take minutes to compile
 ARM_SUFFIXES = (".urdf", ".xml", ".yaml", ".yml")
 MOTION_SUFFIXES = (".csv",)
-_PART_BYTES = 512 << 10  # bytes of a part of viser's
+_PART_BYTES = 512 << 10  # bytes of one part of an upload in viser
 _TOO_LARGE = f"the file is too large; at most {MAX_FILE_BYTES >> 20} MiB can be opened here"
 
 
@@ -32,7 +32,7 @@ def detect_file_kind(name: str) -> str:
     """Return ``arm`` or ``motion``, according to the suffix of a file's name.
 
     Raises:
-        InputError: It is neither.
+        InputError: The suffix is neither that of an arm nor that of a motion.
     """
     ending = Path(name).suffix.lower()
     if ending in MOTION_SUFFIXES:
@@ -57,7 +57,7 @@ def read_uploaded_arm(name: str, content: bytes) -> tuple[CompiledArm, State, li
     meshes.
 
     Raises:
-        HoldfastError: The file is too large, or wrong, or its arm has more than 40 joints.
+        HoldfastError: The file is too large or invalid, or its arm has more than 40 joints.
     """
     with _provide_temporary_file(name, content) as file:
         if file.suffix.lower() in (".yaml", ".yml"):
@@ -65,7 +65,7 @@ def read_uploaded_arm(name: str, content: bytes) -> tuple[CompiledArm, State, li
 
             arm = dh_file.load_dh_file(file)
         else:
-            arm = Arm.from_urdf(file)  # never MJCF: that may name other files, to be opened
+            arm = Arm.from_urdf(file)  # never MJCF, which can name other files to open
         if arm.n > MAX_JOINTS:
             raise InputError(f"'{sanitise_file_name(name)}' has {arm.n} joints; the page takes arms of at most {MAX_JOINTS}")
         task = default_task("", arm)
@@ -82,7 +82,7 @@ def read_uploaded_motion(arm: Arm, name: str, content: bytes) -> PlayedMotion:
 
 @contextmanager
 def _provide_temporary_file(name: str, content: bytes) -> Iterator[Path]:
-    """Provide the content inside the block as a file in a folder of its own; errors contain only the name of the upload."""
+    """Provide the content as a file in a separate folder inside the block; errors contain only the name of the upload."""
     if len(content) > MAX_FILE_BYTES:
         raise InputError(f"'{sanitise_file_name(name)}': {_TOO_LARGE}")
     with TemporaryDirectory(prefix="holdfast-studio-") as folder:
@@ -98,8 +98,8 @@ def limit_uploads(gui: Any, on_refused: Any) -> None:
     """Allow a client one upload at a time, of at most 4 MiB, and reject others on arrival.
 
     Args:
-        gui: The client's viser GUI.
-        on_refused: Is told in a sentence.
+        gui: The viser GUI of the client.
+        on_refused: Function that is called with an error message for a rejected upload.
     """
     from viser import _messages
 
@@ -115,7 +115,7 @@ def limit_uploads(gui: Any, on_refused: Any) -> None:
             start_transfer(client, message)
             return
         on_refused(f"'{sanitise_file_name(message.filename)}': {_TOO_LARGE}")
-        connection.queue_message(  # else the button waits for ever
+        connection.queue_message(  # otherwise the button would wait forever
             _messages.FileTransferPartAck(
                 source_component_uuid=message.source_component_uuid,
                 transfer_uuid=message.transfer_uuid,

@@ -1,4 +1,4 @@
-"""Region of an assessment as points, each of which represents a configuration."""
+"""Region of an assessment as points, each with a configuration."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from holdfast.model.arm.model import Arm
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.run import assess, load
 
-MAX_POINTS = 2500  # points that are drawn
-REGION_POSES = 1200  # of a region around the end effector
+MAX_POINTS = 2500  # largest number of drawn points
+REGION_POSES = 1200  # poses of a region around the end effector
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,11 @@ class RegionCloud:
     """Poses of a region, coloured by the index of the configuration found for each.
 
     Attributes:
-        label: What it is, for people.
-        points: (N, 3) tool points, m.
-        colors: (N, 3) RGB, 0 to 255; dark is bad, bright is good; grey: no configuration found.
-        q: (N, n) configurations, rad and m; NaN where none was found.
-        values: (N,) of the index.
+        label: Description for the user.
+        points: Tool points (N, 3), m.
+        colors: RGB colors (N, 3), 0 to 255: dark is bad, bright is good, grey means that no configuration was found.
+        q: Configurations (N, n), rad and m; NaN where none was found.
+        values: Values of the index (N,).
     """
 
     label: str
@@ -54,8 +54,8 @@ def read_cloud(arm: Arm, path: str) -> RegionCloud:
     """Read the region of a results folder of ``holdfast assess``.
 
     Raises:
-        StoreError: It is not one.
-        InputError: It is of another arm.
+        StoreError: The folder is not a results folder.
+        InputError: The results are those of another arm.
     """
     assessment = load(path)
     if assessment.arm.fingerprint != arm.fingerprint:

@@ -36,7 +36,7 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 
-REACH_TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged
+REACH_TOLERANCE = 1e-6  # m and rad, for a dragged end effector
 MAX_SLIDE_STEP = 0.05  # rad (and m): longest step along a self-motion
 
 
@@ -45,12 +45,12 @@ class JointBars:
     """One number per joint.
 
     Attributes:
-        title: What is measured.
+        title: Name of the measure.
         better: ``larger`` or ``smaller``.
-        unit: Of the values; several units where joints differ.
-        values: (n,) NaN or infinite where there is none.
-        worst: The joint whose failure is the worst, from 0.
-        status: A sentence, where something is to be said; else empty.
+        unit: Unit of each value (n,).
+        values: Values (n,); NaN or infinite where there is none.
+        worst: Index of the joint with the worst failure, from 0.
+        status: Remark on the values, or an empty text.
     """
 
     title: str
@@ -66,11 +66,11 @@ class LiveReading:
     """All live values of one configuration.
 
     Attributes:
-        bars: Of the index, or why there are none.
-        weights: Of the susceptibility, or why there are none.
-        healthy_ellipsoid, failed_ellipsoid: Ellipsoids of the healthy and of the failed arm.
-        failure_joints: The joints whose failure ``failed_ellipsoid`` and ``losses`` are of: the failed ones, or the worst one
-            if none has failed.
+        bars: Bars of the index, or the reason why there are none.
+        weights: Bars of the susceptibility, or the reason why there are none.
+        healthy_ellipsoid, failed_ellipsoid: Manipulability ellipsoids of the healthy and of the failed arm.
+        failure_joints: Joints locked in ``failed_ellipsoid`` and ``losses``: the failed ones, or the worst one if none has
+            failed.
         losses: Directions in which speed is lost.
     """
 
@@ -94,7 +94,7 @@ class CompiledArm:
         self._clearance: Clearance | None = None
         self._compile_lock = threading.RLock()
 
-    # ---- where things are ------------------------------------------------------------------------------------------
+    # ---- geometry ------------------------------------------------------------------------------------------
 
     @cached_property
     @cached_kernel
@@ -130,7 +130,7 @@ class CompiledArm:
         assert self.cell is not None
         return self.cell.with_poses({name: pose_from_quaternion(numbers[:3], numbers[3:]) for name, numbers in moved})
 
-    # ---- what a failure takes --------------------------------------------------------------------------------------
+    # ---- effect of a failure --------------------------------------------------------------------------------------
 
     def get_index(self, name: str) -> Index | str:
         """Return the index over single failures, or the reason why the arm has none."""
@@ -164,7 +164,7 @@ class CompiledArm:
         """Return the control law with the label ``name`` or ``name:value``; it is compiled once.
 
         Raises:
-            InputError: It is not known, or its setting is none, or it takes none.
+            InputError: The law is not known, its setting is invalid, or it takes no setting.
         """
         with self._compile_lock:
             if text not in self._laws:
@@ -218,7 +218,7 @@ class CompiledArm:
         return ik_solver.solve_near(q, pose, is_movable, REACH_TOLERANCE)
 
     def pose_error_norm(self, q: FloatArray, pose: FloatArray) -> float:
-        """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
+        """Return the distance between the end effector at q (n,) and a pose (4, 4), in the task dimensions; m and rad."""
         from scipy.spatial.transform import Rotation
 
         tool = self.tool_pose(q)
@@ -244,7 +244,7 @@ class CompiledArm:
         length.
 
         Returns:
-            Where it led, within the limits, and the unit direction (n,) it went in; q itself and 0 where there is no way on.
+            New configuration (n,) within the limits, and unit direction (n,) of the step; q and 0 if no step is possible.
         """
         length = float(np.linalg.norm(step))
         basis = null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)

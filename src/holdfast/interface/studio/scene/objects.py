@@ -1,4 +1,4 @@
-"""Cell in the scene of a window: draggable objects, and the point where the arm is nearest to one of them."""
+"""Cell in the scene of a window: draggable objects, and the shortest distance from the arm to one of them."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ class CellObjects:
     """Cell objects of one window.
 
     Args:
-        scene: The window's viser scene.
-        machine: The arm and its cell.
-        moved_objects: Objects that are elsewhere, with x, y, z and quaternion x, y, z, w.
-        request_action: ``ask("pick", name)`` when an object is clicked, ``ask("object", (name, numbers))`` when it is dragged.
+        scene: The viser scene of the window.
+        machine: The compiled arm with its cell.
+        moved_objects: Names of moved objects, each with x, y, z in m and the quaternion x, y, z, w.
+        request_action: Function that is called as ``ask("pick", name)`` for a clicked object, and as ``ask("object", (name,
+            numbers))`` for a dragged one.
     """
 
     def __init__(
@@ -98,7 +99,7 @@ class CellObjects:
     _error_text = ""
 
     def draw_shortest_distance(self, q: FloatArray) -> tuple[str, bool]:
-        """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too near."""
+        """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too close."""
         if self._error_text or self._clearance is None or self._clearance.obstacles is None:
             self._line.visible = False
             return self._error_text or "The cell is empty.", bool(self._error_text)
@@ -113,6 +114,6 @@ class CellObjects:
         self._line.points = np.array([[gap.on_arm, gap.on_object]], dtype=np.float32)
         self._line.visible = not blocked
         if gap.distance < 0:
-            return f"In the way: {name}; what covers the arm is {-gap.distance:.3g} m inside.", True
-        margin = f", nearer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
-        return f"Nearest (red line): {name}, at least {gap.distance:.3g} m{margin}.", blocked
+            return f"In collision: {name}; the collision model of the arm is {-gap.distance:.3g} m inside.", True
+        margin = f", closer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
+        return f"Closest (red line): {name}, at least {gap.distance:.3g} m{margin}.", blocked

@@ -18,12 +18,12 @@ BLUE_RGB = (10, 92, 158)
 ORANGE_RGB = (200, 80, 10)
 GREEN_RGB = (0, 122, 94)
 PURPLE_RGB = (168, 73, 127)
-GRID_RGB = (150, 157, 164)  # to be seen on white and on black
+GRID_RGB = (150, 157, 164)  # visible on white and on black
 GHOST_COLORS: tuple[Color, ...] = (GREEN_RGB, ORANGE_RGB, BLUE_RGB, PURPLE_RGB)
-LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # names of two ghosts that meet stay apart
-ELLIPSOID_TIME_S = 0.22  # an ellipsoid is drawn as how far the tool gets in this time at joint rates of norm 1
-MAX_MARKED_FRACTION = 0.99  # a direction in which at least this share is left is not marked
-_MAX_MARKS = 2  # directions that are marked
+LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # labels of two ghosts that meet do not overlap
+ELLIPSOID_TIME_S = 0.22  # an ellipsoid shows the distance that the tool covers in this time at joint rates of norm 1
+MAX_MARKED_FRACTION = 0.99  # a direction in which at least this fraction of the speed remains is not marked
+_MAX_MARKS = 2  # largest number of marked directions
 _RING_SEGMENTS = 24
 
 
@@ -31,9 +31,9 @@ class Stage:
     """3-D scene of one window.
 
     Args:
-        scene: The window's viser scene.
-        machine: The arm.
-        parts: What it is made of.
+        scene: The viser scene of the window.
+        machine: The compiled arm.
+        parts: The meshes of the arm.
     """
 
     def __init__(self, scene: Any, machine: CompiledArm, parts: list[MeshPart]) -> None:
@@ -176,10 +176,10 @@ class Stage:
             segments[1] = [center - 0.3 * half_length * axis * angular_norm, center + 0.3 * half_length * axis * angular_norm]
         return segments
 
-    # ---- beside the arm --------------------------------------------------------------------------------------------
+    # ---- ghosts and region --------------------------------------------------------------------------------------------
 
     def add_ghosts(self, labels: Sequence[str], colors: Sequence[Color] = GHOST_COLORS) -> None:
-        """Add ghost arms to the scene, one for each label, in place of the present ones."""
+        """Add ghost arms to the scene, one for each label, in place of the current ones."""
         self.remove_ghosts()
         moving_parts = [part for part in self.parts if part.frame]
         for number, (text, color) in enumerate(zip(labels, colors, strict=False)):
