@@ -324,6 +324,6 @@ def test_the_figure_and_the_words(law, home, goal):
     run = hf.simulate_physics(law, home, goal, locked=[4], time_limit=1.0)
     assert len(run.figures()["physics"].axes) == 3
     said = " ".join(run.describe())
-    assert "kinematic: converged" in said
+    assert "in the kinematic simulation: converged" in said
     assert "still moving at the limit of 1 s" in said
     assert any("tool paths apart" in fact.label for fact in present(run).facts)

@@ -26,7 +26,7 @@ def test_from_records_to_a_page(cli, tmp_path):
     assert (told["joint"], told["kind"]) == ("panda_joint4", "locked")
     code, out, _ = cli("diagnose", log, *options, "--out", tmp_path / "page")
     assert "panda_joint4 is locked" in out
-    assert "does not prove that the arm is healthy" in (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
+    assert "does not prove that the arm has no fault" in (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
     code, out, _ = cli("diagnose", logs[0], *options)
     assert code == 0
     assert "No fault was detected in 1.999 s." in out

@@ -154,7 +154,7 @@ def test_the_command_keeps_clear_of_a_cell_and_a_replay_sees_it(cli, tmp_path):
     )
     code, text, _ = cli(*locked, ways[0])
     assert code == 3
-    assert "& post, margin 0 m): NOT KEPT" in text
+    assert "& post, margin 0 m): VIOLATED" in text
     code, text, err = cli(*call, "--cell", cell, "--radius", 0.03, "--no-clearance", "--csv", ways[1], "--json")
     assert (code, err) == (0, "")
     data = json.loads(text)
@@ -168,7 +168,7 @@ def test_the_command_keeps_clear_of_a_cell_and_a_replay_sees_it(cli, tmp_path):
     assert data["check"]["closest"].endswith("& post")
     assert data["check"]["least_room_m"] >= 0
     code, text, _ = cli(*locked, ways[1])
-    assert (code, "kept" in text) == (0, True)
+    assert (code, "respected" in text) == (0, True)
     assert len(read_waypoints(hf.arms.load("planar-3r"), ways[1])) > 2
 
 

@@ -148,7 +148,7 @@ def test_nothing_seen_is_not_called_well(panda, bounds, healthy):
     said = hf.diagnosis.diagnose(panda, still, dataclasses.replace(bounds, torque=np.full(7, np.inf))).describe()
     assert said[0] == "No fault was detected in 2.499 s."
     assert "These joints did not move enough for a diagnosis: panda_joint3." in said
-    assert "Not watched: torques, the measured tool pose." in said
+    assert "Not monitored: torques, the measured tool pose." in said
     assert not any("healthy" in line or "fine" in line for line in said)
 
 

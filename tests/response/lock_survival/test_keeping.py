@@ -66,7 +66,7 @@ def test_with_detours_it_is_an_upper_bound(kept):
 def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     machine, path, best = kept
     flat = hf.plan_motion(machine, timed([1.2, 0.3], [1.9, 0.3]), samples=5, spacing=0.2, keep=["plane:0,1,0", "plane:0,0,1"])
-    assert "by the rows of the path alone" in " ".join(flat.describe())
+    assert "determined by the path alone" in " ".join(flat.describe())
     with pytest.raises(hf.InputError, match=r"path itself breaks what is kept: at 0.5 s the tool is 0.1 m off the plane"):
         hf.plan_motion(machine, timed([1.2, 0.3], [1.6, 0.7]), samples=5, spacing=0.2, keep="plane:0,1,0")
     with pytest.raises(hf.InputError, match="leaves free what is to be kept exactly"):

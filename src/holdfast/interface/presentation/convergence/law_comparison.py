@@ -93,7 +93,7 @@ def present(comparison: LawComparison) -> Presentation:
         figures["gains"] = _figure(comparison, "draw_law_gains", f"Differences from {names[0]}", caption)
     if comparison.joints:
         caption = f"{format_count(len(comparison) * len(comparison.joints), 'run')} of each law; all joints weigh the same."
-        figures["errors"] = _figure(comparison, "draw_law_errors", "Distance from the target at the end", caption)
+        figures["errors"] = _figure(comparison, "draw_law_errors", "Errors at the end", caption)
     method: list[tuple[str, str]] = [("Motions", comparison.about or "given by the user")]
     method += [(name, law.describe()) for name, law in zip(names, laws, strict=True)]
     first_run = comparison.runs[0]
@@ -114,8 +114,9 @@ def present(comparison: LawComparison) -> Presentation:
     if comparison.comparable.any():
         tables.append(build_cost_table(comparison, files["healthy.csv"]))
         caption = (
-            f"Over the {format_count(int(comparison.comparable.sum()), 'motion')} that converge under every law with no joint "
-            "locked, each at 65 samples."
+            "Distance from the straight line, largest angle to the command, and time until the error is within 1e-3 of the "
+            f"target (in arm lengths and rad), over the {format_count(int(comparison.comparable.sum()), 'motion')} that "
+            "converge under every law with no joint locked, each at 65 samples."
         )
         title = "Cost while the arm is healthy"
         figures["healthy"] = _figure(comparison, "draw_healthy_costs", title, caption)

@@ -14,9 +14,9 @@ from holdfast.interface.report.figures import Curve, compare_cdf_figure
 from holdfast.interface.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 
 _COST_MEASURES = (
-    ("deviation", "distance from the straight line, m", 1.0),
-    ("angle", "largest angle to the command, deg", 180 / np.pi),
-    ("time", "time to within 1e-3 of the target (arm lengths, and rad), {unit}", 1.0),
+    ("deviation", "distance from the line, m", 1.0),
+    ("angle", "largest angle, deg", 180 / np.pi),
+    ("time", "time to the target, {unit}", 1.0),
 )
 
 

@@ -17,7 +17,7 @@ def format_points(difference: Difference) -> str:
 
 def format_range(interval: Interval) -> str:
     """Format the ends of the interval of a fraction, with the confidence."""
-    return f"{format_percent(interval.low)} to {format_percent(interval.high)}, {100 * interval.confidence:.4g} %"
+    return f"{100 * interval.confidence:.4g} % interval {format_percent(interval.low)} to {format_percent(interval.high)}"
 
 
 def rank_successes(shares: Mapping[str, Interval]) -> list[Fact]:

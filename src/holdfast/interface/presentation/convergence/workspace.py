@@ -186,7 +186,7 @@ def _compose_answer(analysis: Workspace | TargetMeasures, fallback: str) -> tupl
     else:
         text = "On no part of the way does the target stay within reach whichever joint locks"
     if reach[worst] < reach[best]:
-        remainder = f"on {format_percent(reach[worst])} of it" if reach[worst] else "nowhere"
+        remainder = f"on {format_percent(reach[worst])} of the way" if reach[worst] else "nowhere"
         text += f"; after a lock of {joints[worst]} alone, the worst joint, it is within reach {remainder}"
         facts += [
             Fact("", reach[worst], phrase=f"after a lock of {joints[worst]}, the worst joint", style="percent"),
@@ -216,7 +216,9 @@ def _tabulate_means(analysis: Workspace | TargetMeasures, place_noun: str, with_
         else values
         for measure, values in means.items()
     ]
-    title = f"Means over {place_noun}, percent{' (with 95 % intervals)' * with_intervals}"
+    title = (
+        f"Means over {place_noun}, percent{' (with 95 % intervals)' * with_intervals}; R: target within reach, F: then reached"
+    )
     return TableSpec(title, columns, list(zip((*analysis.law.arm.joint_names, "any"), *cells, strict=True)))
 
 

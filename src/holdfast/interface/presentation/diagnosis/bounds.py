@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first
+from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
 from holdfast.response.diagnosis.bounds import Bounds
 
@@ -24,7 +24,7 @@ def present(bounds: Bounds) -> Presentation:
     if rates is not None:
         lines = [
             f"false alarms: {bounds.alarms} if each log is monitored with thresholds from the others; with 95 % confidence "
-            f"fewer than {rates[1]:.3g} per hour, for this arm and the recorded kind of motion"
+            f"fewer than {format_number(rates[1], 3)} per hour, for this arm and the recorded kind of motion"
         ]
     if (bounds.speed > 0).any():
         delays = bounds.lock_delays()
@@ -50,8 +50,13 @@ def present(bounds: Bounds) -> Presentation:
     rows = list(zip(bounds.joints, bounds.torque, bounds.tracking, bounds.speed, strict=True))
     return Presentation(
         "Detection thresholds",
-        f"The thresholds come from {bounds.logs} log{'s' * (bounds.logs != 1)} with {bounds.hours:.3g} h of healthy motion at "
-        f"{bounds.rate:.4g} Hz.",
+        f"The thresholds come from {bounds.logs} log{'s' * (bounds.logs != 1)} with {_format_duration(bounds.hours)} of "
+        f"healthy motion at {bounds.rate:.4g} Hz.",
         lines=[f"{capitalise_first(line)}." for line in lines],
         tables=[TableSpec("Thresholds", columns, rows)],
     )
+
+
+def _format_duration(hours: float) -> str:
+    """Format a duration in hours, or in seconds if it is shorter than six minutes."""
+    return f"{hours:.3g} h" if hours >= 0.1 else f"{format_number(3600 * hours, 3)} s"

@@ -77,7 +77,7 @@ def present(diagnosis: Diagnosis) -> Presentation:
     if diagnosis.beyond:
         lines.append(f"faster than in the calibration, so that an alarm proves little: {', '.join(diagnosis.beyond)}")
     bounds = present_bounds(diagnosis.bounds)
-    lines += ["a log without an alarm does not prove that the arm is healthy", "this is not a certified safety function"]
+    lines += ["a log without an alarm does not prove that the arm has no fault", "this is not a certified safety function"]
     return Presentation(
         "Diagnosis of a log",
         _compose_answer(diagnosis),

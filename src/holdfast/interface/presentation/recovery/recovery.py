@@ -164,14 +164,16 @@ def _compose_answer(recovery: Recovery) -> str:
         answer += "; the arm is already there"
     if not recovery.ok:
         kind = f" ({recovery.verdict.kind})" if recovery.verdict.kind else ""
-        answer += f". Verdict on the whole request: {recovery.verdict.answer}{kind}"
+        answer += f". Verdict: {recovery.verdict.answer}{kind}"
     return f"{answer}."
 
 
 def _list_reasons(recovery: Recovery) -> list[str]:
-    """List the verdict with its reason, the legs of the motion, and the results of the replay."""
+    """List the verdict of a solved request or else its reason, the legs of the motion, and the results of the replay."""
     is_verified = recovery.verdict.is_solved and recovery.verified is not None
     lines = [f"verdict: {recovery.verdict}" + (f", {recovery.verified}" if is_verified else "")]
+    if not recovery.ok:
+        lines = [recovery.verdict.why] if recovery.verdict.why else []
     lines += [f"path constraint: {constraint}" for constraint in recovery.keep]
     if recovery.reason and recovery.reason != recovery.verdict.why:
         lines.append(recovery.reason)

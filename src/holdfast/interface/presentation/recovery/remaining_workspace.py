@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
     from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
 
-_MAPS_CAPTION = "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side."
+_MAPS_CAPTION = (
+    "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach; small numbers count the targets."
+)
 
 
 def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
