@@ -57,7 +57,7 @@ def _present_refutation(proof: Refutation, check: CertificateCheck | None = None
     answer = _describe_fraction(fraction, "the pairs of a target and a configuration are excluded")
     if proof.witness is not None:
         position = _format_configuration(proof.witness, proof)
-        answer = f"Refuted by a witness. The claim is false: at ({position}) {_units(proof)}, the tool is in the box."
+        answer = f"Refuted by a witness. The claim is false: at {position}, the tool is in the box."
     elif fraction == 1:
         answer = "No target of the box is reached: every pair of a target and a configuration is excluded."
     lemma_count, largest = len(proof.document["lemmas"]), find_largest_lemma(proof.document)
@@ -65,9 +65,7 @@ def _present_refutation(proof: Refutation, check: CertificateCheck | None = None
     if largest is not None:
         base_text = "the base" if largest["link"] == 0 else f"the link of {claim.arm.joint_names[largest['link'] - 1]}"
         other_axes, lemma_text = "all others", f"Boxes of the largest lemma, about the joints behind {base_text}. "
-    proof_text = (
-        "a bisection tree of boxes of configurations and targets; in each box, a bound on one distance excludes the targets"
-    )
+    proof_text = "a bisection tree of boxes of configurations and targets; a bound on one distance excludes the targets of each"
     if lemma_count:
         count_text = "one of these bounds is a lemma" if lemma_count == 1 else f"{lemma_count} of these bounds are lemmas"
         proof_text += f"; {count_text} about the joints behind one point only, with a separate tree"
@@ -88,7 +86,7 @@ def _present_refutation(proof: Refutation, check: CertificateCheck | None = None
 def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = None, **options: Any) -> Presentation:
     claim, is_upper_bound, fraction = proof.claim, proof.claim.kind == "ceiling", find_proved_fraction(proof, check)
     extreme_word, side = ("greatest", "above") if is_upper_bound else ("lowest", "below")
-    occurrence = f"{proof.value:.6f} occurs at ({_format_configuration(proof.extreme, proof)}) {_units(proof)}"
+    occurrence = f"{proof.value:.6f} occurs at {_format_configuration(proof.extreme, proof)}"
     if proof.refuted:
         answer = f"Refuted by a witness. The claim is false: {occurrence}."
         caption = f"Orange: from the claimed {claim.kind} to a value that occurs, which refutes it."
@@ -106,11 +104,7 @@ def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = 
         answer = _describe_fraction(fraction, f"the box is proved to keep the {claim.kind} of {claim.threshold:g}")
         answer += f" {occurrence}."
         caption = f"Blue: values {side} the {claim.kind}, which occur at most in undecided boxes. Hatched: values between both."
-    bound_text = (
-        "wrench bounds the relative manipulability after a lock"
-        if is_upper_bound
-        else "inverse, as a series, bounds the relative manipulability after every lock"
-    )
+    bound_text = "wrench bounds the index after a lock" if is_upper_bound else "series of an inverse bounds it after every lock"
     bound_figure = FigureSpec(partial(_draw, proof, "value_scale"), "The bound and an observed value", caption)
     return present_proof(
         proof,
@@ -130,12 +124,10 @@ def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = 
     )
 
 
-def _units(proof: Found) -> str:
-    return "deg and m" if proof.claim.arm.prismatic.any() else "deg"
-
-
 def _format_configuration(q: FloatArray, proof: Found) -> str:
-    return ", ".join(f"{position:.4g}" for position in display_factors(~proof.claim.arm.prismatic) * q)
+    is_slide = proof.claim.arm.prismatic
+    text = ", ".join(f"{position:.4g}" for position in display_factors(~is_slide) * q)
+    return f"({text}) {'deg and m' if is_slide.any() else 'deg'}"
 
 
 def _list_figures(proof: Found, other_axes: str, lemma_text: str = "") -> dict[str, FigureSpec]:

@@ -44,10 +44,8 @@ def present(proof: Proof | TolerantProof, check: CertificateCheck | None = None,
     """Present the proved fraction, its meaning, and its limits; the options are those of :func:`present_proof`."""
     arm, place_text, condition, object_text = proof.claim.arm, "within limits", "", "targets"
     if isinstance(proof, TolerantProof):
-        place_text, condition = (
-            "while healthy and after a lock of any one joint",
-            " while healthy and after a lock of any one joint",
-        )
+        place_text = "while healthy and after a lock of any one joint"
+        condition = f" {place_text}"
     elif proof.claim.locked >= 0:
         place_text, object_text = "at every locked angle", f"targets and locked angles of {arm.joint_names[proof.claim.locked]}"
     answer, fraction = "Nothing is proved: everything is undecided.", find_proved_fraction(proof, check)
@@ -57,8 +55,7 @@ def present(proof: Proof | TolerantProof, check: CertificateCheck | None = None,
     orientation_text = ", in every orientation of the box," if len(proof.claim.box) > 3 else ""
     caption = (
         f"Blue: every target{orientation_text} is proved to be reached {place_text}. Hatched: some box is undecided, which "
-        "does not mean that its targets are out of reach. The slices go through the middle of the box and where most is "
-        "undecided."
+        "does not mean that its targets are out of reach. Slices: through the middle, and where most is undecided."
     )
     return present_proof(
         proof,

@@ -24,10 +24,7 @@ def build_outcome_table(comparison: LawComparison) -> TableSpec:
     columns = [Header("law", "law"), Header("failure", "locked")]
     columns += [Header(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
     columns.insert(3, Header("interval", "95 % interval", style="percent"))
-    columns += [
-        Header(f"{kind.key}_astray", f"median {'angular ' * (kind.name == 'angle_error')}miss, {kind.unit}", aligned=False)
-        for kind in kinds
-    ]
+    columns += [Header(f"{kind.key}_astray", f"median miss, {kind.unit}", aligned=False) for kind in kinds]
     rows = [
         [
             row["law"],
@@ -64,12 +61,7 @@ def build_detail_table(comparison: LawComparison) -> TableSpec:
     ]
     factors = {f"{kind.key}_{level}": kind.factor for kind in kinds for level in levels}
     rows = [[_scale(row[column.key], factors.get(column.key)) for column in columns] for row in comparison.table]
-    return TableSpec(
-        "Quantiles of the errors at the end over all runs, and medians of path length and joint ranges",
-        columns,
-        rows,
-        on_console=False,
-    )
+    return TableSpec("Quantiles of the final errors, and medians of path and joint ranges", columns, rows, on_console=False)
 
 
 def _scale(value: Any, factor: float | None) -> Any:

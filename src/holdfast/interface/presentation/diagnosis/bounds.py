@@ -35,9 +35,7 @@ def present(bounds: Bounds) -> Presentation:
         )
     if (bounds.scales != 1).any():
         smallest, largest = bounds.scales.min(), bounds.scales.max()
-        lines.append(
-            f"friction and masses are fitted to the logs; the masses are {smallest:.2f} to {largest:.2f} times the model's"
-        )
+        lines.append(f"friction and masses are fitted to the logs, masses to {smallest:.2f} to {largest:.2f} times the model's")
     missing = [] if np.isfinite(bounds.torque).all() else ["torques"]
     missing += [] if np.isfinite(bounds.position) else ["the measured tool pose"]
     lines += [f"not monitored: {signal} (not in the logs)" for signal in missing]
@@ -47,16 +45,12 @@ def present(bounds: Bounds) -> Presentation:
         Header("tracking", "tracking, rad (m)", digits=3),
         Header("speed", "largest speed, rad/s (m/s)", digits=3),
     ]
+    hours = f"{bounds.hours:.3g} h" if bounds.hours >= 0.1 else f"{format_number(3600 * bounds.hours, 3)} s"
     rows = list(zip(bounds.joints, bounds.torque, bounds.tracking, bounds.speed, strict=True))
     return Presentation(
         "Detection thresholds",
-        f"The thresholds come from {bounds.logs} log{'s' * (bounds.logs != 1)} with {_format_duration(bounds.hours)} of "
+        f"The thresholds come from {bounds.logs} log{'s' * (bounds.logs != 1)} with {hours} of "
         f"healthy motion at {bounds.rate:.4g} Hz.",
         lines=[f"{capitalise_first(line)}." for line in lines],
         tables=[TableSpec("Thresholds", columns, rows)],
     )
-
-
-def _format_duration(hours: float) -> str:
-    """Format a duration in hours, or in seconds if it is shorter than six minutes."""
-    return f"{hours:.3g} h" if hours >= 0.1 else f"{format_number(3600 * hours, 3)} s"

@@ -145,9 +145,8 @@ def _tabulate_joints(result: Observability | ProbingMotion) -> TableSpec:
     columns.append(Header("apart", "distinguished by the tool pose"))
     remark = f"with the log-likelihood ratio to the closest hypothesis, above {LOG_LIKELIHOOD_THRESHOLD:.2g} if distinguished"
     if not isinstance(result, ProbingMotion):
-        return TableSpec(
-            f"Locks, {remark}", columns, [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)]
-        )
+        rows = [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)]
+        return TableSpec(f"Locks, {remark}", columns, rows)
     columns.insert(1, Header("rate", "largest rate in a unit self-motion", digits=2, aligned=False))
     rows = [[names[row], result.visible[row], nearest[row], distinguishable[names[row]]] for row in result.suspects]
     return TableSpec(f"Candidate joints, {remark}", columns, rows)

@@ -75,10 +75,7 @@ def present(points: StationaryPoints) -> Presentation:
         f"Stationary points of {law.arm.name} after an undetected lock",
         _compose_answer(points, is_solution, errors),
         about=f"{law.arm.title}, {law.describe()}; {points.starts:,} starts",
-        lines=[
-            *_compose_remarks(points),
-            *([f"{omitted_points} more points are not listed; --json prints all."] if omitted_points else []),
-        ],
+        lines=[*_compose_remarks(points), *[f"{omitted_points} more points; --json prints all."] * bool(omitted_points)],
         facts=facts,
         tables=[table],
         sections=partial(draw_stationary_arms, points),
@@ -106,14 +103,8 @@ def _compose_answer(points: StationaryPoints, is_solution: NDArray[np.bool_], er
         return f"{opening} is out of reach, and no attracting stationary point was found, so the arm keeps moving."
     else:
         smallest_error, largest_error = errors[[0, -1]]
-        trap_text = (
-            "one attracting stationary point" if len(errors) == 1 else f"one of {len(errors)} attracting stationary points"
-        )
-        trap_text += (
-            f", {smallest_error} from it"
-            if smallest_error == largest_error
-            else f", {smallest_error} to {largest_error} from it"
-        )
+        trap_text = f"one {f'of {len(errors)} ' * (len(errors) > 1)}attracting stationary point{'s' * (len(errors) > 1)}"
+        trap_text += f", {smallest_error}{f' to {largest_error}' * (smallest_error != largest_error)} from it"
         reach_text = "within reach, but the arm can also stop at" if is_solution.any() else "out of reach, and the arm stops at"
         answer = f"{opening} is {reach_text} {trap_text}."
     return answer

@@ -109,9 +109,7 @@ def present(survival: LockSurvival) -> Presentation:
         )
     }
     if survival.found is not None:
-        held = (
-            f" All of them keep {' and '.join(survival.found.held)} fixed, as the motion does." if survival.found.held else ""
-        )
+        held = f" All of them keep {' and '.join(survival.found.held)} fixed, like the motion." if survival.found.held else ""
         figures["map"] = FigureSpec(
             partial(_draw, survival, "map"),
             "Survivable locks by configuration",
@@ -149,8 +147,8 @@ def present(survival: LockSurvival) -> Presentation:
 def _compose_answer(survival: LockSurvival) -> str:
     if survival.survives_all_locks:
         return "The motion survives a lock of any one joint at any sample of the path."
-    prefix = _KIND_PREFIXES[survival.kind]
-    text = f"The motion survives {prefix}{format_percent(survival.survival)} of all single-joint locks on the way"
+    share = f"{_KIND_PREFIXES[survival.kind]}{format_percent(survival.survival)}"
+    text = f"The motion survives {share} of all single-joint locks on the way"
     if survival.survival_bound is not None:
         text += f"; no motion along this path survives more than {format_percent(survival.survival_bound)}"
     if survival.comparisons:
@@ -168,24 +166,20 @@ def _list_reasons(survival: LockSurvival) -> list[str]:
             "this is a lower bound: after a lock the arm is still redundant, and the search considers only continuations that "
             f"keep {format_count(redundancy - 1, 'further joint')} fixed{cone_text}"
             if survival.mode == "on-path"
-            else "this is a lower bound: only configurations of the later poses that inverse kinematics found with the joint "
-            "locked count"
+            else "this is a lower bound: of the later poses, only those that inverse kinematics reached with the lock count"
         )
     elif survival.found is not None:
         lower, upper = survival.found.interval
         best = "no motion was found" if np.isnan(lower) else f"the best motion survives {format_percent(lower)}"
         lines.append(
-            f"the upper bound for every motion holds up to the grid of {len(survival.time)} poses and "
-            f"{survival.found.spacing:g} rad; on its nodes, {best} within the velocity limits, and {format_percent(upper)} "
-            "if one grid spacing is added to them"
+            f"the bound for every motion holds up to the grid of {len(survival.time)} poses and {survival.found.spacing:g} "
+            f"rad; on its nodes, {best} within the velocity limits, and {format_percent(upper)} with one spacing added to them"
         )
     if survival.kept is not None and survival.kind != "lower bound":
         lines.append("clearance is computed with shapes that enclose the links; the real arm is smaller and may survive more")
     if survival.keep:
         task_text = "" if conditions.left_to_arm else ", determined by the path alone"
-        lines.append(
-            f"path constraints at every sample, before and after a lock{task_text}: {'; '.join(map(str, survival.keep))}"
-        )
+        lines.append(f"path constraints before and after a lock{task_text}: {'; '.join(map(str, survival.keep))}")
     if survival.injected is not None:
         interval = survival.injected.interval
         lines.append(

@@ -116,10 +116,7 @@ def present(trajectory: Trajectory) -> Presentation:
                 f"{trajectory.steps:,} of {trajectory.time[-1] / trajectory.steps:.3g} s; {len(trajectory.time):,} "
                 f"samples are stored",
             ),
-            (
-                "Without the objective",
-                "least-norm joint rates from the same start configuration; all other settings are the same",
-            ),
+            ("Without the objective", "least-norm joint rates from the same configuration, all else equal"),
             ("Seed", str(trajectory.seed)),
         ],
         arm=arm,

@@ -68,9 +68,7 @@ def present(run: Execution) -> Presentation:
     if faults:
         answer += f", and {'; '.join(faults)}"
     elif run.outcome == "finished":
-        achievements = ["the tool is at its goal"] * (run.goal is not None) + ["the path constraints are satisfied"] * bool(
-            run.keep
-        )
+        achievements = ["the tool is at its goal"] * (run.goal is not None) + ["all constraints are satisfied"] * bool(run.keep)
         answer += f": {' and '.join([*achievements, 'the joints stayed within their limits'])}"
     return Presentation(
         f"{run.arm.name} with masses and servos",
@@ -122,14 +120,10 @@ def _list_facts(run: Execution) -> list[Fact]:
     facts = [Fact("simulated time", float(run.time[-1]), "s")]
     if run.goal_distance is not None:
         facts.append(
-            Fact(
-                "distance of the tool from its goal",
-                format_error(1000 * run.goal_distance) + " mm",
-                phrase="from the tool to its goal",
-            )
+            Fact("distance from the goal", format_error(1000 * run.goal_distance) + " mm", phrase="from the tool to its goal")
         )
     if run.goal_turn is not None:
-        facts.append(Fact("angle of the tool from its goal", format_error(np.rad2deg(run.goal_turn)) + " deg"))
+        facts.append(Fact("angle from the goal", format_error(np.rad2deg(run.goal_turn)) + " deg"))
     for constraint, (deviation, tilt) in zip(run.keep, run.constraint_errors, strict=True):
         if len(constraint.normals):
             facts.append(Fact(f"{constraint.name}: largest deviation", 1000 * deviation, "mm", digits=3))

@@ -78,11 +78,7 @@ def present(swing: FreeSwing) -> Presentation:
         _compose_answer(swing),
         about=f"Arm {swing.arm.title}. All other joints are held. {POWER_LOSS_NOTE}",
         lines=[
-            *(
-                ["A longer --duration or a higher --damping shows where the joint comes to rest."]
-                if swing.outcome == "moving"
-                else []
-            ),
+            *(["More --duration or --damping shows where the joint settles."] if swing.outcome == "moving" else []),
             *(["The arm touches nothing on the way."] if swing.contacts == () else []),
         ],
         notices=[Notice(f"{capitalise_first(swing.contacts[0].sentence())}.")] if swing.contacts else [],
@@ -133,7 +129,7 @@ def _compose_answer(swing: FreeSwing) -> str:
     if swing.outcome == "balanced":
         return f"{failed.name} does not move when it is released here, because it is balanced under gravity."
     answer = {
-        "rest": f"{failed.name} swings by up to {peak} and comes to rest {rest} from its start",
+        "rest": f"{failed.name} swings by up to {peak} and settles {rest} from its start",
         "stop": f"{failed.name} falls against its stop, {rest} from its start",
         "contact": f"{failed.name} falls until {_describe_contact(swing)}, {rest} from its start",
         "moving": f"{failed.name} swings by up to {peak} and is still moving after {format_number(swing.time[-1], 4)} s",

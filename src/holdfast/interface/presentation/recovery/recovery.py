@@ -130,9 +130,7 @@ def present(recovery: Recovery) -> Presentation:
             ("Search", f"{recovery.starts} random restarts for configurations of the goal, seed {recovery.seed}"),
             (
                 "Length",
-                "in joint space, with 1 m of a prismatic joint counted as 1 rad"
-                if recovery.unit == "rad"
-                else "duration within the velocity limits",
+                "in joint space, 1 m counts as 1 rad" if recovery.unit == "rad" else "duration within the velocity limits",
             ),
             *([] if recovery.timed is None else [("Timing", _describe_timing(recovery.timed))]),
             *(("Path constraint", str(constraint)) for constraint in recovery.keep),
@@ -171,17 +169,12 @@ def _compose_answer(recovery: Recovery) -> str:
 def _list_reasons(recovery: Recovery) -> list[str]:
     """List the verdict of a solved request or else its reason, the legs of the motion, and the results of the replay."""
     is_verified = recovery.verdict.is_solved and recovery.verified is not None
-    lines = [f"verdict: {recovery.verdict}" + (f", {recovery.verified}" if is_verified else "")]
-    if not recovery.ok:
-        lines = [recovery.verdict.why] if recovery.verdict.why else []
+    lines = [f"verdict: {recovery.verdict}" + f", {recovery.verified}" * is_verified] if recovery.ok else [recovery.verdict.why]
     lines += [f"path constraint: {constraint}" for constraint in recovery.keep]
     if recovery.reason and recovery.reason != recovery.verdict.why:
         lines.append(recovery.reason)
     if len(recovery.q) and isinstance(recovery.clearance, ExactClearance):
-        lines.append(
-            "the lower bounds on the distances do not show that the motion is collision-free; exact distances "
-            f"({recovery.clearance.exact_by}) do, all the way"
-        )
+        lines.append(f"exact distances ({recovery.clearance.exact_by}), but not the lower bounds, show a collision-free motion")
     other_options = [
         str(option)
         for option in recovery.choices
@@ -204,7 +197,7 @@ def _list_reasons(recovery: Recovery) -> list[str]:
             f"independent replay: {sentence.removesuffix('.')}{shape_note * sentence.startswith('Smallest')}"
             for sentence in sentences(recovery.check())
         ]
-    return [f"{capitalise_first(line).removesuffix('.')}." for line in lines]
+    return [f"{capitalise_first(line).removesuffix('.')}." for line in lines if line]
 
 
 def _list_facts(recovery: Recovery) -> list[Fact]:

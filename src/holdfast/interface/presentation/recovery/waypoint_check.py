@@ -33,17 +33,10 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
 def present(check: WaypointCheck) -> Presentation:
     """Present the satisfied and the violated constraints."""
     verdict = "satisfy all requirements" if check.ok else "do NOT satisfy all requirements"
-    lines = [
-        f"{name} exceeds its limits by {format_number(excess, 4)} (rad or m)" for name, excess in check.beyond_limits.items()
-    ]
-    lines += [
-        f"{name} should be locked but moves by {format_number(excess, 4)} (rad or m)"
-        for name, excess in check.locks_moved.items()
-    ]
+    lines = [f"{name} exceeds its limits by {format_number(x, 4)} (rad or m)" for name, x in check.beyond_limits.items()]
+    lines += [f"{name} is locked but moves by {format_number(x, 4)} (rad or m)" for name, x in check.locks_moved.items()]
     lines += [f"{name} is too fast: {format_number(rate, 4)} (rad/s or m/s)" for name, rate in check.too_fast.items()]
-    lines += [
-        f"{name} accelerates too much: {format_number(rate, 4)} (rad/s² or m/s²)" for name, rate in check.too_hard.items()
-    ]
+    lines += [f"{name} accelerates too much: {format_number(x, 4)} (rad/s² or m/s²)" for name, x in check.too_hard.items()]
     lines += [f"the tool is {violation}" for violation in check.kept if violation]
     if check.kept and not any(check.kept):
         lines.append("all path constraints are satisfied")

@@ -64,7 +64,7 @@ def present(run: FaultRun) -> Presentation:
     angle_text = f" and {np.rad2deg(run.orientation_error[-1]):.3g} deg" if run.law.task.angular else ""
     answer = (
         f"{capitalise_first(OUTCOME_PHRASES[run.outcome])} ({_RESPONSE_PHRASES[run.react]}), "
-        f"{1e3 * run.position_error[-1]:.3g} mm{angle_text} from it after {run.time[-1]:.4g} s of simulated time."
+        f"{1e3 * run.position_error[-1]:.3g} mm{angle_text} from the target after {run.time[-1]:.4g} s of simulated time."
     )
     lines = [] if run.events else ["this episode has no fault"]
     if not run.actions and run.react != "none":
@@ -83,18 +83,14 @@ def present(run: FaultRun) -> Presentation:
     )
     facts = [distance]
     if np.isfinite(run.delay) and run.delay >= 0:
-        facts.append(
-            Fact("time from the fault to the alarm", 1e3 * run.delay, "ms", phrase="from the fault to the alarm", digits=3)
-        )
+        facts.append(Fact("time from fault to alarm", 1e3 * run.delay, "ms", phrase="from the fault to the alarm", digits=3))
     events = [(event.onset, event.sentence()) for event in run.events]
     events += [(action.time, action.sentence()) for action in run.actions]
     names = run.arm.joint_names
     rows = [
         [time, sentence if sentence.split(":")[0] in names else capitalise_first(sentence)] for time, sentence in sorted(events)
     ]
-    table = TableSpec(
-        "Faults and actions over time", [Header("time", "time, s", aligned=False), Header("event", "event")], rows
-    )
+    table = TableSpec("Faults and actions", [Header("time", "time, s", aligned=False), Header("event", "event")], rows)
     return Presentation(
         f"{run.arm.name} with faults",
         answer,

@@ -93,9 +93,7 @@ class ControlPanel:
 
     def _add_fail_tab(self, arm: Arm, state: State) -> None:
         self.gui.add_html(
-            _message_html(
-                "A locked joint cannot move; a free joint swings under gravity. You can also click a joint in the scene."
-            )
+            _message_html("A locked joint cannot move; a free joint swings. You can also click a joint in the scene.")
         )
         self.conditions = []
         for index, joint in enumerate(arm.joints):
@@ -136,9 +134,7 @@ class ControlPanel:
         self._add_button("Move under both laws", "laws")
         if state.file is not None:
             self._add_button(f"Open {Path(state.file).name}", "file")
-        self.gui.add_html(
-            _message_html("To play a motion of holdfast follow, simulate or recover, open its CSV file in the tab File.")
-        )
+        self.gui.add_html(_message_html("Open the CSV file of a motion of follow, simulate or recover in the tab File."))
         self.time = self.gui.add_slider("time", 0.0, 1.0, 0.001, 0.0, disabled=True)
         self._attach_action(self.time.on_update, "time", lambda h: h.value)
         self._add_button("Play", "play")
