@@ -1,4 +1,4 @@
-/** Makes what is written into a page as a picture a view that can be turned, where the browser can. */
+/** Replaces the static pictures of a page by views that can be rotated, if the browser has WebGL. */
 
 import type { Scene } from "./scene";
 import { View } from "./view";
