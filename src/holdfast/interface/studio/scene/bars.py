@@ -59,7 +59,7 @@ def losses_html(arm: Arm, task: Task, reading: LiveReading, failed: Sequence[int
     lines = [f"{heading}: {format_percent(remaining)} of the manipulability remains."]
     for loss in reading.losses[:2]:
         loss_text = "lost" if loss.lost else f"{format_percent(loss.kept)} of the speed remains"
-        lines.append(f"{describe_direction(task, loss)}: <strong>{loss_text}</strong>")
+        lines.append(f"Motion {describe_direction(task, loss)}: <strong>{loss_text}</strong>")
     before, after = (
         " × ".join(format_value(r, 2) for r in shape.radii) for shape in (reading.healthy_ellipsoid, reading.failed_ellipsoid)
     )
