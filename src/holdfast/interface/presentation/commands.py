@@ -28,19 +28,19 @@ from holdfast.studies.assessment.assessment import Assessment
 _POSES_FILE = "poses.csv"
 _CAPSULES_FILE = "capsules.yaml"
 _CELL_FILE = "cell.yaml"
-_MAX_LISTED_POSES = 50  # of a list in a report; a results folder stores all
+_MAX_LISTED_POSES = 50  # of a list in a report; a results folder holds any number
 
 
 def build_command_line(assessment: Assessment) -> tuple[str | None, str]:
     """Return the command that reproduces the run from ``region.yaml``, or None, and a remark."""
     index, task = assessment.index, assessment.index.task
     if not assessment.region.storable:
-        return None, "The region uses a custom function, so no command line can repeat this run; keep the script."
+        return None, "The region has a function of your own, so no command line makes this run again; keep the script."
     if not INDEX_REGISTRY.is_storable(index):
-        return None, "The index is a custom function, so no command line can repeat this run; keep the script."
+        return None, "The index is a function of your own, so no command line makes this run again; keep the script."
     task_text = format_task_option(assessment.arm, task)
     if task_text is None:
-        return None, "The task is a custom task, so no command line can repeat this run; keep the script."
+        return None, "The task is of your own making, so no command line makes this run again; keep the script."
     spec, option_words, remark = arms.command_words(assessment.arm)
     tool = {}
     known_arm = arms.load(assessment.arm.name) if assessment.arm.name in arms.names() else None
@@ -49,7 +49,7 @@ def build_command_line(assessment: Assessment) -> tuple[str | None, str]:
         option_words.clear()
         tool = {"tool": f"tool={text}"}
         if known_arm.with_tool(tool_pose_from_numbers(text.split(","))).fingerprint != assessment.arm.fingerprint:
-            remark = "the tool with 12 digits"
+            remark = "the tool to 12 digits"
     options = {**tool, "region": "region.yaml", "index": index.label, "task": task_text}
     if task.length != 1.0:
         options["length"] = repr(task.length)
@@ -94,7 +94,7 @@ def _clearance_options(assessment: Assessment) -> list[str]:
     """Return the options for the clearance of the arm from itself and its cell, where they differ from the defaults."""
     clearance, arm = assessment.plan.clearance, assessment.arm
     planar = plane_normal(arm) is not None
-    default_on = assessment.plan.optimise and not planar  # without an option
+    default_on = assessment.plan.optimise and not planar  # unless told otherwise
     if clearance is None:
         return ["--no-clearance"] if default_on else []
     cell_options = [] if clearance.cell is None else [f"--cell {_CELL_FILE}"]
@@ -170,7 +170,7 @@ def format_failures_option(arm: Arm, failures: FailureSets) -> str:
     text = "; ".join(
         "+".join(arm.joint_names[joint] if names_are_plain else str(joint + 1) for joint in failure) for failure in failures
     )
-    return text + ";" if text.isdigit() else text  # a single number would be the size of the sets
+    return text + ";" if text.isdigit() else text  # a lone number would be how many
 
 
 def format_region_file(region: Region) -> str:
@@ -201,7 +201,7 @@ def build_region_file_blocks(region: Region) -> list[Block]:
     if region.listed is not None and len(region.listed) <= _MAX_LISTED_POSES:
         blocks.append(Code(region.listed.to_csv(), Markup("and <code>{}</code>:").format(_POSES_FILE)))
     elif region.listed is not None:
-        remark = Markup("and <code>{}</code>, the list of poses, which the results folder contains in <code>run.json</code>.")
+        remark = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
         blocks.append(Text(remark.format(_POSES_FILE)))
     return blocks
 

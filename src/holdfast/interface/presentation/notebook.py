@@ -1,6 +1,6 @@
 """Notebook view of a result: the answer, a table of its key numbers, and the main figure.
 
-The colours are those of the notebook, light or dark; only figures have their own white background.
+Colours are those of the notebook, light or dark; only a figure brings its own white ground.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_TABLE_ROWS = 12
-_PIXEL_DENSITY = 1.5  # image pixels per screen pixel
+_PIXEL_DENSITY = 1.5  # dots for each of the screen's
 _PIXELS_PER_INCH = 96  # px
 
 

@@ -1,8 +1,8 @@
 """One description of a result, from which the console, JSON, notebooks, pages, and files are rendered.
 
-The presenter of a class is a module with one function ``present(result, **options) -> Presentation``, and ``to_dict`` if the
-JSON document contains more than its facts and tables. The options are parameters of the presentation, for example thresholds.
-Slow parts (figures, views of an arm, long tables) are given as functions that are called only where the part is shown.
+The presenter of a class is a module with one function ``present(result, **options) -> Presentation``, and ``to_dict`` where the
+JSON document is more than its facts and tables. The options are what the caller asks about the result, for example thresholds.
+Whatever takes time (figures, views of an arm, long tables) is given as a function that is called only where it is shown.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Style = Literal["number", "percent", "text", "angle"]  # angle: rad is also give
 
 
 def format_value(value: Any, style: Style = "number", unit: str = "", digits: int = 4) -> str:
-    """Format a value of a fact or a cell with its unit: a text, a flag, a count, a number, an interval, or a range."""
+    """Format a value of a fact or a cell, with its unit: a text, a flag, a count, a number, an interval, or a range."""
     if value is None or isinstance(value, str):
         return value or ""
     if isinstance(value, (bool, np.bool_)):
@@ -62,17 +62,16 @@ def _format_probability(estimate: Probability, style: Style) -> str:
 
 @dataclass(frozen=True)
 class Fact:
-    """One number or word of a result.
+    """One number of a result, or one word.
 
     Attributes:
-        label: Name on the console, in notebooks, and in the table of the report; an empty label is only at the top of the
-            report.
+        label: Its name on the console, in notebooks, and in the table of the page; empty: it is only at the top of the page.
         value: A number, text, flag, interval (:class:`~holdfast.Interval`), or range (a tuple).
         unit: Unit of the value, for example ``"mm"``.
-        phrase: Text after the number at the top of the report; without it, the fact is in the table of the report instead.
-        style: Style of the value, ``percent`` for fractions.
+        phrase: What the number is, after it, at the top of the page; empty: it is in the table of the page instead.
+        style: Percent for fractions.
         digits: Significant digits.
-        key: Name in JSON, for presenters without ``to_dict``.
+        key: Its name in JSON, where the presenter has no ``to_dict``.
     """
 
     label: str
@@ -92,7 +91,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Header:
-    """Head of a column of a table: its key in JSON, its label, and the unit of its values, or one unit for each row.
+    """Head of a column of a table: its key in JSON, its label, and the unit of its values, if need be one for each row.
 
     Numbers of one unit share one precision where their magnitudes allow it; ``aligned=False`` formats each by itself.
     """
@@ -127,11 +126,11 @@ class TableSpec:
     """Table of typed values: rendered on the console, on pages, and as JSON records.
 
     Attributes:
-        title: Title above the table.
-        columns: Heads of the columns.
-        rows: Values, one sequence for each row.
-        key: Name in JSON, for presenters without ``to_dict``.
-        on_console, on_page: True if the console or the report shows the table.
+        title: Above the table.
+        columns: See :class:`Header`.
+        rows: Values, a sequence for each row.
+        key: Its name in JSON, where the presenter has no ``to_dict``.
+        on_console, on_page: Where it is shown.
     """
 
     title: str
@@ -156,8 +155,8 @@ class TableSpec:
 class FigureSpec:
     """Figure: the function that draws it, the title of its section on the page, and its caption.
 
-    With ``on_page=False``, the report does not show the figure, or shows it in one of its other sections. ``preview`` draws a
-    faster version for notebooks. With ``saved=False``, the figure is not written into the results folder.
+    ``on_page=False``: it is a file and a plot, and the page does not show it, or shows it in a section of its own.
+    ``preview`` draws it faster, for notebooks. ``saved=False``: it is not written into the folder of the results.
     """
 
     draw: Callable[[], Figure]
@@ -170,7 +169,7 @@ class FigureSpec:
 
 @dataclass(frozen=True)
 class Notice:
-    """Important remark: in colour on the console, and a highlighted paragraph in the report."""
+    """Remark that must not be overlooked: in colour on the console, and a highlighted paragraph on the page."""
 
     text: str
     tone: Literal["bad", "warn", "good", "note"] = "warn"
@@ -187,18 +186,18 @@ class Presentation:
     """Description of a result, from which every renderer takes its content.
 
     Attributes:
-        title: Title that names the question.
-        answer: Answer in one or two sentences. It is never an uninformative zero: it first gives the reason, then the rest.
-        about: Input of the computation: the arm, the task, the law.
-        lines: Sentences after the answer: the reason, the checks, advice.
-        notices: Important remarks.
+        title: What was asked.
+        answer: The answer in one or two sentences; never an uninformative zero: why nothing is left, then what there is.
+        about: What was given: the arm, the task, the law.
+        lines: Sentences after the answer: the reason, the checks, what to do.
+        notices: See :class:`Notice`.
         facts: The answer in numbers.
-        tables: Tables of the result, or the function that builds them if this is slow; see :meth:`list_tables`.
+        tables: Tables of the result, or the function that builds them, if that takes time; see :meth:`list_tables`.
         figures: Figures by name; the first is the main one.
-        sections: Function that builds further sections of the report before the figures, for example views of the arm.
-        method: Entries of the method section, by name; the arm and the versions are added automatically.
-        arm: The arm, for the method section.
-        again: Function that builds the blocks that repeat the run. Default: the command.
+        sections: Further sections of the page, before the figures (views of the arm that can be turned, for example).
+        method: How it was computed, by name; the arm and the versions follow by themselves.
+        arm: The arm, for the method.
+        again: Blocks that repeat the run; the command, if not given.
         exports: Further files of a results folder, by name, each with the function that writes it to a path.
     """
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from holdfast.core.typing import FloatArray
 
-_ROUNDING_ERROR = 2e-9  # smaller numbers in a column with larger ones are printed as 0
+_ROUNDING_ERROR = 2e-9  # a number below it beside larger ones is 0
 
 
 class TextTable(NamedTuple):

@@ -16,7 +16,7 @@ from holdfast.interface.presentation.printing import make_console, print_json, p
 def print_result(
     result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any
 ) -> None:
-    """Print a result as JSON, with its files if they are listed, or as text followed by the names of its files.
+    """Print a result: JSON for machines, with the files if they are listed; or text for people, and the files.
 
     The options, for example thresholds, go to ``to_dict`` and ``show`` of the result.
     """

@@ -10,7 +10,7 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
 
-_DEFAULT_WIDTH = 140  # columns, where there is no terminal
+_DEFAULT_WIDTH = 140  # where no terminal says how wide it is
 _COLUMN_GAP = 2  # between columns
 _NUMBER_PATTERN = re.compile(r"[<>≥≤±~+−-]*(\d[\d,.]*(e[+−-]?\d+)?|inf(inite)?|∞) ?%?")
 _QUALIFIER_PATTERN = re.compile(r"to|of|none|–|[A-Za-z%°²^/*·0-9-]{1,7}")  # words in a cell of numbers: units most of all
