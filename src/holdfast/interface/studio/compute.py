@@ -25,7 +25,7 @@ class ExtremeConfigurations:
 
     Attributes:
         q: Best and worst configuration (n,), rad and m.
-        values: Values of the objective: best, worst, and at the current configuration.
+        values: Objective at the best, the worst, and the present configuration.
     """
 
     q: tuple[FloatArray, FloatArray]
@@ -33,7 +33,7 @@ class ExtremeConfigurations:
 
 
 def find_best_and_worst(machine: CompiledArm, state: State, progress: Progress) -> ExtremeConfigurations:
-    """Find the best and the worst configuration of the current pose by the objective of the state.
+    """Find the best and the worst configuration of the present pose by the objective of the state.
 
     Raises:
         InputError: The arm has no such objective, or no configuration of the pose was found.
@@ -59,7 +59,7 @@ def find_best_and_worst(machine: CompiledArm, state: State, progress: Progress) 
         )
     if not all(bool(optimum.success) for optimum in optima):
         raise InputError("no configuration of this pose was found; move the end effector and try again")
-    # The searches are local, so the current configuration can be better or worse than their results.
+    # The searches are local, so the present configuration may be better than their result.
     current_value, sign = float(objectives[0](q)), 1.0 if objectives[0].better == "larger" else -1.0
     best, worst = ((optimum.q, float(optimum.value)) for optimum in optima)
     best = (q, current_value) if sign * current_value > sign * best[1] else best

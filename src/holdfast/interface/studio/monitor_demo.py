@@ -1,6 +1,4 @@
-"""Demonstration of a monitor, calibrated on the healthy arm, that identifies a joint fault during a motion: simulation and
-drawing.
-"""
+"""Demonstration of a calibrated monitor that identifies a joint fault during a motion: simulation and drawing."""
 
 from __future__ import annotations
 
@@ -38,21 +36,22 @@ FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
         "none": {},
     }
 )
-LATEST_ONSET_S = 4.0  # s, the latest onset of a fault
-# Speed limit of the tool, gain of the control law, and time limit of the motions.
+LATEST_ONSET_S = 4.0  # latest onset of a fault, s
+# SPEED_LIMIT_M_S, LAW_GAIN_PER_S and MOTION_TIME_LIMIT_S: limits and gain of the motions, m/s, 1/s, s
 SPEED_LIMIT_M_S = 0.25
 LAW_GAIN_PER_S = 2.0
 MOTION_TIME_LIMIT_S = 8.0
-# Number of healthy motions for the thresholds, and the factor on the thresholds, which is high because there are few logs.
+# HEALTHY_MOTIONS and THRESHOLD_FACTOR: number of motions for the thresholds, and factor on their largest residuals, which is
+# large because the motions are few
 HEALTHY_MOTIONS = 4
 THRESHOLD_FACTOR = 2.0
-# Points of a drawn line, and drawn steps of the playback.
+# MAX_LINE_POINTS and PLAYBACK_STEPS: points of a line, and steps of the time during playback
 MAX_LINE_POINTS = 150
 PLAYBACK_STEPS = 60
-# Drawn range of a residual, divided by its threshold.
+# _MIN_DRAWN_RATIO and _MAX_DRAWN_RATIO: drawn range of a residual, in units of its threshold
 _MIN_DRAWN_RATIO = 0.1
 _MAX_DRAWN_RATIO = 30.0
-# Size of one panel.
+# _PANEL_WIDTH_PX and _PANEL_HEIGHT_PX: size of one panel, px
 _PANEL_WIDTH_PX = 300
 _PANEL_HEIGHT_PX = 74
 
@@ -63,16 +62,16 @@ class MonitorDemo:
 
     Attributes:
         motion: Motion of the arm with its fault.
-        time: Times (T,) of the residuals, s.
-        residuals: Residuals by name, divided by their thresholds: (T, n), or (T, 1) for the tool pose.
+        time: (T,) times, s.
+        residuals: Residuals by signal, in units of their thresholds: (T, n), or (T, 1) for the tool.
         onset: Onset of the fault, s; infinite without a fault.
         alarm_time: Time of the alarm, s; infinite without an alarm.
-        joint: Index of the isolated joint, from 0, or None.
-        isolation_time: Time at which the joint is isolated, s; infinite if it is not.
-        kind: Kind of the fault according to the monitor.
+        joint: Index of the isolated joint, from 0; None without one.
+        isolation_time: Time of the isolation, s; infinite without an isolated joint.
+        kind: Kind of the fault, as the monitor names it.
         classification_time: Time from which the kind and the findings are known, s; infinite without an alarm.
         findings: Sentences about the fault.
-        inconclusive: Phrases about what the monitor could not decide.
+        inconclusive: Sentences about inconclusive results.
     """
 
     motion: PlayedMotion
@@ -88,20 +87,19 @@ class MonitorDemo:
     inconclusive: tuple[str, ...]
 
 
-_last_thresholds: dict[
-    object, Bounds
-] = {}  # of the last request, so that another fault needs one simulated motion instead of five
+_last_thresholds: dict[object, Bounds] = {}  # of the last request, so that another fault needs one motion and not five
 
 
 def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> MonitorDemo:
-    """Simulate a motion to the target during which a joint fails, without a fault response, and run a monitor on its log.
+    """Simulate a motion to the target under the first law during which a joint fails, and run a monitor on its log.
 
-    Everything is simulated: masses and friction of the robot are up to 20 % off the arm's model, and its sensors are noisy.
+    The controller does not respond to the fault. Masses and friction of the simulated robot are up to 20 % off the arm's model,
+    and its sensors are noisy.
 
     Args:
-        machine: The arm.
-        state: The configuration, the target, the control law (the first of the two), and the fault: kind, joint and onset.
-        progress: Function that is called with the numbers of (done, total) motions; it raises to cancel.
+        machine: Compiled arm.
+        state: State with the configuration, the target, the law, and the fault (kind, joint and time).
+        progress: Function that is called with (done, total) motions, and raises an exception to cancel.
 
     Raises:
         InputError: There is no target, or no such fault.
@@ -195,13 +193,13 @@ def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
     return np.where(np.isfinite(maxima), maxima, np.nan)
 
 
-# ---- drawn -----------------------------------------------------------------------------------------------------------
+# ---- drawing ---------------------------------------------------------------------------------------------------------
 
 
 def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
     """Draw the residuals up to the current time, each in units of its threshold, and the findings of the monitor so far."""
     end = float(demo.time[-1])
-    # Without these steps, the drawing would be sent thirty times a second.
+    # Limited, because otherwise the page would be sent thirty times a second.
     current = current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
     panels = [
         _draw_panel(quantity, demo, values, current, names)
@@ -220,7 +218,7 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
 
 
 def _describe_alarm(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
-    """Describe the time of the alarm, and the joint and the kind of fault that the monitor has found by the current time."""
+    """Describe the alarm, and the joint and the kind of fault that the monitor has found by the current time."""
     if current < demo.alarm_time:
         return "No alarm so far."
     delay = demo.alarm_time - demo.onset

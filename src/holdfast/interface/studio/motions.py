@@ -17,7 +17,7 @@ from holdfast.model.arm.model import Arm
 
 TIME_COLUMNS = ("time_s", "time_cycles", "travel_rad")
 MOTION_SAMPLES = 240
-SHOWN_TIME_CONSTANTS = 15.0  # 1/Ke
+SHOWN_TIME_CONSTANTS = 15.0  # duration of a shown motion, in time constants 1/Ke of the law
 
 
 @dataclass(frozen=True)
@@ -25,10 +25,10 @@ class PlayedMotion:
     """Configurations over time.
 
     Attributes:
-        label: Description for the user; the part before its first colon labels the ghost arm.
-        time: Times (T,), increasing.
-        unit: Unit of the times: s, cycles, or rad of joint travel.
-        q: Configurations (T, n), rad and m.
+        label: Caption of the motion.
+        time: (T,) increasing times, in ``unit``.
+        unit: Unit of the time: s, cycles, or rad of joint travel.
+        q: (T, n) configurations, rad and m.
     """
 
     label: str
@@ -71,16 +71,17 @@ def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
 
 
 def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> list[PlayedMotion]:
-    """Simulate the motion to a target under each of the two laws, with failed joints locked from the start, and describe its
-    end.
+    """Simulate the motion to a target under each of the two laws, with failed joints locked from the start.
+
+    The label of each motion describes its end.
 
     Args:
-        machine: The arm and its laws.
-        state: The failed joints, the configuration, the target, and the two laws.
-        progress: Function that is called with (done, total) between the parts; it raises to cancel.
+        machine: Compiled arm with its laws.
+        state: State with the failed joints, the configuration, the target, and the laws.
+        progress: Function that is called with (done, total) parts, and raises an exception to cancel.
 
     Raises:
-        InputError: A law is not known, or there is no target.
+        InputError: A law is unknown, or there is no target.
     """
     from holdfast.control.simulation.closed_loop import simulate
     from holdfast.control.simulation.errors import error_history
@@ -96,7 +97,7 @@ def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[
         law = machine.get_law(law_label)
         runs = simulate(law, np.array(state.q), target, locked=list(state.failed_joints))
         progress(2 * law_number + 1, 4)
-        # The last approach to rest takes most of the time and moves nothing.
+        # The final approach takes most of the time and shows hardly any motion.
         sampled_path = runs.path(samples=MOTION_SAMPLES, until=min(float(runs.time), SHOWN_TIME_CONSTANTS / law.gain) or None)
         history = error_history(runs)
         error_note = f"error {format_errors(law, history.end.position, history.end.angle)}"

@@ -29,7 +29,7 @@ from holdfast.interface.studio.state import State
 
 
 def encode_png(picture: NDArray[np.uint8]) -> bytes:
-    """Encode a rendered picture (H, W, 4) as a PNG on white, because the scene has no background of its own."""
+    """Encode a rendered picture (H, W, 4) as a PNG on white, because the scene has no background."""
     import imageio.v3 as images
 
     alpha = picture[..., 3:].astype(np.float64) / 255
@@ -43,9 +43,9 @@ def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArra
     """Draw a view as SVG text.
 
     Args:
-        machine: The arm.
-        state: Its configuration, and what has failed.
-        ghosts: (n,) configurations of other arms in the picture, green and orange.
+        machine: Compiled arm.
+        state: State with the configuration and the failed joints.
+        ghosts: Configurations (n,) of further arms in the drawing, green and orange.
     """
     from matplotlib.figure import Figure
 

@@ -16,11 +16,10 @@ class Player:
     """Ghosts of one window, and the playback of motions.
 
     Args:
-        stage: The scene.
-        panel: The controls.
-        clock: Clock of the playback; nothing else uses it at the same time.
-        on_moved: Function that is called with the time of the motion and the configuration (n,) of the arm, or None if ghosts
-            show the motion.
+        stage: Scene of the window.
+        panel: Controls of the window.
+        clock: Clock of the playback, which nothing else uses at the same time.
+        on_moved: Function that is called with the time of the motion and, if no ghost shows it, the configuration (n,).
     """
 
     def __init__(
@@ -34,7 +33,7 @@ class Player:
         self._current_time = 0.0
 
     def place_ghosts(self, configurations: list[FloatArray], labels: Sequence[str]) -> None:
-        """Place ghosts at configurations (n,)."""
+        """Place ghosts at configurations (n,), with one label each."""
         self.discard_motions()
         self.ghosts = configurations
         self._stage.add_ghosts(labels)
@@ -43,7 +42,7 @@ class Player:
     def show_motions(self, motions: list[PlayedMotion], colors: tuple[Any, ...], time: float) -> None:
         """Show motions, each by a ghost of its colour, or the first one by the arm itself if there are no colours.
 
-        A new motion starts to play immediately; a view that a command line restored (at a time above 0) stays at this time.
+        A requested motion starts at once; a view that a command line restored (at a time above 0) stays at its time.
         """
         self.discard_motions()
         self._motions = motions
@@ -68,7 +67,7 @@ class Player:
         self._panel.set_time_range(0.0, 0.0, "")
 
     def show_motions_at(self, time: float) -> None:
-        """Show the motions at a time."""
+        """Show the motions at a time, in their unit."""
         if not self._motions:
             return
         self._current_time = float(time)
@@ -90,7 +89,7 @@ class Player:
             self._panel.play.label = "Play"
 
     def toggle_play(self) -> None:
-        """Continue the playback, from the start after its end; pause it if it is running."""
+        """Continue the playback, from the start after its end, or pause it if it is running."""
         if self.is_playing or not self._motions:
             self.pause()
             return
@@ -98,7 +97,7 @@ class Player:
         end = max(float(motion.time[-1]) for motion in self._motions)
         if self._current_time >= end * (1 - 1e-9):
             self._current_time = 0.0
-        # Motions longer than ten seconds are played in ten seconds, shorter ones in real time.
+        # Motions longer than ten seconds are played in ten seconds; a free swing is clearest in real time.
         pace = max(end / 10.0, 1.0) if self._motions[0].unit == "s" else end / 10.0
 
         def advance() -> None:

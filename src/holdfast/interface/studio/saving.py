@@ -22,9 +22,9 @@ class ViewSaver:
     """Saver of one client's view; the files are named after the arm.
 
     Args:
-        client: The viser client that receives the files.
-        machine: The compiled arm.
-        stage: The scene of the client.
+        client: Client of viser, which receives the files.
+        machine: Compiled arm.
+        stage: Scene of the client.
         on_saved: Function that is called with a sentence about the saved file.
         on_error: Function that is called with an exception.
     """
@@ -49,7 +49,7 @@ class ViewSaver:
 
         Args:
             file_kind: Kind of the file.
-            state: The displayed state.
+            state: State of the view.
             ghosts: Configurations (n,) of ghost arms.
         """
         match file_kind:

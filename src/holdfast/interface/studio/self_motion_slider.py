@@ -11,18 +11,18 @@ from holdfast.interface.studio.page.panel import ControlPanel
 from holdfast.interface.studio.scene.machine import MAX_SLIDE_STEP, CompiledArm
 from holdfast.interface.studio.work import TICK_S, Clock
 
-MAX_SLIDE_SPEED_RAD_S = 0.8  # rad/s at the end of the slider
+MAX_SLIDE_SPEED_RAD_S = 0.8  # speed at the end of the slider, rad/s
 
 
 class SelfMotionSlider:
     """Self-motion slider of one window.
 
     Args:
-        machine: The compiled arm.
-        panel: The controls.
-        clock: Clock that advances the motion; nothing else uses it at the same time.
-        current_state: Function that returns the current configuration (n,) and the failed joints.
-        set_configuration: Function that is called with every new configuration (n,), rad and m.
+        machine: Compiled arm.
+        panel: Controls of the window.
+        clock: Clock of the motion, which nothing else uses at the same time.
+        current_state: Function that returns the present configuration (n,) and the failed joints.
+        set_configuration: Function that is called with every new configuration (n,).
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class SelfMotionSlider:
         self._direction = np.zeros(machine.arm.n)
 
     def start(self, rate_fraction: float) -> None:
-        """Move at a rate from -1 to 1; 0 stops the motion."""
+        """Move at a fraction, from -1 to 1, of the largest speed; 0 stops the motion."""
         self._rate = rate_fraction
         if rate_fraction:
             self._clock.start(self._step_self_motion)
@@ -66,7 +66,7 @@ class SelfMotionSlider:
             return
         if not np.any(self._direction):
             chosen_direction = directions[min(self._direction_number, len(directions) - 1)]
-            # The sign is chosen so that the largest component is positive, always the same way at the same configuration.
+            # The direction is the same at the same configuration: its largest component increases.
             self._direction = chosen_direction * np.sign(chosen_direction[int(np.abs(chosen_direction).argmax())])
         length = min(abs(self._rate) * MAX_SLIDE_SPEED_RAD_S * TICK_S, MAX_SLIDE_STEP)
         sign = np.sign(self._rate)

@@ -35,11 +35,18 @@ DEFAULT_PORT = 8123
 class Studio:
     """Running studio server.
 
+    Args:
+        server: Viser server.
+        machine: Compiled arm.
+        state: Initial state of each window.
+        parts: Meshes of the arm.
+        note: Sentence for the user about these meshes.
+
     Attributes:
-        url: URL of the page.
-        host: Address that the server listens on.
-        port: Port that the server listens on.
-        windows: Windows of the open pages, by the number of the client.
+        url: URL of the server.
+        host: Address on which it listens.
+        port: Port on which it listens.
+        windows: Window of each open page, by number.
     """
 
     def __init__(self, server: Any, machine: CompiledArm, state: State, *, parts: list[MeshPart], note: str) -> None:
@@ -73,7 +80,7 @@ class Studio:
         self.windows[client.client_id] = self._window_class(
             client, machine, worker_process, state, parts=parts, note=note, load_arm=self._load_arm
         )
-        if client.client_id not in self._server.get_clients():  # the client left before its window existed
+        if client.client_id not in self._server.get_clients():  # disconnected before its window was open
             self._close_window(client.client_id)
 
     def _close_window(self, number: int) -> None:
@@ -89,7 +96,7 @@ class Studio:
 
         machine, state, parts, note = read_uploaded_arm(name, content)
         q = np.array(state.q)
-        # The old window stays if the new arm cannot be shown.
+        # Everything is prepared first, so that an arm that cannot be shown changes nothing.
         machine.evaluate_live_reading(q, (), state.index, state.susceptibility)
         self._close_window(client.client_id)
         client.gui.reset()
@@ -130,25 +137,21 @@ def serve(
 ) -> Studio:
     """Open the studio of an arm and serve it until :meth:`Studio.stop`.
 
-    Every open page has its own arm, which begins with ``state``. The server sends no request to any other host.
+    Each open page has its own arm, which begins with ``state``. The studio sends no request to any other host.
 
     Args:
-        arm: The arm.
+        arm: Arm to show.
         state: Initial state. Default: all joints healthy, in a generic configuration.
-        host: Address to listen on. The server admits only pages that it served itself, but every computer that reaches the
-            address can open such a page. Use an address other than the loopback address only in a trusted network.
-        port: Port to listen on; 0 for any free port.
-        task: The task, if its name in ``state`` does not define it.
-        cell: The objects around the arm, which can be dragged.
-        ready: Function that is called with the URL as soon as a browser may open it; the arm is loaded while the browser loads
-            the page.
-
-    Returns:
-        The running studio.
+        host: Address on which the server listens. It admits only pages that it has served, but everyone who reaches the address
+            can open such a page. Therefore, use another address than the loopback address only in a trusted network.
+        port: Port on which the server listens; 0: any free port.
+        task: Task, if its name in ``state`` does not determine it.
+        cell: Objects around the arm, which can be dragged. None: no objects.
+        ready: Function that is called with the URL as soon as a browser may open it; the arm is sent while the page loads.
 
     Raises:
-        HoldfastError: Viser is not installed; it is part of ``holdfast-arms[view]``.
-        InputError: The port is in use, the host is not an address of this machine, or the base of the arm touches an object.
+        HoldfastError: Viser is not installed; it comes with ``holdfast-arms[view]``.
+        InputError: The port is in use, the host is not an address of this machine, or the arm's base touches an object.
         TaskError: The task does not fit the arm.
     """
     if find_spec("viser") is None:
@@ -157,9 +160,9 @@ def serve(
         q = tuple(float(value) for value in generic_configuration(arm))
         state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))
     machine = CompiledArm(arm, task or as_task(arm, state.task), cell)
-    machine.get_clearance(state.moved)  # raises errors of the cell before the page opens
+    machine.get_clearance(state.moved)  # raises errors of the cell before a page is open
     bound_port = find_free_port(host, port)
-    # Chosen before the server starts, because a page that is already open keeps its first view.
+    # Before a page can connect, because a page that is already open keeps its initial view.
     camera_position, look_at = _choose_camera(machine, np.array(state.q))
     import viser
 
@@ -190,7 +193,7 @@ def _start_private_server(viser: Any, host: str, port: int) -> Any:
     with (
         AccessFilter(host).filter_requests(),
         redirect_stdout(io.StringIO()),
-    ):  # viser prints a box with the address even if it is not verbose
+    ):  # viser prints a box with the address in spite of its options
         return Private(host=host, port=port, label="holdfast", verbose=False)
 
 
@@ -198,7 +201,7 @@ def find_free_port(host: str, port: int) -> int:
     """Return the port if it is not in use, or any free port for 0.
 
     Raises:
-        InputError: The port is in use or out of range, or the host is not an address of this machine.
+        InputError: The port is in use or invalid, or the host is not an address of this machine.
     """
     if not 0 <= port <= 65535:
         raise InputError(f"port {port} is not a port; give a number from 0 (any that is free) to 65535")
@@ -216,7 +219,7 @@ def find_free_port(host: str, port: int) -> int:
 
 
 def _is_portrait(client: Any) -> bool:
-    """Return whether the view of a client is higher than wide, as on a phone, where the controls cover its lower half."""
+    """Return True if a client's picture is higher than wide, as on a phone, where the controls cover its lower half."""
     return bool(client.camera.image_height > client.camera.image_width)
 
 
@@ -230,10 +233,10 @@ def _choose_camera(machine: CompiledArm, q: Any, portrait: bool = False) -> tupl
     )
     view_direction = np.array([0.0, -0.5, 1.4]) if seen_from_above else np.array([0.95, -0.8, 0.45])
     arm_direction = positions[-1, :2] - positions[0, :2]
-    if not seen_from_above and np.linalg.norm(arm_direction) > 0.1 * machine.size:  # more from the side than from the front
+    if not seen_from_above and np.linalg.norm(arm_direction) > 0.1 * machine.size:  # rather from the side than from the front
         forward = arm_direction / np.linalg.norm(arm_direction)
         view_direction[:2] = 0.6 * forward + 1.1 * np.array([forward[1], -forward[0]])
-    # The controls cover the right side, or the lower half.
+    # The controls cover the right side, or the lower half of the picture.
     sideways = np.cross(-view_direction, [0.0, 0.0, 1.0])
     shift = np.cross(sideways, view_direction) if portrait else sideways
     look_at = look_at + (0.45 if portrait else 0.22) * machine.size * shift / np.linalg.norm(shift)
@@ -243,5 +246,5 @@ def _choose_camera(machine: CompiledArm, q: Any, portrait: bool = False) -> tupl
 
 def _compile_first_view(machine: CompiledArm, state: State) -> None:
     """Compile the functions of the first picture while the browser loads the page."""
-    with suppress(HoldfastError):  # the window shows the error
+    with suppress(HoldfastError):  # the window reports it
         machine.evaluate_live_reading(np.array(state.q), state.failed_joints, state.index, state.susceptibility)

@@ -19,29 +19,28 @@ class State:
     """View of the studio, without its camera position.
 
     Attributes:
-        arm: The arm as given on the command line: a built-in name or a file.
-        names: Names of the joints (n,).
-        q: Configuration (n,), rad and m.
-        task: Task as on the command line, for example ``pose``.
-        base, tip: Base and tip link in the file of the arm, or None.
-        hold: Joints of the file that are held, each with its value, rad or m.
-        conditions: Condition of each joint (n,): ``healthy``, ``locked`` or ``free`` (swinging).
-        index: Index of the bars, by name.
-        susceptibility: Susceptibility of the bars, by name.
-        objective: Index or susceptibility, by name, that ranks the best and the worst configuration.
+        arm: Arm as given on the command line: a built-in name or a file.
+        names: (n,) names of the joints.
+        q: (n,) configuration, rad and m.
+        task: Task as on the command line.
+        base, tip: Links of the file at the ends of the arm. None: automatic.
+        hold: Joints of the file that are fixed, with their values, rad or m.
+        conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
+        index: Index of the bars.
+        susceptibility: Susceptibility of the bars.
+        objective: Index or susceptibility, by name, that defines the best and the worst configuration.
         laws: Two control laws to compare, as ``slug`` or ``slug:setting``.
-        target: Target of the end effector for both laws: x, y, z (m) and quaternion x, y, z, w; None if there is none.
-        show: Content in addition to the arm: none (``arm``), ghosts in the ``best-worst`` configurations of this pose, a motion
-            under two ``laws``, the free ``swing``, the cloud of a ``region``, the motion of a ``file``, or the demonstration
-            of the monitor (``watch``).
-        file: File of a motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
-        region: Results folder of ``assess``; None for a region around the end effector.
-        time: Displayed time of a motion, s (or the unit of its first column).
-        cell: Cell file, or None.
-        meshes: Folder that is searched first for the meshes named by the file of the arm, or None.
-        fault: Fault of the demonstration: its kind, the joint (empty for the middle one), and its onset, s. The command line
-            does not contain it.
-        moved: Dragged objects of the cell, each with its name, x, y, z (m) and quaternion x, y, z, w.
+        target: Target of the end effector under these laws: x, y, z (m) and quaternion x, y, z, w. None: not chosen.
+        show: Content in addition to the arm: none (``arm``), ghosts in the ``best-worst`` configuration of this pose, a motion
+            under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
+        file: File of a motion from ``follow``, ``simulate`` or ``recover``, or None.
+        region: Results folder of ``assess``. None: a region around the end effector.
+        time: Time of the shown motion, s (or the unit of its first column).
+        cell: Cell file. None: no objects.
+        meshes: Folder that is searched first for meshes of the arm's file, or None.
+        fault: Injected fault: kind, joint and onset, s. An empty joint name means the middle joint. The fault is not part of
+            the command line.
+        moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
     arm: str
@@ -86,7 +85,7 @@ class State:
 
     @property
     def failed_joints(self) -> tuple[int, ...]:
-        """Indices from 0 of the joints that the controller cannot move, because they are locked or free."""
+        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes stop them."""
         return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
 
     @property
@@ -95,7 +94,7 @@ class State:
         return tuple(k for k, c in enumerate(self.conditions) if c == "free")
 
     def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
-        """Return the same view with an object of the cell in another pose."""
+        """Return the same view with the object ``name`` of the cell at ``numbers``: x, y, z (m) and quaternion x, y, z, w."""
         return replace(self, moved=(*(entry for entry in self.moved if entry[0] != name), (name, numbers)))
 
     def arguments(self) -> list[str]:

@@ -28,11 +28,11 @@ class StudioView:
     """Scene and controls of one client, and the state that they show.
 
     Args:
-        client: The viser client.
-        machine: The compiled arm.
-        state: The initial state.
-        parts: The meshes of the arm.
-        request_action: Function ``ask(action, value)`` that is called for every action of the user.
+        client: Client of viser.
+        machine: Compiled arm.
+        state: Initial state.
+        parts: Meshes of the arm.
+        request_action: Function ``ask(what, value)`` that is called for every action of the user.
     """
 
     def __init__(
@@ -40,8 +40,8 @@ class StudioView:
     ) -> None:
         self.client, self.machine, self.state = client, machine, state
         self._initial_state = state
-        self.updates = 0  # number of updates sent to the client
-        self.dragged: str | int | None = None  # what the user drags: the end effector, or a slider
+        self.updates = 0  # number of pictures that were sent
+        self.dragged: str | int | None = None  # control that the user drags: the end effector, or a slider
         self.cloud: RegionCloud | None = None
         self.monitor_demo: MonitorDemo | None = None
         self._reading: LiveReading | None = None
@@ -66,7 +66,7 @@ class StudioView:
         self._refresh()
 
     def _refresh(self) -> None:
-        """Show the state: first the arm, then the effect of a failure."""
+        """Show the state: the arm at once, then the effect of a failure."""
         q, state = self.q, self.state
         frames = self.machine.arm.frames(q)
         with self.client.atomic():
@@ -84,7 +84,7 @@ class StudioView:
         self.updates += 1
 
     def _find_enabled_actions(self, reading: LiveReading) -> dict[str, bool]:
-        """Return for each button whether it has an effect now."""
+        """Return for each button True if it has an effect now."""
         state, machine = self.state, self.machine
         ghosts = len(self.player.ghosts) if state.show in ("best-worst", "laws") else 0
         has_extras = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
@@ -144,7 +144,7 @@ class StudioView:
             self._set_configuration(q)
 
     def _on_time(self, value: float) -> None:
-        self.player.pause()  # moving the slider stops the playback
+        self.player.pause()  # dragging the slider stops the playback
         self.player.show_motions_at(value)
 
     def _on_play(self, _: Any) -> None:
@@ -164,7 +164,7 @@ class StudioView:
         self.stage.target.visible = True
 
     def _is_at_target(self) -> bool:
-        """Return whether the end effector is at the target in all task dimensions."""
+        """Return True if the end effector is at the target, by the rows of the task."""
         target = self.state.target
         return (
             target is not None

@@ -31,26 +31,25 @@ from holdfast.model.arm.poses import pose_from_quaternion, pose_numbers
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
-STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # depend on the configuration and on the failed joints
-INDEX_ROUNDING = 1e-9  # smaller index values are rounding
+STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # results that depend on the configuration and the failures
+INDEX_ROUNDING = 1e-9  # of an index: smaller values are rounding errors
 
 
 class Window(StudioView):
-    """Window of one client of the studio, with its own arm.
+    """Client of the studio, with its own arm.
 
-    One thread (``live``) makes all changes of the state, in the order of the requests; of waiting requests of one kind it
-    executes only the newest. Long computations run on a second thread (``worker``), where a newer request cancels the older
-    one; their results come back as a change of the state.
+    All changes of the state happen on one thread (``live``), in the order of the requests, of which only the newest of a kind
+    is executed. Long computations run in another thread (``worker``), where a newer request cancels the older one; their
+    results return as changes.
 
     Args:
-        client: The viser client.
-        machine: The compiled arm.
-        worker_process: The process for long computations.
-        state: The initial state.
-        parts: The meshes of the arm.
-        note: A sentence for the user about these parts, or an empty text.
-        load_arm: Function ``load(client, name, content)`` that opens the file of another arm in place of this window, or
-            raises an error and leaves the window unchanged.
+        client: Client of viser.
+        machine: Compiled arm.
+        worker_process: Process for long computations.
+        state: Initial state.
+        parts: Meshes of the arm.
+        note: Sentence for the user about these meshes.
+        load_arm: ``load(client, name, content)`` opens a file of another arm in this window, or raises and changes nothing.
     """
 
     def __init__(
@@ -104,7 +103,7 @@ class Window(StudioView):
                 return True
         return False
 
-    # ---- actions of the user --------------------------------------------------------------------------------------------
+    # ---- actions ---------------------------------------------------------------------------------------------------
 
     def request_action(self, action: str, value: Any = None) -> None:
         """Request an action as soon as possible; of several waiting requests of one kind, only the newest is executed."""
@@ -119,7 +118,7 @@ class Window(StudioView):
             self._move_to_ghost(int(name[-1]))
         elif name in ("png", "svg", "cell-file"):
             self._saver.save(name, self.state, list(self.player.ghosts))
-        else:  # a choice that is a field of the state
+        else:  # the action is a field of the state
             self.state = replace(self.state, **{name: value})
             self._refresh()
 
@@ -144,7 +143,7 @@ class Window(StudioView):
         if self.state.target is not None:
             self._show_target()
         self._refresh()
-        with suppress(HoldfastError):  # the error is shown when the user drags the handle
+        with suppress(HoldfastError):  # reported when the user drags the end effector
             self.machine.solve_pose_near(self.q, self.machine.tool_pose(self.q), ())  # compiled while the browser draws
         first_action: str | None = self.state.show if self.state.show in (*STATE_DEPENDENT_SHOWS, "file") else None
         if self.state.show == "region":
@@ -152,14 +151,14 @@ class Window(StudioView):
         if first_action is not None:
             self._perform_action(first_action, None)
 
-    # ---- moving ----------------------------------------------------------------------------------------------------
+    # ---- motion ----------------------------------------------------------------------------------------------------
 
     def _on_joint(self, value: tuple[int, float]) -> None:
         index, requested = value
         if self.state.conditions[index] != "healthy":
             return
         q, joint = self.q, self.machine.arm.joints[index]
-        q[index] = min(max(requested, joint.lower), joint.upper)  # the ends of a slider are rounded
+        q[index] = min(max(requested, joint.lower), joint.upper)  # the ends of a slider are rounded values
         self.dragged = index
         self._discard_results(q)
         self._set_configuration(q)
@@ -182,7 +181,7 @@ class Window(StudioView):
     def _on_slide(self, value: float) -> None:
         if value:
             self.player.pause()
-            if self.state.show != "best-worst":  # the pose does not change, so its best and worst configurations remain valid
+            if self.state.show != "best-worst":  # ghosts of the pose, which does not change
                 self._discard_results()
         self._self_motion_slider.start(float(value))
 
@@ -194,9 +193,7 @@ class Window(StudioView):
         self._set_configuration(np.array(self._initial_state.q))
 
     def _discard_results(self, q: FloatArray | None = None) -> None:
-        """Discard results that depend on the configuration, before it becomes q or a joint fails, because ghosts elsewhere
-        mislead.
-        """
+        """Discard results of the present configuration before it changes to q or a joint fails; their ghosts would mislead."""
         if self.state.show not in STATE_DEPENDENT_SHOWS or (q is not None and np.array_equal(q, self.q)):
             return
         self._cancel_work()
@@ -215,7 +212,7 @@ class Window(StudioView):
             return
         self._set_configuration(self.player.ghosts[ghost])
 
-    # ---- failing ---------------------------------------------------------------------------------------------------
+    # ---- failures --------------------------------------------------------------------------------------------------
 
     def _on_fail(self, value: tuple[int, str]) -> None:
         joint, condition = value
@@ -241,7 +238,7 @@ class Window(StudioView):
     def _format_failed_joints(self) -> str:
         return " and ".join(f"{self.state.names[joint]} ({self.state.conditions[joint]})" for joint in self.state.failed_joints)
 
-    # ---- long computations -------------------------------------------------------------------------------------------
+    # ---- long computations -----------------------------------------------------------------------------------------
 
     def _start_work(self, text: str, job: str, show_result: Callable[[Any], None]) -> None:
         """Run a job in the worker process; the live thread shows its result unless there was a newer request."""
@@ -285,7 +282,7 @@ class Window(StudioView):
         self._start_work("Searching for the best and the worst configuration of this pose", "best-worst", show_extremes)
 
     def _on_laws(self, value: tuple[str, str] | None) -> None:
-        if value is not None:  # another law was chosen
+        if value is not None:  # another law was selected
             self.state = replace(self.state, laws=value)
             self._refresh()
             if self.state.show != "laws":
@@ -309,7 +306,7 @@ class Window(StudioView):
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE_RGB,), found[0].label)
         )
 
-    def _on_inject(self, _: Any) -> None:  # until this time the motion does not depend on the fault
+    def _on_inject(self, _: Any) -> None:  # until now the motion is the same for every fault
         self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))
         self._on_watch(self.state.time)
 
@@ -331,7 +328,7 @@ class Window(StudioView):
         self._start_work("Simulating healthy motions and one with the fault", "watch", show_demo)
 
     def _on_file(self, _: Any) -> None:
-        if self._initial_state.file is not None:  # only a path from the command line, never one from the page
+        if self._initial_state.file is not None:  # from the command line, because no path comes from the page
             self._open_motion(read_motion(self.machine.arm, self._initial_state.file), self._initial_state.file)
 
     def _on_open(self, value: tuple[str, bytes]) -> None:
@@ -362,7 +359,7 @@ class Window(StudioView):
         self._start_work("Assessing a region around the end effector", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
-        if self._initial_state.region is not None:  # only a path from the command line, never one from the page
+        if self._initial_state.region is not None:  # from the command line, because no path comes from the page
             self.state = replace(self.state, region=self._initial_state.region)
             self._start_work("Reading the results", "region", self._show_cloud)
 

@@ -1,4 +1,4 @@
-"""Threads for quick work, which execute only the newest requests, and for long work, which newer requests cancel."""
+"""Threads for quick work, of which only the newest request is executed, and for long work, which newer requests cancel."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 Task = Callable[[], None]
 Complain = Callable[[BaseException], None]
-TICK_S = 1 / 30  # s between two updates of an animation
+TICK_S = 1 / 30  # period of animations, s
 
 
 class Cancelled(Exception):
@@ -16,9 +16,9 @@ class Cancelled(Exception):
 
 
 class LatestRequests:
-    """Thread that executes, of the waiting requests with the same key, only the newest.
+    """Thread that executes the latest requests: of several requests with the same key only the newest is executed.
 
-    An end effector that is dragged faster than the scene can be updated therefore stays at the mouse and does not lag behind.
+    An end effector that is dragged faster than pictures can be made is therefore shown at the present mouse position.
 
     Args:
         on_error: Function that is called with every exception of a request; the thread continues.
@@ -45,7 +45,7 @@ class LatestRequests:
             return self._changed.wait_for(lambda: not self._pending and not self._busy, seconds)
 
     def stop(self) -> None:
-        """End the thread after the current request."""
+        """Stop the thread after the present request."""
         with self._changed:
             self._stopped = True
             self._pending.clear()
@@ -72,7 +72,7 @@ class Clock:
 
     Args:
         live: Thread that executes the action.
-        period: Time from one repetition to the next, s.
+        period: Time between two executions, s.
     """
 
     def __init__(self, live: LatestRequests, period: float) -> None:
@@ -80,7 +80,7 @@ class Clock:
         self._ended: threading.Event | None = None
 
     def start(self, action: Task) -> None:
-        """Repeat this action from now on, in place of an earlier one."""
+        """Repeat this action from now on, instead of an earlier one."""
         self.stop()
         ended = self._ended = threading.Event()
 
@@ -139,7 +139,7 @@ class LongJobWorker:
             return self._changed.wait_for(lambda: self._next is None and not self._running, seconds)
 
     def stop(self) -> None:
-        """Cancel all requests and end the thread."""
+        """Cancel all requests and stop the thread."""
         with self._changed:
             self._newest += 1
             self._next, self._stopped = None, True

@@ -1,4 +1,4 @@
-"""Separate process for long computations, because building a control law blocks Python for seconds.
+"""Worker process next to the server for long computations, because building a law keeps Python busy for seconds.
 
 The parent sends pickled requests to its standard input and reads pickled answers from its standard output.
 """
@@ -23,15 +23,15 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 
 Progress = Callable[[int, int], None]
-CANCEL_TIMEOUT_S = 2.0  # s after which the process of a cancelled request is killed
-_POLL_INTERVAL_S = 0.02  # s
+CANCEL_TIMEOUT_S = 2.0  # time that a cancelled request has before its process is killed, s
+_POLL_INTERVAL_S = 0.02  # interval of calls of ``check``, s
 
 
 class WorkerProcess:
     """Worker process, started on first use, and killed and restarted if a request is not cancelled in time."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
-        self._inputs = replace(arm), task, cell  # a copy of the arm without compiled functions
+        self._inputs = replace(arm), task, cell  # without compiled functions
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._request_lock = threading.Lock()
@@ -42,16 +42,13 @@ class WorkerProcess:
 
         Args:
             job_name: Name of the job.
-            state: State that the job computes its result for.
-            check: Function that is called 50 times a second; it raises to cancel the job.
+            state: State for which it runs.
+            check: Function that is called 50 times a second, and raises an exception to cancel.
             progress: Function that is called with (done, total).
-
-        Returns:
-            The result of the job.
 
         Raises:
             Cancelled: ``check`` raised it.
-            HoldfastError: The job raised it, or the process ended.
+            HoldfastError: The job raised it, or its process ended.
         """
         while not self._request_lock.acquire(timeout=_POLL_INTERVAL_S):
             check()
@@ -79,7 +76,7 @@ class WorkerProcess:
                     try:
                         pipe.close()
                     except OSError:
-                        continue  # unsent data of the pipe are lost
+                        continue  # the pipe is closed, so unsent data cannot be sent
 
     def _ensure_started(self) -> None:
         if self._process is not None and self._process.poll() is None:
@@ -139,13 +136,13 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
             return
 
 
-# ---- in the process ----------------------------------------------------------------------------------------------
+# ---- in the worker process ---------------------------------------------------------------------------------------
 
 
 def main() -> None:
     """Answer requests until the parent process ends."""
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
-    sys.stdout = sys.stderr  # prints of libraries must not mix with the answers
+    sys.stdout = sys.stderr  # output of libraries must not mix with the answers
     arm, task, cell = pickle.load(requests)
 
     from holdfast.interface.studio.compute import JOB_FUNCTIONS
@@ -159,7 +156,7 @@ def main() -> None:
             try:
                 message = pickle.load(requests)
             except (EOFError, OSError, pickle.UnpicklingError):
-                os._exit(0)  # the parent process ended, so the result is not needed
+                os._exit(0)  # the parent process has ended, so no result is needed
             if message[1] == "cancel":
                 newest_cancelled[0] = message[0]
             else:

@@ -1,7 +1,7 @@
 """Access control: only pages served by this studio are admitted, so that no other web page can connect to it.
 
-The rule is that of :mod:`holdfast.core.files.hosts`. Programs other than browsers are not restricted; they run on this machine
-or in a network that ``--host`` admits.
+:mod:`holdfast.core.files.hosts` defines the rule. It does not apply to programs other than browsers, which run on this machine
+or in a network that ``--host`` has admitted.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 from holdfast.core.errors import HoldfastError
 from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 
-# Bytes of one browser message; a picture of the scene and a part of an upload are smaller.
+# Largest message of a browser in bytes; a picture of the scene is smaller, and so is a part of an upload.
 MAX_MESSAGE_BYTES = 8 << 20
 _VISER_TITLE_HTML = "<title>Viser</title>"
 _HEAD_END_HTML = "</head>"
@@ -29,12 +29,12 @@ _PATCH_LOCK = threading.Lock()
 
 
 def is_own_request(hosts: Sequence[str], origins: Sequence[str], served: str) -> bool:
-    """Return whether a request addresses this studio and comes from one of its pages or from no page.
+    """Return True if a request addresses this studio and comes from one of its pages or from no page.
 
     Args:
         hosts: ``Host`` headers of the request.
         origins: ``Origin`` headers of the request.
-        served: Address that the studio listens on, as the user gave it.
+        served: Address on which the studio listens, as given by the user.
     """
     return (
         request_rejection_reason(
@@ -45,7 +45,7 @@ def is_own_request(hosts: Sequence[str], origins: Sequence[str], served: str) ->
 
 
 def _is_safe_host_name(name: str, served: str) -> bool:
-    """Return whether no other page can have this host name, because it is an address or this machine's own name."""
+    """Return True if no other page can have this host name, because it is an address or this machine's own name."""
     is_exposed = not is_loopback_host(served.lower())
     try:
         return ipaddress.ip_address(name).is_loopback or is_exposed
@@ -57,7 +57,7 @@ class AccessFilter:
     """Request filter of a viser server, which rejects strangers and gives the page its title, style and script.
 
     Args:
-        served: Address that the studio listens on.
+        served: Address on which the studio listens.
     """
 
     def __init__(self, served: str) -> None:
@@ -69,7 +69,7 @@ class AccessFilter:
         """Install the filter in the viser server that starts inside the block, for all its requests.
 
         Raises:
-            HoldfastError: The server did not use the filter, so that no request would be rejected.
+            HoldfastError: The server did not call the filter, so that it would admit every request.
         """
         from websockets.asyncio import server as sockets
 
@@ -77,7 +77,7 @@ class AccessFilter:
 
         def serve_filtered(*positional: Any, process_request: Any = None, **options: Any) -> Any:
             if not getattr(process_request, "__module__", "").startswith("viser."):
-                # Another server that starts at the same time.
+                # The server of another caller, started at the same time.
                 return original_serve(*positional, process_request=process_request, **options)
 
             def process_filtered(connection: Any, request: Any) -> Any:
@@ -87,7 +87,7 @@ class AccessFilter:
             self.was_consulted = True
             return original_serve(*positional, process_request=process_filtered, **(options | {"max_size": MAX_MESSAGE_BYTES}))
 
-        with _PATCH_LOCK:  # viser has no option for this
+        with _PATCH_LOCK:  # viser has no option for a filter
             sockets.serve = serve_filtered  # type: ignore[misc,assignment]
             try:
                 yield
@@ -97,7 +97,7 @@ class AccessFilter:
             raise HoldfastError("this version of viser cannot reject requests of other web pages; install viser 1.1")
 
     def _filter_response(self, request: Any) -> Any:
-        """Return the page, a rejection, or None for a request that viser answers."""
+        """Return the page, a refusal, or None for a request that viser answers."""
         hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
         if not is_own_request(hosts, origins, self._served):
             refusal = (

@@ -1,4 +1,4 @@
-"""Guided tour of at most six steps in a minute; each step explains an effect and demonstrates it."""
+"""Guided tour of at most six steps in a minute; each step explains an effect and demonstrates it on the page."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class GuideContext:
     """Values that the text of a step can mention.
 
     Attributes:
-        worst: Joint whose lock cost most when the tour began.
-        remaining: Remaining fraction of the manipulability, as text, with the failed joints, or with the worst joint locked.
-        remaining_before: The remaining fraction when the joint was locked for the first time, as text.
-        is_hopeless: True if a lock of this joint removes a direction of motion in every configuration.
-        is_busy: True while a computation runs.
+        worst: Name of the joint whose lock costs most at the start of the tour.
+        remaining: Remaining manipulability now, if the worst joint locks or with the failed joints.
+        remaining_before: Remaining manipulability when the joint was first locked.
+        is_hopeless: True if a direction is lost with that joint in every configuration.
+        is_busy: True during a computation.
     """
 
     worst: str
@@ -39,10 +39,10 @@ class TourStep:
 
     Attributes:
         title: Title of the step.
-        text: Function that composes its text from the context.
-        actions: Actions that it requests; ``worst`` in place of a joint stands for the worst joint.
+        text: Function that returns the text of the step.
+        actions: Actions in the window; ``worst`` instead of a joint means the worst one.
         button_label: Label of the button for the next step.
-        always: True if the step makes sense for arms on which no configuration is better than another.
+        always: True if the step is useful even if no configuration is better than another.
     """
 
     title: str
@@ -100,15 +100,15 @@ TOUR_STEPS = (
     TourStep("Move with an undetected lock", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
     TourStep("Your turn", _explain_next_steps, (("clear", None), ("heal", None), ("home", None)), "Done"),
 )
-LOST_MANIPULABILITY = 1e-6  # fraction of the manipulability below which a direction counts as lost
+LOST_MANIPULABILITY = 1e-6  # remaining fraction of the manipulability below which a direction is lost
 
 
 class TourGuide:
     """Progress of the tour in one window.
 
     Args:
-        request_action: Function ``ask(action, value)`` that requests an action of the window.
-        show_html: Function that shows the HTML of a step and the label of the next button; an empty text ends the tour.
+        request_action: Function ``ask(what, value)`` that requests an action in the window.
+        show_html: Function that is called with the HTML of a step and the next button label; an empty text ends the tour.
     """
 
     def __init__(self, request_action: Callable[[str, Any], None], show_html: Callable[[str, str], None]) -> None:
@@ -118,7 +118,7 @@ class TourGuide:
         self._worst, self._before, self._hopeless = 0, "", False
 
     def begin_tour(self, reading: LiveReading) -> None:
-        """Show the first step, about the joint that is the worst one now; steps without an effect are left out."""
+        """Show the first step, about the joint that is the worst now; steps without an effect are left out."""
         bars = reading.bars
         self._hopeless = isinstance(bars, str) or bool(bars.values[bars.worst] < LOST_MANIPULABILITY)
         self._worst = 0 if isinstance(bars, str) else bars.worst

@@ -20,9 +20,9 @@ from holdfast.interface.studio.state import JOINT_CONDITIONS, State
 from holdfast.model.arm.model import Arm
 
 Handler = Callable[[Any], None]
-PRESSED_PREFIX = "✓ "  # before the condition of a joint; the page shows this button as pressed
+PRESSED_PREFIX = "✓ "  # precedes the present condition of a joint, so that the page shows its button as pressed
 WELCOME_TEXT = "Drag the handle at the end effector, lock a joint, or drop a file of your own arm here."
-ALWAYS_ENABLED = ("skip", "png", "svg", "cell-file", "file", "results")  # actions that are possible before the first reading
+ALWAYS_ENABLED = ("skip", "png", "svg", "cell-file", "file", "results")  # actions that need no computed result
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 
@@ -30,10 +30,10 @@ class ControlPanel:
     """Controls of one window.
 
     Args:
-        gui: The viser GUI of the window.
-        machine: The compiled arm.
-        state: The initial state.
-        request_action: Function ``ask(action, value)`` that is called for every action of the user; it must return immediately.
+        gui: Viser GUI of the window.
+        machine: Compiled arm.
+        state: Initial state.
+        request_action: Function ``ask(what, value)`` that is called for every action of the user and must return at once.
     """
 
     def __init__(self, gui: Any, machine: CompiledArm, state: State, request_action: Callable[[str, Any], None]) -> None:
@@ -190,7 +190,7 @@ class ControlPanel:
         self.gui.add_html(_message_html("This command restores the view:"))
         self.command = self.gui.add_html(command_html(state))
 
-    # ---- reading ---------------------------------------------------------------------------------------------------
+    # ---- display ---------------------------------------------------------------------------------------------------
 
     def show_message(self, text: str, is_error: bool = False) -> None:
         """Show a message in the line at the top."""
@@ -199,13 +199,13 @@ class ControlPanel:
             self.message.content = content
 
     def show_nearest(self, text: str, is_error: bool) -> None:
-        """Show which object of the cell is nearest to the arm."""
+        """Show the object of the cell that is nearest to the arm."""
         content = _message_html(text, is_error)
         if self.nearest.content != content:
             self.nearest.content = content
 
     def show_monitor(self, demo: MonitorDemo | None, state: State) -> None:
-        """Show the residuals and findings of the monitor up to the time of the state."""
+        """Show the residuals and findings of the monitor until the time of the state."""
         content = "" if demo is None else monitor_html(demo, state.names, state.time)
         if self.monitor.content != content:
             self.monitor.content, self.monitor.visible = content, content != ""
@@ -275,7 +275,7 @@ class ControlPanel:
         known = [label for kind in kinds for label in kind.labels(self.machine.arm, self.machine.task)]
         return tuple(dict.fromkeys([*known, *more, current]))
 
-    # ---- actions of the user ----------------------------------------------------------------------------------------
+    # ---- user actions ----------------------------------------------------------------------------------------------
 
     def _add_button(self, label: str, action: str, visible: bool = True, color: str | None = None) -> None:
         button = self.gui.add_button(label, visible=visible, color=color, disabled=action not in ALWAYS_ENABLED)
@@ -283,7 +283,7 @@ class ControlPanel:
         self._attach_action(button.on_click, action, lambda h: None)
 
     def _attach_action(self, attach: Callable[..., Any], action: str, value: Callable[[Any], Any]) -> None:
-        # A coroutine runs in order on the event loop and only records a request. Values set by the program have no client.
+        # A coroutine runs in order on the event loop, and only queues a request. Changes by the program itself have no client.
         async def forward_event(event: Any) -> None:
             if event.client is not None:
                 self._request_action(action, value(event.target))

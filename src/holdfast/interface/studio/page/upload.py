@@ -21,10 +21,10 @@ from holdfast.model.arm.task import as_task
 from holdfast.model.arms.spec import default_task
 
 MAX_FILE_BYTES = 4 << 20  # bytes
-MAX_JOINTS = 40  # more take minutes to compile
+MAX_JOINTS = 40  # an arm with more joints takes minutes to compile
 ARM_SUFFIXES = (".urdf", ".xml", ".yaml", ".yml")
 MOTION_SUFFIXES = (".csv",)
-_PART_BYTES = 512 << 10  # bytes of one part of an upload in viser
+_PART_BYTES = 512 << 10  # size of one part of an upload through viser, bytes
 _TOO_LARGE = f"the file is too large; at most {MAX_FILE_BYTES >> 20} MiB can be opened here"
 
 
@@ -32,7 +32,7 @@ def detect_file_kind(name: str) -> str:
     """Return ``arm`` or ``motion``, according to the suffix of a file's name.
 
     Raises:
-        InputError: The suffix is neither that of an arm nor that of a motion.
+        InputError: The suffix is unknown.
     """
     ending = Path(name).suffix.lower()
     if ending in MOTION_SUFFIXES:
@@ -53,8 +53,7 @@ def sanitise_file_name(name: str) -> str:
 
 
 def read_uploaded_arm(name: str, content: bytes) -> tuple[CompiledArm, State, list[MeshPart], str]:
-    """Read the arm of an uploaded URDF file or DH table; return it with its first state, its parts, and a note on missing
-    meshes.
+    """Read the arm of an uploaded URDF file or DH table; return it with its state, meshes, and a note on missing ones.
 
     Raises:
         HoldfastError: The file is too large or invalid, or its arm has more than 40 joints.
@@ -65,7 +64,7 @@ def read_uploaded_arm(name: str, content: bytes) -> tuple[CompiledArm, State, li
 
             arm = dh_file.load_dh_file(file)
         else:
-            arm = Arm.from_urdf(file)  # never MJCF, which can name other files to open
+            arm = Arm.from_urdf(file)  # never MJCF, which may name other files that would be opened
         if arm.n > MAX_JOINTS:
             raise InputError(f"'{sanitise_file_name(name)}' has {arm.n} joints; the page takes arms of at most {MAX_JOINTS}")
         task = default_task("", arm)
@@ -82,7 +81,7 @@ def read_uploaded_motion(arm: Arm, name: str, content: bytes) -> PlayedMotion:
 
 @contextmanager
 def _provide_temporary_file(name: str, content: bytes) -> Iterator[Path]:
-    """Provide the content as a file in a separate folder inside the block; errors contain only the name of the upload."""
+    """Provide the content in a ``with`` block as a file in a separate folder; errors contain only the name of the upload."""
     if len(content) > MAX_FILE_BYTES:
         raise InputError(f"'{sanitise_file_name(name)}': {_TOO_LARGE}")
     with TemporaryDirectory(prefix="holdfast-studio-") as folder:
@@ -98,8 +97,8 @@ def limit_uploads(gui: Any, on_refused: Any) -> None:
     """Allow a client one upload at a time, of at most 4 MiB, and reject others on arrival.
 
     Args:
-        gui: The viser GUI of the client.
-        on_refused: Function that is called with an error message for a rejected upload.
+        gui: Viser GUI of the client.
+        on_refused: Function that is called with the reason, one sentence.
     """
     from viser import _messages
 
@@ -115,7 +114,7 @@ def limit_uploads(gui: Any, on_refused: Any) -> None:
             start_transfer(client, message)
             return
         on_refused(f"'{sanitise_file_name(message.filename)}': {_TOO_LARGE}")
-        connection.queue_message(  # otherwise the button would wait forever
+        connection.queue_message(  # otherwise the button would wait indefinitely
             _messages.FileTransferPartAck(
                 source_component_uuid=message.source_component_uuid,
                 transfer_uuid=message.transfer_uuid,

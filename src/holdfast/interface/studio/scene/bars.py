@@ -14,14 +14,14 @@ from holdfast.model.arm.task import Task
 
 
 def format_value(value: float, digits: int = 3) -> str:
-    """Format a number, with rounding noise about 0 as 0."""
+    """Format a number, with rounding errors about 0 as 0."""
     if not np.isfinite(value):
         return "infinite" if np.isinf(value) else "none"
     return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
 
 
 def bars_html(bars: JointBars | str, consequence: str, names: Sequence[str], conditions: Sequence[str]) -> str:
-    """Draw one bar per joint and name the worst joint, or give the reason why there are no bars."""
+    """Return one bar per joint with the name of the worst joint, or the reason why there are none."""
     if isinstance(bars, str):
         return f'<div class="hf-bars hf-soft">{escape(bars[:1].upper() + bars[1:])}.</div>'
     finite = np.where(np.isfinite(bars.values), bars.values, 0.0)

@@ -24,18 +24,18 @@ class ArmFigure:
     """Arm in a scene: one frame per link, with its parts as children.
 
     Args:
-        scene: The viser scene.
-        root: Name of the branch in the scene.
-        parts: The meshes of the arm.
-        frames: Number of link frames.
-        tint: RGB color in place of the colors of the parts, for ghosts; None keeps the colors.
-        opacity: Opacity from 0 to 1, below 1 for ghosts; None is opaque.
+        scene: Viser scene.
+        root: Name of the arm's branch in the scene.
+        parts: Meshes of the arm.
+        frames: Number of frames of the arm.
+        tint: RGB colour that replaces the parts' own colours, for ghosts.
+        opacity: Opacity, below 1 for ghosts.
     """
 
     def __init__(
         self, scene: Any, root: str, parts: list[MeshPart], frames: int, tint: Color | None = None, opacity: float | None = None
     ) -> None:
-        self.companions: list[ArmFigure] = []  # figures that move with this one
+        self.companions: list[ArmFigure] = []  # further figures that move with this one
         self._root = scene.add_frame(root, show_axes=False)
         self._frames = [scene.add_frame(f"{root}/{link}", show_axes=False) for link in range(frames)]
         self.joints: dict[int, list[Any]] = {}

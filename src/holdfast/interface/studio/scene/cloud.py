@@ -1,4 +1,4 @@
-"""Region of an assessment as points, each with a configuration."""
+"""Region of an assessment as points, each of which represents a configuration."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.run import assess, load
 
 MAX_POINTS = 2500  # largest number of drawn points
-REGION_POSES = 1200  # poses of a region around the end effector
+REGION_POSES = 1200  # number of poses in a region around the end effector
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,11 @@ class RegionCloud:
     """Poses of a region, coloured by the index of the configuration found for each.
 
     Attributes:
-        label: Description for the user.
-        points: Tool points (N, 3), m.
-        colors: RGB colors (N, 3), 0 to 255: dark is bad, bright is good, grey means that no configuration was found.
-        q: Configurations (N, n), rad and m; NaN where none was found.
-        values: Values of the index (N,).
+        label: Caption of the cloud.
+        points: (N, 3) tool points, m.
+        colors: (N, 3) RGB, 0 to 255; dark is bad, bright is good; grey: no configuration found.
+        q: (N, n) configurations, rad and m; NaN where none was found.
+        values: (N,) values of the index.
     """
 
     label: str
@@ -55,7 +55,7 @@ def read_cloud(arm: Arm, path: str) -> RegionCloud:
 
     Raises:
         StoreError: The folder is not a results folder.
-        InputError: The results are those of another arm.
+        InputError: The results are of another arm.
     """
     assessment = load(path)
     if assessment.arm.fingerprint != arm.fingerprint:

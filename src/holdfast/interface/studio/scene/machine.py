@@ -36,8 +36,8 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 
-REACH_TOLERANCE = 1e-6  # m and rad, for a dragged end effector
-MAX_SLIDE_STEP = 0.05  # rad (and m): longest step along a self-motion
+REACH_TOLERANCE = 1e-6  # tolerance of a dragged end effector, m and rad
+MAX_SLIDE_STEP = 0.05  # longest step along a self-motion, rad (and m)
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,12 @@ class JointBars:
     """One number per joint.
 
     Attributes:
-        title: Name of the measure.
+        title: Name of the measured quantity.
         better: ``larger`` or ``smaller``.
-        unit: Unit of each value (n,).
-        values: Values (n,); NaN or infinite where there is none.
+        unit: Unit of the values; several units where joints differ.
+        values: (n,) values; NaN or infinite where there is none.
         worst: Index of the joint with the worst failure, from 0.
-        status: Remark on the values, or an empty text.
+        status: Sentence about a special case; else empty.
     """
 
     title: str
@@ -68,9 +68,9 @@ class LiveReading:
     Attributes:
         bars: Bars of the index, or the reason why there are none.
         weights: Bars of the susceptibility, or the reason why there are none.
-        healthy_ellipsoid, failed_ellipsoid: Manipulability ellipsoids of the healthy and of the failed arm.
-        failure_joints: Joints locked in ``failed_ellipsoid`` and ``losses``: the failed ones, or the worst one if none has
-            failed.
+        healthy_ellipsoid, failed_ellipsoid: Ellipsoids of the healthy and of the failed arm.
+        failure_joints: Joints whose failure ``failed_ellipsoid`` and ``losses`` show: the failed ones, or the worst one if none
+            has failed.
         losses: Directions in which speed is lost.
     """
 
@@ -94,7 +94,7 @@ class CompiledArm:
         self._clearance: Clearance | None = None
         self._compile_lock = threading.RLock()
 
-    # ---- geometry ------------------------------------------------------------------------------------------
+    # ---- geometry --------------------------------------------------------------------------------------------------
 
     @cached_property
     @cached_kernel
@@ -130,7 +130,7 @@ class CompiledArm:
         assert self.cell is not None
         return self.cell.with_poses({name: pose_from_quaternion(numbers[:3], numbers[3:]) for name, numbers in moved})
 
-    # ---- effect of a failure --------------------------------------------------------------------------------------
+    # ---- effect of a failure ---------------------------------------------------------------------------------------
 
     def get_index(self, name: str) -> Index | str:
         """Return the index over single failures, or the reason why the arm has none."""
@@ -164,7 +164,7 @@ class CompiledArm:
         """Return the control law with the label ``name`` or ``name:value``; it is compiled once.
 
         Raises:
-            InputError: The law is not known, its setting is invalid, or it takes no setting.
+            InputError: The law is unknown, its setting is invalid, or it has no setting.
         """
         with self._compile_lock:
             if text not in self._laws:
@@ -207,10 +207,10 @@ class CompiledArm:
     # ---- following the end effector ----------------------------------------------------------------------------------------
 
     def solve_pose_near(self, q: FloatArray, pose: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, bool]:
-        """Find the configuration near q (n,) that brings the end effector to a pose (4, 4) with failed joints locked; return it
-        and whether it reaches the pose.
+        """Find the configuration near q (n,) with the end effector at a pose (4, 4) and failed joints locked.
 
-        Where the pose is out of reach it is the nearest found, never farther than q itself.
+        Returns:
+            Configuration (n,), and True if it reaches the pose. If not, it is the nearest one found, never farther than q.
         """
         ik_solver = solver(self.arm, self.task)
         is_movable = np.ones(self.arm.n)
@@ -218,7 +218,7 @@ class CompiledArm:
         return ik_solver.solve_near(q, pose, is_movable, REACH_TOLERANCE)
 
     def pose_error_norm(self, q: FloatArray, pose: FloatArray) -> float:
-        """Return the distance between the end effector at q (n,) and a pose (4, 4), in the task dimensions; m and rad."""
+        """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
         from scipy.spatial.transform import Rotation
 
         tool = self.tool_pose(q)
@@ -240,11 +240,10 @@ class CompiledArm:
         return find_spec("mujoco") is not None and all(link is not None for link in self.arm.links)
 
     def step_self_motion(self, q: FloatArray, step: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-        """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is the step
-        length.
+        """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is its length.
 
         Returns:
-            New configuration (n,) within the limits, and unit direction (n,) of the step; q and 0 if no step is possible.
+            New configuration within the limits, and unit direction (n,) of the step; q itself and 0 if no step is possible.
         """
         length = float(np.linalg.norm(step))
         basis = null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)

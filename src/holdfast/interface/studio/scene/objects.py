@@ -1,4 +1,4 @@
-"""Cell in the scene of a window: draggable objects, and the shortest distance from the arm to one of them."""
+"""Cell in the scene of a window: draggable objects, and the point where the arm is nearest to one of them."""
 
 from __future__ import annotations
 
@@ -21,11 +21,10 @@ class CellObjects:
     """Cell objects of one window.
 
     Args:
-        scene: The viser scene of the window.
-        machine: The compiled arm with its cell.
-        moved_objects: Names of moved objects, each with x, y, z in m and the quaternion x, y, z, w.
-        request_action: Function that is called as ``ask("pick", name)`` for a clicked object, and as ``ask("object", (name,
-            numbers))`` for a dragged one.
+        scene: Viser scene of the window.
+        machine: Compiled arm with its cell.
+        moved_objects: Objects that were moved, with x, y, z and quaternion x, y, z, w.
+        request_action: ``ask("pick", name)`` when an object is clicked, ``ask("object", (name, numbers))`` when it is dragged.
     """
 
     def __init__(
@@ -99,7 +98,7 @@ class CellObjects:
     _error_text = ""
 
     def draw_shortest_distance(self, q: FloatArray) -> tuple[str, bool]:
-        """Draw the shortest distance at q (n,); return a text about the nearest object, and whether it is too close."""
+        """Draw the shortest distance at q (n,); return a text about the nearest object, and True if it is too near."""
         if self._error_text or self._clearance is None or self._clearance.obstacles is None:
             self._line.visible = False
             return self._error_text or "The cell is empty.", bool(self._error_text)

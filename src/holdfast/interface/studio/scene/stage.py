@@ -20,9 +20,9 @@ GREEN_RGB = (0, 122, 94)
 PURPLE_RGB = (168, 73, 127)
 GRID_RGB = (150, 157, 164)  # visible on white and on black
 GHOST_COLORS: tuple[Color, ...] = (GREEN_RGB, ORANGE_RGB, BLUE_RGB, PURPLE_RGB)
-LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # labels of two ghosts that meet do not overlap
-ELLIPSOID_TIME_S = 0.22  # an ellipsoid shows the distance that the tool covers in this time at joint rates of norm 1
-MAX_MARKED_FRACTION = 0.99  # a direction in which at least this fraction of the speed remains is not marked
+LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # so that the labels of two ghosts in one place do not overlap
+ELLIPSOID_TIME_S = 0.22  # an ellipsoid shows the motion of the tool in this time at joint rates of norm 1
+MAX_MARKED_FRACTION = 0.99  # a direction with a larger remaining fraction is not marked
 _MAX_MARKS = 2  # largest number of marked directions
 _RING_SEGMENTS = 24
 
@@ -31,9 +31,9 @@ class Stage:
     """3-D scene of one window.
 
     Args:
-        scene: The viser scene of the window.
-        machine: The compiled arm.
-        parts: The meshes of the arm.
+        scene: Viser scene of the window.
+        machine: Compiled arm.
+        parts: Meshes of the arm.
     """
 
     def __init__(self, scene: Any, machine: CompiledArm, parts: list[MeshPart]) -> None:
@@ -53,7 +53,7 @@ class Stage:
         )
         self.figure = ArmFigure(scene, "/arm", parts, arm.n + 2)
         if len(self.figure.joints) < arm.n:
-            # Meshes hide the joints; knobs show which have failed and can be clicked.
+            # Meshes hide the joints; knobs show the failed ones and can be clicked.
             self._add_joint_knobs()
         self._joint_labels = [
             scene.add_label(
@@ -150,9 +150,7 @@ class Stage:
         handle.position = center
 
     def _loss_segments(self, loss: DirectionLoss, tool_pose: FloatArray) -> FloatArray:
-        """Return segments (_RING_SEGMENTS + 3, 2, 3): a line through the end effector both ways, and a ring about the axis of
-        rotation.
-        """
+        """Return segments (_RING_SEGMENTS + 3, 2, 3): a line through the end effector, and a ring about the rotation axis."""
         task = self.machine.task
         twist = task.rows.T @ loss.direction
         rotation = tool_pose[:3, :3] if task.frame == "tool" else np.eye(3)
@@ -176,10 +174,10 @@ class Stage:
             segments[1] = [center - 0.3 * half_length * axis * angular_norm, center + 0.3 * half_length * axis * angular_norm]
         return segments
 
-    # ---- ghosts and region --------------------------------------------------------------------------------------------
+    # ---- next to the arm -------------------------------------------------------------------------------------------
 
     def add_ghosts(self, labels: Sequence[str], colors: Sequence[Color] = GHOST_COLORS) -> None:
-        """Add ghost arms to the scene, one for each label, in place of the current ones."""
+        """Add ghost arms to the scene, one for each label, which replace the present ones."""
         self.remove_ghosts()
         moving_parts = [part for part in self.parts if part.frame]
         for number, (text, color) in enumerate(zip(labels, colors, strict=False)):
@@ -191,7 +189,7 @@ class Stage:
         """Move the ghosts to their frames (n + 2, 4, 4)."""
         for figure, label, ghost_frames in zip(self.ghosts, self._ghost_labels, frames, strict=True):
             figure.move_links(ghost_frames)
-            label.position = ghost_frames[len(ghost_frames) // 2, :3, 3]  # at the elbow: tools often meet
+            label.position = ghost_frames[len(ghost_frames) // 2, :3, 3]  # at the elbow, because the tools often coincide
 
     def remove_ghosts(self) -> None:
         """Remove the ghosts from the scene."""
