@@ -326,4 +326,4 @@ def test_the_figure_and_the_words(law, home, goal):
     said = " ".join(run.describe())
     assert "in the kinematic simulation: converged" in said
     assert "still moving at the limit of 1 s" in said
-    assert any("tool paths apart" in fact.label for fact in present(run).facts)
+    assert any("distance between the tool paths" in fact.label for fact in present(run).facts)

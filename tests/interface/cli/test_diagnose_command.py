@@ -40,7 +40,7 @@ def test_a_lock_is_found_by_a_self_motion(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, _ = cli("identify", "panda", "--at", "0 -0.4 0.3 -2 0.2 1.8 0.5", "--csv", "probe.csv")
     assert code == 0
-    assert "tells 7 of 7 suspects apart" in out
+    assert "can identify a lock of 7 of 7 candidate joints" in out
     arm, (q, rate) = hf.arms.load("panda"), hf.diagnosis.read_motion(hf.arms.load("panda"), "probe.csv")
     assert rate == pytest.approx(100)
     code, out, _ = cli("predict-detection", "probe.csv", "--arm", "panda", "--json")

@@ -25,7 +25,7 @@ def test_they_are_printed_and_drawn(cli, tmp_path):
     code, out, err = cli(*CALL, "--plot", figure)
     assert (code, err) == (0, "")
     assert "kinematic" in out
-    assert "tool paths apart" in out
+    assert "distance between the tool paths" in out
     assert matplotlib.image.imread(figure).shape[1] > 1000
 
 
