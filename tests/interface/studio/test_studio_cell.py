@@ -62,7 +62,7 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
     download.value.save_as(tmp_path / "bench-2.yaml")
     back = hf.Cell.load(tmp_path / "bench-2.yaml")
     assert back.digest == CELL.with_poses({"ball": hand}).digest != CELL.digest
-    wait_for(page, lambda: "Saved bench-2.yaml. To open it, run in its folder: holdfast studio panda" in page.inner_text("body"))
+    wait_for(page, lambda: "To open it, run in its folder: holdfast studio panda" in page.inner_text("body"))
     assert "--cell=bench-2.yaml" in page.inner_text("body")
 
 
