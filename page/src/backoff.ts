@@ -1,4 +1,4 @@
-/** How long to wait before the next try: longer each time, never all stations at once. */
+/** Waiting time before the next try, which grows each time and differs between stations. */
 
 const FIRST = 0.25;
 const MOST = 5;

@@ -1,4 +1,4 @@
-/** The control clock: calls back at a fixed rate, whatever the display does. */
+/** The control clock, which calls back at a fixed rate, independently of the display. */
 
 import { Schedule } from "./schedule";
 
@@ -6,7 +6,7 @@ export class Clock {
   private readonly worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
   private schedule: Schedule | null = null;
 
-  /** Begin: the first cycle comes at once; times are seconds since then. */
+  /** Start the clock with the first cycle immediately; times are seconds since then. */
   start(rate: number, onCycle: (time: number) => void): void {
     this.stop();
     this.worker.onmessage = (): void => {
@@ -21,7 +21,7 @@ export class Clock {
     this.worker.postMessage(rate);
   }
 
-  /** End, and say how it went. */
+  /** Stop the clock and return its statistics. */
   stop(): Schedule | null {
     const done = this.schedule;
     this.worker.onmessage = null;

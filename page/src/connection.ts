@@ -1,24 +1,24 @@
 /**
- * The line to the server: everything goes through the outbox, a lost connection is made again, and what was not acknowledged
- * is sent again. The page never waits for it but at the beginning.
+ * The connection to the server: all messages go through the outbox, a lost connection is reopened, and messages without an
+ * acknowledgement are sent again. The page waits for the server only at the beginning.
  */
 
 import { backoff } from "./backoff";
 import type { FromPage, Hello, FromServer, Welcome } from "./messages";
 import type { Body, Outbox } from "./outbox";
 
-/** A message that is not acknowledged for so long, ms, means that the connection is lost, whatever the browser thinks. */
+/** Time without an acknowledgement after which the connection counts as lost, ms. */
 const SILENCE = 5000;
 
 export interface Listener {
-  /** The connection is there, or is not. */
+  /** Called when the connection is opened or lost. */
   online(yes: boolean): void;
   paused(yes: boolean): void;
   /** The server cannot store anything any more, or can again. */
   unstored(yes: boolean): void;
   /** Something more is on the server's disk. */
   acknowledged(): void;
-  /** The session cannot continue here; null: somebody else resumed it. */
+  /** Called when the session cannot continue here; null if another page resumed it. */
   over(reason: string | null): void;
 }
 
@@ -127,7 +127,7 @@ export class Connection {
     this.tries = 0;
     if (this.hello) this.hello = { ...this.hello, session: welcome.session };
     if (!this.outbox.connected(welcome.seq)) {
-      // At the beginning: what an earlier visit left behind is there already. Later: somebody else went on with the session.
+      // At the beginning: the messages of an earlier visit are already stored. Later: another page continued the session.
       if (!this.joining) return this.end(null);
       this.outbox.clear(welcome.seq);
     }

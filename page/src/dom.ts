@@ -27,7 +27,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Paragraphs of a text, parted by empty lines. */
+/** Paragraphs of a text, separated by empty lines. */
 export function paragraphs(text: string): HTMLParagraphElement[] {
   return text
     .trim()

@@ -1,4 +1,4 @@
-/** What the server says about the experiment. */
+/** Description of the experiment from the server. */
 
 import type { Criterion } from "./training";
 
@@ -47,7 +47,7 @@ export interface Experiment {
   rate: number;
   /** m/cycle. */
   stick: { limit: number; dead_zone: number };
-  /** Of the target circle, m. */
+  /** Radius of the target circle, m. */
   radius: number;
   cycle_limit: number | null;
   rating: string[];

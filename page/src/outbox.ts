@@ -1,6 +1,6 @@
 /**
  * Messages that are not yet on the server's disk, in order. Each has a number, counted per session; a message that was sent
- * once keeps its number and its content, so that it can be sent again after a lost connection and be told apart.
+ * once keeps its number and its content, so that the server recognises it if it is sent again after a lost connection.
  */
 
 import {
@@ -17,15 +17,15 @@ export type Numbered = AnswersMessage | Begin | Cycles | EndMessage | EventMessa
 type Unnumbered<M> = M extends Numbered ? Omit<M, "seq"> : never;
 export type Body = Unnumbered<Numbered>;
 
-/** Messages under way at once; what comes after them waits, and cycles that wait are put together. */
+/** Largest number of messages in flight; later messages wait, and waiting cycles are merged. */
 const WINDOW = 64;
 
 export class Outbox {
   private queue: Numbered[];
   private next: number;
-  /** Up to this number they were sent at least once, on any connection. */
+  /** Messages up to this number were sent at least once, on any connection. */
   private touched: number;
-  /** Up to this number they were sent on this connection. */
+  /** Messages up to this number were sent on this connection. */
   private sent = 0;
 
   constructor(queue: Numbered[] = []) {
@@ -42,7 +42,7 @@ export class Outbox {
     if (body.type !== "cycles" || !this.appended(body)) this.queue.push({ ...body, seq: this.next++ } as Numbered);
   }
 
-  /** What is to be sent now. */
+  /** Return the messages to send now. */
   due(): Numbered[] {
     const found = this.queue.slice(0, WINDOW).filter((m) => m.seq > this.sent);
     if (found.length) {
@@ -52,7 +52,7 @@ export class Outbox {
     return found;
   }
 
-  /** Everything up to a number is on the disk. */
+  /** Note that all messages up to a number are on the disk. */
   acknowledged(seq: number): void {
     this.queue = this.queue.filter((m) => m.seq > seq);
   }
@@ -60,7 +60,7 @@ export class Outbox {
   /**
    * A new connection, with a server that has everything up to `last`.
    *
-   * @returns false where its record and this queue do not fit: somebody else went on with the session, or the record is older
+   * @returns false if the record and this queue do not fit, because another page continued the session or the record is older
    */
   connected(last: number): boolean {
     this.acknowledged(last);
@@ -68,14 +68,14 @@ export class Outbox {
     return last === (this.queue.length ? this.queue[0].seq : this.next) - 1;
   }
 
-  /** Throw away what waits; the session continues after `last`. */
+  /** Discard the waiting messages; the session continues after `last`. */
   clear(last: number): void {
     this.queue = [];
     this.next = last + 1;
     this.touched = this.sent = last;
   }
 
-  /** Cycles join those of the last message where that was never sent. */
+  /** Add cycles to the last message if it was never sent. */
   private appended(body: Extract<Body, { type: "cycles" }>): boolean {
     const last = this.queue[this.queue.length - 1];
     if (last?.type !== "cycles" || last.seq <= this.touched) return false;

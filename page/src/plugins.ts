@@ -12,7 +12,7 @@ const trialInfo = {
     spec: { type: ParameterType.OBJECT, default: undefined },
   },
   data: {
-    /** How it ended. */
+    /** Ending of the trial. */
     end: { type: ParameterType.STRING },
     /** Control cycles. */
     cycles: { type: ParameterType.INT },
@@ -36,7 +36,7 @@ const screenInfo = {
   name: "holdfast-screen",
   version: "1.0.0",
   parameters: {
-    /** Shows the screen in an element; what it resolves to is the trial's data. */
+    /** Shows the screen in an element and resolves to the data of the trial. */
     show: { type: ParameterType.FUNCTION, default: undefined },
   },
   data: {
@@ -44,7 +44,7 @@ const screenInfo = {
   },
 } as const;
 
-/** The plugin for everything else: a function that shows something until the person has done with it. */
+/** The plugin for all other screens: a function that shows a screen until the person has finished with it. */
 export class ScreenPlugin implements JsPsychPlugin<typeof screenInfo> {
   static readonly info = screenInfo;
 

@@ -9,7 +9,7 @@ import { norm, type Stick } from "./stick";
 export type Ending = "arrived" | "time" | "aborted" | "broken-off";
 
 export interface Task {
-  /** Which of the arm's laws. */
+  /** Code of the control law. */
   law: number;
   q0: number[];
   /** Centre of the target circle, m. */
@@ -19,7 +19,7 @@ export interface Task {
 }
 
 export interface Rules {
-  /** Of the target circle, m. */
+  /** Radius of the target circle, m. */
   radius: number;
   /** Cycles allowed; null for no limit. */
   cycleLimit: number | null;
@@ -72,7 +72,7 @@ export class Run {
     return null;
   }
 
-  /** Whether the tool point is inside the target circle. */
+  /** True if the tool point is inside the target circle. */
   get inside(): boolean {
     for (let i = 0; i < this.toGo.length; i++) this.toGo[i] = this.target[i] - this.x[i];
     return norm(this.toGo) <= this.rules.radius;

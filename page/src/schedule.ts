@@ -4,25 +4,25 @@
  */
 
 export interface Tick {
-  /** Cycles to be done now. */
+  /** Number of cycles to do now. */
   cycles: number;
-  /** Cycles left out before them. */
+  /** Number of cycles skipped before them. */
   missed: number;
 }
 
-/** A wake-up may come so much before its time, of a period. */
+/** Fraction of a period by which a wake-up may come early. */
 const EARLY = 0.25;
-/** Cycles of so many seconds are made up for. */
+/** Delay up to which missed cycles are made up, s. */
 const MADE_UP = 0.1;
-/** A cycle is late from so many seconds on. */
+/** Delay from which a cycle counts as late, s. */
 const LATE = 0.01;
 
 export class Schedule {
   private last = -1;
   private readonly most: number;
-  /** Cycles left out so far. */
+  /** Number of cycles skipped so far. */
   missed = 0;
-  /** Wake-ups that came late. */
+  /** Number of late wake-ups. */
   late = 0;
   /** The latest of all, s. */
   worst = 0;
@@ -38,7 +38,7 @@ export class Schedule {
     this.most = Math.max(1, Math.floor(MADE_UP * rate));
   }
 
-  /** What is to be done at a time, s; null: nothing yet. */
+  /** Return the cycles due at a time, s; null if none is due. */
   wake(now: number): Tick | null {
     const slot = Math.floor((now - this.start) * this.rate + EARLY);
     const due = slot - this.last;

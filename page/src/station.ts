@@ -1,4 +1,4 @@
-/** Everything that the screens share. */
+/** State that all screens share. */
 
 import type { Arm } from "./arm";
 import { Clock } from "./clock";
@@ -14,22 +14,22 @@ import type { Storage } from "./storage";
 import type { Experiment } from "./experiment";
 import { sentence, Texts } from "./texts";
 
-/** How far the session is. */
+/** Progress of the session. */
 export interface Progress {
   /** Cycles of each training task; null where it was not completed. */
   training: (number | null)[];
-  /** How many are done. */
+  /** Number of completed trials. */
   trials: number;
   answered: Set<string>;
   /** The last trial has no rating yet. */
   unrated: boolean;
-  /** The server has nothing more to be done. */
+  /** True if the server expects nothing more. */
   over: boolean;
 }
 
 export interface Addresses {
   session: string;
-  /** Where the next subject begins. */
+  /** Address at which the next subject begins. */
   begin: string;
 }
 
@@ -39,20 +39,20 @@ export class Station {
   readonly rules: Rules;
   readonly clock = new Clock();
   readonly frame: Frame;
-  /** Of a dry run; null with a person. */
+  /** Simulated operator of a dry run; null with a person. */
   readonly robot: Random | null;
   device: Device | null = null;
   plan: Plan = { training: [], trials: [] };
   progress: Progress = { training: [], trials: 0, answered: new Set(), unrated: false, over: false };
   subject = "";
   private session: string | null = null;
-  /** Of a new session: the same however often hello is said, so that a lost answer makes no second subject. */
+  /** Identifier of a new session; it stays when hello is repeated, so that a lost answer creates no second subject. */
   private fresh = key();
   private readonly outbox: Outbox;
   private readonly connection: Connection;
-  /** When the connection was lost, ms. */
+  /** Time at which the connection was lost, ms. */
   private lostAt: number | null = null;
-  /** Called when nothing waits any more, once the session is over. */
+  /** Called when the session is over and all messages are sent. */
   private finished: (() => void) | null = null;
   /** The session cannot continue in this page. */
   private stopped = false;
@@ -83,7 +83,7 @@ export class Station {
     });
     window.addEventListener("pagehide", () => {
       this.keep();
-      // What is sent from now on would not be kept, and its number would be given again.
+      // Later messages would not be stored, and their numbers would be used again.
       this.connection.close();
     });
     // A page that the browser had put aside has lost its connection and its trial: begin anew.
@@ -175,7 +175,7 @@ export class Station {
 
   private keep(): void {
     const outbox = [...this.outbox.waiting];
-    // Where somebody else went on with the session, what is kept is theirs.
+    // If another page continued the session, the stored data belong to that page.
     if (this.session === null || this.subject === "" || this.stopped) return;
     if (this.finished !== null && !outbox.length) return;
     this.storage.kept = { session: this.session, subject: this.subject, outbox };

@@ -1,4 +1,4 @@
-/** What a station keeps between visits: the session, what was not sent, and the sticks that were calibrated. */
+/** Data that a station stores between visits: the session, unsent messages, and calibrations of joysticks. */
 
 import type { Numbered } from "./outbox";
 
@@ -33,7 +33,7 @@ export class Storage {
       const text = localStorage.getItem(this.name(name));
       return text === null ? null : (JSON.parse(text) as T);
     } catch {
-      return null; // storage is forbidden, or holds something else: the same as nothing
+      return null; // storage is forbidden or has invalid content, which counts as empty
     }
   }
 

@@ -1,4 +1,4 @@
-/** All words that people read come from the server, in the laboratory's language. */
+/** All texts that people read come from the server, in the language of the laboratory. */
 
 export class Texts {
   constructor(private readonly texts: Record<string, string>) {}

@@ -1,4 +1,4 @@
-/** The session as a jsPsych timeline. What was done in an earlier visit is left out. */
+/** The session as a jsPsych timeline, without the parts that were done in an earlier visit. */
 
 import { initJsPsych } from "jspsych";
 import { ScreenPlugin, trialPlugin } from "./plugins";
@@ -12,7 +12,7 @@ import type { Outcome, TrialSpec } from "./screens/trial";
 import type { Station } from "./station";
 import { inARow, trained } from "./training";
 
-/** A break is offered after so many trials. */
+/** Number of trials after which a break is offered. */
 const BREAK_EVERY = 24;
 const PRACTICE = 2;
 
@@ -26,7 +26,7 @@ type Node = Extract<Parameters<ReturnType<typeof initJsPsych>["run"]>[0], unknow
 class Session {
   readonly jsPsych;
   private readonly trial;
-  /** Why the session ends before its time; null if it does not. */
+  /** Reason why the session ends early; null if it does not. */
   private early: "declined" | "untrained" | null = null;
   /** Practice tasks done, and whether another one follows. */
   private practised = 0;
@@ -86,7 +86,7 @@ class Session {
     return this.when(() => this.untouched, [this.screen((e) => showInstructions(e, station))]);
   }
 
-  /** On training tasks from the end of the plan, which hardly anybody gets to; nothing is recorded. */
+  /** Practice uses training tasks from the end of the plan, which few subjects reach; it is not recorded. */
   private practice(): Node {
     const { texts } = this.station;
     const choices = [
@@ -229,7 +229,7 @@ class Session {
     });
   }
 
-  /** What a dry run says about a trial: the longer, the worse. */
+  /** Rating of a trial in a dry run; longer trials are rated as more difficult. */
   private felt(): number {
     const steps = this.station.experiment.rating.length;
     if (this.outcome.end !== "arrived") return steps - 1;
@@ -237,14 +237,14 @@ class Session {
     return Math.min(steps - 1, Math.floor(seconds / 10));
   }
 
-  // ---- small things ------------------------------------------------------------------------------------------------
+  // ---- helpers ------------------------------------------------------------------------------------------------
 
   private get isTrained(): boolean {
     const { progress, experiment } = this.station;
     return progress.trials > 0 || trained(experiment.training, progress.training);
   }
 
-  /** Nothing of training or trials was done yet. */
+  /** True if neither training nor trials have begun. */
   private get untouched(): boolean {
     const { progress } = this.station;
     return this.early === null && progress.trials === 0 && progress.training.length === 0;

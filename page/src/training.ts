@@ -13,7 +13,7 @@ export function trained(criterion: Criterion, cycles: readonly (number | null)[]
   return done >= criterion.at_least && inARow(criterion, cycles) >= criterion.in_a_row;
 }
 
-/** How many of the last tasks, one after the other, were completed within the limit. */
+/** Number of last consecutive tasks that were completed within the limit. */
 export function inARow(criterion: Criterion, cycles: readonly (number | null)[]): number {
   let count = 0;
   for (let k = cycles.length - 1; k >= 0; k--) {

@@ -1,4 +1,4 @@
-/** Wakes the page up at a fixed rate. A timer of the page itself would be slowed down by its drawing. */
+/** Wakes the page at a fixed rate. Drawing would slow down a timer of the page itself. */
 
 let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -7,7 +7,7 @@ function run(rate: number): void {
   let k = 0;
   const tick = (): void => {
     self.postMessage(k);
-    // Behind by more than one cycle: continue with the next that is due, the page counts what was missed.
+    // If more than one cycle behind, continue with the next due cycle; the page counts the missed ones.
     k = Math.max(k + 1, Math.floor(((performance.now() - start) / 1000) * rate));
     timer = setTimeout(tick, start + (k * 1000) / rate - performance.now());
   };

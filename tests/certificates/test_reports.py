@@ -55,10 +55,10 @@ def test_a_page_says_who_verified_it_and_what_was_found(below, refuted, panda, t
     found = hf.certify(hf.certificates.ceiling_claim(panda, box, below))
     check = None if refuted else hf.check_certificate(found.write(tmp_path / "a.certificate"))
     html = found.report(tmp_path / "a.html", check=check, file="a.certificate").read_text(encoding="utf-8")
-    assert ("Found by the prover, not yet verified" in html) == refuted
-    assert ("are accepted by code that shares nothing" in html) != refuted
+    assert ("it is not yet verified" in html) == refuted
+    assert ("a program that is independent of the prover" in html) != refuted
     assert ("by a witness" in html) == ("The claim is false" in html) == found.refuted == refuted
-    assert ("The hardest boxes" in html) != refuted
+    assert ("Smallest boxes, or largest undecided boxes" in html) != refuted
     assert found.document["digest"] in html
     assert "holdfast certificate check a.certificate" in html
     assert f"{found.value:.6f} occurs" in html

@@ -154,7 +154,8 @@ def test_what_cannot_be_found_is_said_with_the_best_ranges():
     grid = np.array(list(product(np.linspace(2.75, 3.05, 60), np.linspace(-0.15, 0.15, 60))))
     assert 0 < found.passed / found.targets <= (np.linalg.norm(grid, axis=1) <= 3).mean() + 0.08
     (sentence,) = found.describe()
-    assert sentence.startswith(f"Not found: with the best working ranges {found.passed} of {found.targets} sampled targets")
+    reached = f"the arm reaches {found.passed} of {found.targets} sampled targets"
+    assert sentence.startswith(f"Not found: with the best working ranges, {reached}")
     assert hf.find_working_ranges(planar((1.0, 1.0, 1.0)), (5.0, 0.0), 0.1, targets=5, values=6).passed == 0
 
 

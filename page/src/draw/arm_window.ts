@@ -1,4 +1,4 @@
-/** Window (a) of Fig. 1: the arm as a wire frame, workspace boundary, start, target, and the way to go. */
+/** Window (a) of Fig. 1: the arm as a wire frame, workspace boundary, start, target, and the path to the target. */
 
 import { circle, line, Surface } from "./canvas";
 import { BLUE, FAINT, INK, ORANGE, SKY, SOFT } from "./palette";
@@ -11,7 +11,7 @@ export interface ArmScene {
   /** Task rows, m. */
   start: ArrayLike<number>;
   target: ArrayLike<number>;
-  /** Of the target circle, m. */
+  /** Radius of the target circle, m. */
   radius: number;
 }
 

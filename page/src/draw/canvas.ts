@@ -1,4 +1,4 @@
-/** A canvas that is as sharp as the display, whatever its size on the page. */
+/** A canvas with the resolution of the display at any size on the page. */
 
 export class Surface {
   readonly element: HTMLCanvasElement;
@@ -44,7 +44,7 @@ export function line(c: CanvasRenderingContext2D, ...points: [number, number][])
   c.stroke();
 }
 
-/** Text upright, though y points upwards. */
+/** Draw upright text although y points upwards. */
 export function label(c: CanvasRenderingContext2D, text: string, x: number, y: number): void {
   c.save();
   c.translate(x, y);

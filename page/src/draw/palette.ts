@@ -1,4 +1,4 @@
-/** Colours after Okabe and Ito, darkened for thin lines, as in holdfast's figures: told apart by the colour-blind. */
+/** Colours after Okabe and Ito, darkened for thin lines as in holdfast's figures, which colour-blind people can distinguish. */
 
 export const INK = "#1b1f24";
 export const SOFT = "#59636e";

@@ -1,4 +1,4 @@
-/** From the base frame, and from the task's rows, to a view's two axes. */
+/** Projections from the base frame and from the task's rows to the two axes of a view. */
 
 import type { View } from "../experiment";
 

@@ -5,7 +5,7 @@ import { BLUE, FAINT, PALE, SOFT } from "./palette";
 import { task } from "./projection";
 import type { View } from "../experiment";
 
-/** Of half the window's smaller side: where the limit circle is. */
+/** Radius of the limit circle, as a fraction of half the window's smaller side. */
 const SHARE = 0.8;
 
 export class VelocityWindow {

@@ -1,4 +1,4 @@
-/** The two windows that the subject sees, as they are now. */
+/** The two windows that the subject sees, updated live. */
 
 import type { Arm } from "../arm";
 import { h } from "../dom";

@@ -1,4 +1,4 @@
-/** The experimenter's page: who takes part, what they do now, and what to do about it. */
+/** The experimenter's page: all subjects, their present activity, and the actions of the experimenter. */
 
 import { loadArm } from "../arm";
 import { h } from "../dom";
@@ -12,7 +12,7 @@ import { Top } from "./top";
 import "../station.css";
 import "./experimenter.css";
 
-/** Who sent no cycle for so long, ms, is not steering. */
+/** Time without a cycle after which a subject counts as not steering, ms. */
 const STILL = 1500;
 
 class Page {
@@ -43,7 +43,7 @@ class Page {
       cycle: (cycle) => {
         const first = !this.steering(cycle.subject);
         this.cycles.set(cycle.subject, { cycle, at: performance.now() });
-        // Whoever moves first is watched, until somebody is chosen.
+        // The first subject that moves is shown until a subject is chosen.
         this.chosen ??= cycle.subject;
         if (first) this.show();
         else if (cycle.subject === this.chosen) this.showPanel();

@@ -1,4 +1,4 @@
-/** One subject: what he or she sees now, and what the experimenter can do. */
+/** One subject: the present view of the subject, and the actions of the experimenter. */
 
 import { button, h } from "../dom";
 import { confirmed } from "./dialog";
@@ -54,7 +54,7 @@ export class Panel {
       this.say("");
       this.link.hidden = true;
     }
-    // What is being typed stays, whatever the server says.
+    // A note that is being typed is not overwritten by updates.
     if (other || this.note.value === this.known) this.note.value = s.note;
     this.known = s.note;
     this.title.textContent = texts.subject(s.subject);

@@ -1,4 +1,4 @@
-/** What the server tells the experimenter, and what it does for him or her. */
+/** Data from the server for the experimenter, and requests to the server. */
 
 import { backoff } from "../backoff";
 import { texts } from "./texts";
@@ -23,23 +23,23 @@ export interface Subject {
 }
 
 export interface State {
-  /** All sessions are. */
+  /** True if all sessions are paused. */
   paused: boolean;
-  /** Why nothing can be stored; null if it can. */
+  /** Reason why nothing can be stored; null if storing works. */
   fault: string | null;
   subjects: Subject[];
 }
 
-/** What does not change while the server runs. */
+/** Data that do not change while the server runs. */
 export interface About {
-  /** Of the protocol. */
+  /** Name of the protocol. */
   name: string;
   folder: string;
   /** Address of a station. */
   station: string;
   scenarios: string[];
   joints: string[];
-  /** Tasks of a session, for what the windows show. */
+  /** Tasks of a session, for the windows. */
   plan: { training: { q0: number[]; target: number[] }[]; trials: { q0: number[]; target: number[] }[] };
 }
 
@@ -50,13 +50,13 @@ export interface Cycle {
   /** From 0; so is the scenario. */
   position: number;
   scenario: number;
-  /** How many were done. */
+  /** Number of cycles done. */
   cycle: number;
   q0: number[];
   q: number[];
   velocity: number[];
   target: number[];
-  /** 0 for the joint that is locked. */
+  /** 0 for the locked joint, else 1. */
   healthy: number[];
 }
 
@@ -85,7 +85,7 @@ export class Server {
     return (await answer.json()) as About & State;
   }
 
-  /** Have something done. Rejected with the server's reason. */
+  /** Request an action; rejected with the reason of the server. */
   async post(what: "pause" | "note" | "drop" | "resume", body: object): Promise<Record<string, string>> {
     const headers = { "content-type": "application/json" };
     const request = { method: "POST", headers, body: JSON.stringify(body) };
@@ -97,7 +97,7 @@ export class Server {
     return said;
   }
 
-  /** News from now on; a lost connection is made again. */
+  /** Receive updates from now on; a lost connection is reopened. */
   watch(watcher: Watcher): void {
     const socket = new WebSocket(this.address("/live").replace(/^http/, "ws"));
     socket.addEventListener("open", () => {

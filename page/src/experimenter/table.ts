@@ -4,7 +4,7 @@ import { h } from "../dom";
 import type { Subject } from "./server";
 import { texts } from "./texts";
 
-/** Of what a subject does just now. */
+/** Text about the present activity of a subject. */
 function now(s: Subject, steering: boolean): string {
   if (s.state !== "open") return texts.states[s.state];
   return steering ? texts.steering : s.connected ? texts.connected : texts.notConnected;

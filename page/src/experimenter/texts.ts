@@ -1,4 +1,4 @@
-/** The words of the experimenter's page. */
+/** Texts of the experimenter's page. */
 
 export const texts = {
   title: "Experimenter",
@@ -14,11 +14,11 @@ export const texts = {
   report: "Report",
   reportHelp: "The analysis of what has been recorded so far, in a new tab. It takes some seconds.",
   missing: "If a subject has no trial in a cell",
-  missingChoices: { refuse: "say so, and stop", complete: "leave the subject out", mixed: "mixed model of single trials" },
+  missingChoices: { refuse: "report it, and stop", complete: "leave the subject out", mixed: "mixed model of single trials" },
   export: "Export tables",
   exportHelp: "trials, cycles, subjects and events as CSV, zipped. It takes some seconds.",
   dryRun: "Dry run",
-  dryRunHelp: "A simulated operator drives the real page in a new tab. What it does is recorded, marked simulated.",
+  dryRunHelp: "A simulated operator drives the real page in a new tab. Its data are recorded and marked as simulated.",
   seed: "Seed",
   columns: ["Subject", "Now", "Training", "Trials", "Replay", "Row", "Note"],
   noSubjects: "No subjects yet. They appear here when a station begins a session.",
@@ -36,12 +36,12 @@ export const texts = {
   differsHelp: "Trials in which the arm moved differently when the server replayed their commands.",
   choose: "Choose a subject in the table to watch and to act.",
   subject: (code: string) => `Subject ${code}`,
-  details: (row: number, since: string) => `row ${row} of the square, since ${since}`,
+  details: (row: number, since: string) => `row ${row} of the balanced square, since ${since}`,
   under: (what: string, number: number, scenario: string, locked: string, seconds: string) =>
     `${what} ${number}: ${scenario}${locked}, ${seconds} s`,
   locked: (joint: string) => ` (${joint} locked)`,
   still: "No trial is under way.",
-  last: "Seen last:",
+  last: "Last seen:",
   window: {
     arm_window: "Arm",
     view_1: "from above",
@@ -53,16 +53,16 @@ export const texts = {
   pause: "Pause",
   resume: "Resume",
   handOver: "New link",
-  handOverHelp: "A link that resumes this session on another page or computer. The page that has it now loses it.",
+  handOverHelp: "A link that resumes this session on another page or computer. The page that runs the session now loses it.",
   handOverTitle: (code: string) => `Give the session of ${code} to another page?`,
-  handOverText: "The page that has it now stops, even during a trial; that trial is done again.",
+  handOverText: "The page that runs the session now stops, even during a trial. That trial is done again.",
   handedOver: (code: string) => `Open this once, where ${code} resumes:`,
   copy: "Copy",
   copied: "copied",
   drop: "Drop",
   dropTitle: (code: string) => `End the session of ${code} for good?`,
   dropText:
-    "What was recorded stays, and is exported, but is not part of the report. Its row of the balanced square is given to somebody else. This cannot be undone here.",
+    "The recorded data stay and are exported, but they are not part of the report. The row of the balanced square goes to another subject. This cannot be undone here.",
   dropYes: "End the session",
   cancel: "Cancel",
   note: "Note",

@@ -1,10 +1,10 @@
-/** What concerns all subjects: where the data go, pause, dry run, tables, report. */
+/** Controls for all subjects: data folder, pause, dry run, tables, report. */
 
 import { button, h } from "../dom";
 import type { About, Server } from "./server";
 import { texts } from "./texts";
 
-/** A link that opens in a tab of its own. */
+/** A link that opens in a new tab. */
 function opener(testid: string, label: string, help: string, href = ""): HTMLAnchorElement {
   return h("a", { class: "button", target: "_blank", rel: "noopener", "data-testid": testid, title: help, href }, label);
 }
@@ -76,7 +76,7 @@ export class Top {
       link.href = url.href;
     };
     seed.addEventListener("input", address);
-    // The next one is another operator.
+    // The next dry run uses another operator.
     link.addEventListener("click", () =>
       setTimeout(() => {
         seed.value = String(Number(seed.value) + 1);

@@ -1,13 +1,13 @@
 /** From the raw axes and buttons of a gamepad to deflections: pure arithmetic, so that it can be tested. */
 
 export interface AxisMap {
-  /** Of the gamepad. */
+  /** Index of the axis on the gamepad. */
   axis: number;
-  /** Its value when nobody touches it. */
+  /** Raw reading at rest. */
   centre: number;
   /** Raw reading at full deflection, less the centre; its sign is the direction. */
   range: number;
-  /** Raw readings so near to the centre are noise. */
+  /** Raw deflections up to this value are noise. */
   noise: number;
 }
 
@@ -58,7 +58,7 @@ export class Readings {
   }
 }
 
-/** Deflected by at least so much, an axis was meant. */
+/** Smallest deflection that selects an axis. */
 const MEANT = 0.5;
 
 /** Which axis was pushed, seen from its rest, and how far with its sign; null if none was, or one that is taken. */

@@ -1,10 +1,10 @@
-/** What holds the arm's stick: a gamepad, the mouse, the keys, or a simulated person. */
+/** Input device for the arm: a gamepad, the mouse, the keys, or a simulated person. */
 
 import type { View } from "../experiment";
 
 export type Kind = "gamepad" | "pointer" | "keys" | "robot";
 
-/** What is to be seen when a control cycle begins. */
+/** State at the beginning of a control cycle. */
 export interface Scene {
   cycle: number;
   /** Tool point and target, m. */
@@ -16,11 +16,11 @@ export interface Device {
   readonly kind: Kind;
   /** The deflection now, -1 to 1 on each axis of the task. */
   read(out: Float64Array): void;
-  /** Whether the trigger has been pressed since the last call. */
+  /** True if the trigger has been pressed since the last call. */
   triggered(): boolean;
-  /** Whether the device is gone. */
+  /** True if the device was disconnected. */
   lost(): boolean;
-  /** What is written into the records about it. */
+  /** Description of the device for the records. */
   about(): Record<string, string | number>;
   /** Take a window as a surface; the centre of the stick is its middle. `reach`: pixels to full deflection. */
   attach?(surface: HTMLElement, view: View, reach: () => number): void;
@@ -30,7 +30,7 @@ export interface Device {
   begin?(): void;
   /** A control cycle begins. */
   see?(scene: Scene): void;
-  /** Wants to give the trial up: only a robot does so by itself. */
+  /** True if the simulated person wants to give up the trial. */
   readonly tired?: boolean;
   /** Stop listening to anything. */
   release(): void;

@@ -1,5 +1,5 @@
 /**
- * A simulated person for dry runs, never to be taken for one: reacts after a while, with a lag, with noise that grows with the
+ * A simulated person for dry runs, marked as such: reacts after a while, with a lag, with noise that grows with the
  * command, slows down towards the target, and tries another direction when it gets nowhere. After
  * `holdfast.teleop.trials.operators`, with the typical person's parameters.
  */

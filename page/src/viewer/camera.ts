@@ -1,4 +1,4 @@
-/** From where a view is seen, and where on the picture a point of the world is. */
+/** Camera of a view, and the projection of points to the picture. */
 
 import { across, cross, dot, size, sum, unit } from "./algebra";
 import type { Scene, Vector } from "./scene";

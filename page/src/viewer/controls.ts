@@ -5,7 +5,7 @@ import type { View } from "./view";
 
 const FASTEST = 1 / 30; // s between two pictures, with a little room
 
-/** Put them where the page has a place for them; what is given back shows where the motion is. */
+/** Add the controls to the page; the returned function shows a frame of the motion. */
 export function controls(view: View): (k: number) => void {
   const { box, scene } = view;
   const row = h("div", { class: "view3d-row" });

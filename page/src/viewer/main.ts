@@ -1,4 +1,4 @@
-/** Makes what is written into a page as a picture a view that can be turned, where the browser can. */
+/** Replaces the static pictures of a page by views that can be rotated, if the browser has WebGL. */
 
 import type { Scene } from "./scene";
 import { View } from "./view";
@@ -18,9 +18,9 @@ for (const box of document.querySelectorAll<Box>(".view3d")) {
     box.view3d = new View(box, canvas, scene);
     box.classList.add("view3d-live");
     if (hint) {
-      hint.textContent = "Drag or use the arrow keys to turn, + and - or the wheel to zoom, 0 to reset; Shift and drag to move.";
+      hint.textContent = "Drag or use the arrow keys to rotate, + and - or the wheel to zoom, and 0 to reset. Shift and drag to move.";
     }
   } catch {
-    if (hint) hint.textContent = "This picture could be turned if the browser had WebGL; it is off, or this machine has none.";
+    if (hint) hint.textContent = "The view cannot be rotated, because this browser has no WebGL or has disabled it.";
   }
 }

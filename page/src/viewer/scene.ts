@@ -1,4 +1,4 @@
-/** What a view is given: the JSON that holdfast/interface/report/viewer.py writes beside its canvas. */
+/** Input of a view: the JSON that holdfast/interface/report/viewer.py writes next to its canvas. */
 
 export type Vector = [number, number, number];
 /** A pose: the upper three rows, row by row. */
@@ -65,7 +65,7 @@ export interface Scene extends Chain {
   boxes: { low: Vector; high: Vector }[];
   points: Vector[];
   colors: Vector[];
-  /** What the objects around the arm are called, and where. */
+  /** Names and positions of the objects around the arm. */
   objects: { name: string; at: Vector }[];
   lost: Lost[];
   sliders: boolean;

@@ -1,4 +1,4 @@
-/** What stands around an arm, as lines. */
+/** Surroundings of an arm, as lines. */
 
 import { across, column, cross, place, size, sum, unit } from "./algebra";
 import type { Lost, Pose, Scene, Vector } from "./scene";
@@ -54,7 +54,7 @@ export function edges({ low, high }: { low: Vector; high: Vector }): Vector[] {
   return out;
 }
 
-/** A direction that is lost: a line both ways through the tool, and a ring about the axis of a turn. */
+/** A lost direction: a line in both directions through the tool, and a ring about the axis of rotation. */
 export function mark({ twist }: Lost, center: Vector, reach: number): { lines: Vector[]; end: Vector } {
   const linear = twist.slice(0, 3) as Vector;
   const angular = twist.slice(3) as Vector;

@@ -1,4 +1,4 @@
-/** One view: an arm that can be turned, and moved where it moves. */
+/** One view of an arm, which can be rotated and, if it has a motion, played. */
 
 import { between, column, frames, place, sum } from "./algebra";
 import { Camera, project } from "./camera";
@@ -22,7 +22,7 @@ interface Label {
 
 let shared: Painter | null = null;
 
-/** What everything is drawn with, made anew after the graphics card has lost it; throws where there is none. */
+/** What everything is drawn with, created again after the graphics card has lost it; throws without WebGL. */
 function painter(): Painter {
   if (shared === null || shared.lost) shared = new Painter();
   return shared;
@@ -43,7 +43,7 @@ export class View {
   private readonly floor: Vector[];
   private readonly show: (k: number) => void;
 
-  /** Throws where there is no WebGL; the picture that stands there then stays. */
+  /** Throws without WebGL; the static picture then stays in place. */
   constructor(
     readonly box: HTMLElement,
     readonly canvas: HTMLCanvasElement,
@@ -70,7 +70,7 @@ export class View {
     return Math.max(...this.scene.arms.map((arm) => arm.q.length));
   }
 
-  /** The first arm at joint values, rad and m, whatever else it does; none: where the motion has it. */
+  /** Show the first arm at joint values, rad and m; without values, at its place in the motion. */
   pose(q: number[] | null): void {
     this.posed = q;
     this.draw();
@@ -83,7 +83,7 @@ export class View {
     this.draw();
   }
 
-  /** Where each arm is, rad and m. */
+  /** Configurations of the arms, rad and m. */
   configurations(): number[][] {
     return this.scene.arms.map((arm, k) => (k === 0 && this.posed) || between(arm.q, Math.min(this.at, arm.q.length - 1)));
   }
@@ -114,7 +114,7 @@ export class View {
 
   // ---- drawing -----------------------------------------------------------------------------------------------------
 
-  /** What has happened to a joint; nothing has to a healthy one. */
+  /** Text about the failure of a joint; empty for a healthy one. */
   private condition(k: number | undefined): "locked" | "free" | null {
     const { free, locked, time } = this.scene;
     if (k === undefined) return null;
@@ -124,7 +124,7 @@ export class View {
     return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9 ? "locked" : null;
   }
 
-  /** Whether there was room and something to draw on. */
+  /** Return true if there was enough room and a canvas to draw on. */
   private paint(): boolean {
     const { canvas, scene, camera } = this;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -133,7 +133,7 @@ export class View {
     if (!width || !height || !onto) return false;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     if (this.names === null) {
-      // Several arms, or a phone, leave too little room; how wide it is a page knows only now.
+      // Several arms, or a phone, leave too little room; the width of the page is known only now.
       this.names = scene.arms.length === 1 && canvas.clientWidth >= 520;
       this.box.querySelector("[aria-pressed]")?.setAttribute("aria-pressed", String(this.names));
     }
@@ -233,7 +233,7 @@ export class View {
     return out;
   }
 
-  /** Text beside places, those nearest to the eye first; what would lie on other text is left out unless it matters. */
+  /** Text beside places, those nearest to the eye first; text that would overlap is omitted unless it is important. */
   private write(onto: CanvasRenderingContext2D, labels: Label[], matrix: Float32Array, ratio: number, paper: Vector): void {
     const { width, height } = onto.canvas;
     const tall = 12 * ratio;
@@ -262,7 +262,7 @@ export class View {
       const free = tries.find((place) => {
         const [a, b, c, d] = box(place);
         const inside = a >= 0 && c <= width && b >= 0 && d <= height;
-        return inside && taken.every(([x, y, z, w]) => c + tall < x || a > z + tall || d < y || b > w); // side by side two would read as one
+        return inside && taken.every(([x, y, z, w]) => c + tall < x || a > z + tall || d < y || b > w); // two labels next to each other would read as one
       });
       const chosen = free ?? (label.strong ? [Math.min(Math.max(tries[0][0], 0), width - long), tries[0][1]] : null);
       if (!chosen) continue;
@@ -315,7 +315,7 @@ export class View {
     canvas.addEventListener(
       "wheel",
       (event) => {
-        // A page that scrolls past a view goes on scrolling, until someone has chosen the view.
+        // Scrolling the page past a view does not zoom it until the user has clicked the view.
         if (document.activeElement !== canvas && !event.ctrlKey) return;
         event.preventDefault();
         camera.zoom(Math.exp(0.0015 * event.deltaY));
@@ -343,7 +343,7 @@ export class View {
     });
   }
 
-  /** A click on a point chooses it, and says which. */
+  /** Choose a point on a click, and report it. */
   private pick(event: PointerEvent): void {
     const { canvas, scene } = this;
     if (!scene.points.length) return;

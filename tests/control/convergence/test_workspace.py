@@ -223,7 +223,7 @@ def test_files(small, tmp_path, monkeypatch):
     data = json.loads((tmp_path / "workspace.json").read_text())
     assert data == w.to_dict()
     assert data["mean_percent"]["R100"]["any"] == pytest.approx(np.nanmean(w.reach.full[:, 3]))
-    assert any("away from every sink" in line for line in w.describe())
+    assert any("no sink was found at the locked value" in line for line in w.describe())
 
 
 @pytest.mark.parametrize(

@@ -127,7 +127,7 @@ def test_a_lock_that_is_noticed_stops_the_arm_on_its_way(arm, run):
     expected = [np.interp(0.38, TIME, x) for x in WAY.T]
     np.testing.assert_allclose(stopped.reference[-1, [0, 2, 3]], np.array(expected)[[0, 2, 3]], atol=1e-12)
     assert np.abs(stopped.rates[-1]).max() < 1e-3
-    assert "The controller noticed at 0.33 s" in " ".join(stopped.describe())
+    assert "The controller detected the lock at 0.33 s" in " ".join(stopped.describe())
     late = hf.execute(arm, WAY, TIME, locked=["lift"], lock_time=0.5, notice=0.08, stop=0.1, servos=SERVOS)
     assert late.outcome == "finished", "the motion is over before it is slowed down"
 
@@ -147,7 +147,7 @@ def test_from_the_lock_to_the_task_finished():
     last = hf.execute(arm, answer.q, slowly, locked=answer.degraded, goal=goal, servos=servos).require_ok()
     assert last.goal_distance < 1e-4
     np.testing.assert_array_equal(last.q[:, 1], first.q_final[1])
-    assert "The joints kept within their limits and speeds." in last.describe()
+    assert "The joints stayed within their position and speed limits." in last.describe()
 
 
 def test_limits_speeds_and_objects_are_looked_at(arm):

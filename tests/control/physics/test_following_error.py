@@ -46,6 +46,6 @@ def test_a_healthy_arm_keeps_the_limit(panda):
     run = hf.execute(panda, WAY, TIME, error_limit=(np.deg2rad(2.0), 0.01), servos=SERVOS)
     assert run.first_excess is None
     assert run.ok
-    assert "The following error keeps its limit in every joint." in run.describe()
+    assert "The following error stays within its limit in every joint." in run.describe()
     with pytest.raises(hf.HoldfastError, match="two numbers above 0"):
         hf.execute(panda, WAY, TIME, error_limit=(0.0, 1.0))

@@ -69,7 +69,7 @@ def test_what_may_touch_is_fallen_through():
     swing = hf.free_swing(arm, [0.0], 0, damping=2.0, clearance=bob(arm, cell))
     assert swing.contacts == ()
     assert swing.rest_angle == pytest.approx(-np.pi / 2, abs=2e-4)
-    assert "It touches nothing on the way." in swing.describe()
+    assert "The arm touches nothing on the way." in swing.describe()
 
 
 FAR = Cell([Box("far", [1, 1, 1], pose=cells.placed(9, 0, 0)), Sphere("ball", 0.5, pose=cells.placed(0, 9, 0))])

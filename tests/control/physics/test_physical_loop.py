@@ -241,7 +241,7 @@ def test_weak_motors_saturate_within_their_effort_and_lag(panda, home, goal):
     assert run.saturated_fraction[4] == 0
     assert (np.abs(run.reference - run.q) <= effort / run.stiffness + 1e-9).all()
     assert run.path_distance > 2e-3
-    assert any("at their effort" in line for line in run.describe())
+    assert any("at their torque limit" in line for line in run.describe())
 
 
 def test_what_is_not_decided_says_why(two, law, home, goal):
@@ -324,6 +324,6 @@ def test_the_figure_and_the_words(law, home, goal):
     run = hf.simulate_physics(law, home, goal, locked=[4], time_limit=1.0)
     assert len(run.figures()["physics"].axes) == 3
     said = " ".join(run.describe())
-    assert "kinematic: converged" in said
+    assert "in the kinematic simulation: converged" in said
     assert "still moving at the limit of 1 s" in said
-    assert any("tool paths apart" in fact.label for fact in present(run).facts)
+    assert any("distance between the tool paths" in fact.label for fact in present(run).facts)

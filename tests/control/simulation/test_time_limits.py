@@ -91,6 +91,6 @@ def test_neither_the_page_nor_the_table_ends_before_the_motion(tmp_path):
         assert "angle_error_deg" not in rows[0]
         np.testing.assert_allclose(float(rows[-1]["position_error_mm"]), 1000 * runs.error, atol=1e-6)
     page = cycle.report(tmp_path / "cycle.html").read_text()
-    assert "never stops: it repeats its motion" in page
-    assert "Drawn are the first 200" in page
+    assert "never stops, because it repeats its motion" in page
+    assert "The figure ends after 200" in page
     assert "no visible motion" not in page

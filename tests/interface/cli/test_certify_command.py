@@ -180,7 +180,7 @@ def test_the_arm_that_a_certificate_is_about(cli, refused, tmp_path):
     assert cli("certify", "ceiling", "panda", *words)[0] == 4
     code, out, _ = cli("certificate", "check", file, "--arm", "panda")
     assert code == 0
-    assert "refuted    by a witness" in out
+    assert "refuted         by a witness" in out
     assert "another arm, 'panda': its joints are panda_joint1" in refused("certificate", "check", file, "--arm", "iiwa14")
     panda = hf.arms.load("panda")
     with pytest.raises(InputError, match="'panda': panda_joint1 differs"):

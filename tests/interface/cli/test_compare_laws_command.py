@@ -32,7 +32,7 @@ def test_a_table_for_people_and_a_folder(cli, tmp_path):
     out = tmp_path / "laws"
     code, said, err = cli(*CALL, "--motions", "8", "--failures", "joint2; 3", "--out", out)
     assert (code, err) == (0, "")
-    assert "With one joint locked and nobody aware of it" in said
+    assert "After an undetected lock of one joint" in said
     assert "joint2" in said
     assert "joint1" not in said
     assert "limits are not enforced" in said

@@ -40,7 +40,7 @@ def test_a_run_says_what_it_touches(cli, ask, around, tmp_path):
     assert np.interp(contact["time_s"], table["time_s"], table["clearance_m"]) == pytest.approx(0, abs=1e-4)
     page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
-    assert "What it touches" in page
+    assert "Contacts" in page
     assert "At 0.4377 s joint2 touches wall" in page
     plain = json.loads(cli(*CALL, "--json")[1])
     assert plain == {name: value for name, value in data.items() if name not in ("contacts", "clearance")}
@@ -88,6 +88,6 @@ def test_a_path_is_followed_clear_of_a_cell(cli, refused, tmp_path):
     assert table["clearance_m"].min() >= 0.01 - 1e-4
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
-    assert "Smallest distance of any pair" in page
+    assert "Smallest distance over all pairs" in page
     assert "smallest clearance" in " ".join(out.split()).lower()
     assert "--margin has no effect" in refused(*call, *start, "--margin", "0.1")

@@ -48,7 +48,7 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     assert "lamp" in page
     assert {a["what"] for a in clear["actions"]} & {"detour", "plan"}
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
-    assert "no certified safety function" in page
+    assert "not a certified safety function" in page
     assert (tmp_path / "chain" / "chain.png").stat().st_size > 10_000
     assert "--monitor needs bodies, motors and sensors; add --physics" in refused(*CALL, "--monitor", "bounds.json")
     assert "--stop-at-contact does not go with" in refused(*CALL, "--physics", "--record", "run.npz", "--stop-at-contact")
@@ -69,8 +69,8 @@ def test_bounds_of_its_own_loop(ask, cli, tmp_path, monkeypatch):
     bounds = hf.diagnosis.load("bounds.json")
     replace(bounds, torque=bounds.torque / 4).to_json("narrow.json")
     found = cli(*CALL, "--physics", "--monitor", "narrow.json")[1]
-    assert "No fault in this episode." in found
-    assert "The first alarm is false, nothing had failed" in found
+    assert "This episode has no fault." in found
+    assert "The first alarm is false, because no fault had begun" in found
 
 
 def test_without_physics_faults_are_locks(ask, refused, tmp_path):

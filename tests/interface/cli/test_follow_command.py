@@ -58,10 +58,10 @@ def test_json_is_the_library_s_answer(ask, path, expected):
 def test_people_read_sentences_and_a_table(cli, path, expected):
     code, out, err = cli("follow", "planar-3r", path, *WISH, "--samples", 41, "--best", "--torque-bound", "2")
     assert (code, err) == (0, "")
-    assert out.splitlines()[1].startswith("The end effector stays on its path, off it by ")
+    assert out.splitlines()[1].startswith("The end effector stays on its path (largest error ")
     assert "best of each pose" in out
     assert f"{expected.value.max():.4g}" in out
-    assert "For torques within 2 N m of gravity's the motion is " in out
+    assert " to keep all joint torques within 2 N m of the gravity torques: it must take at least " in out
 
 
 def test_files(cli, untimed, tmp_path, expected):
@@ -97,7 +97,7 @@ def test_a_hand_off_its_path_is_said_first(cli, tmp_path):
     call = ("follow", "planar-3r", file, "--minimise", "swing-angle:joint2", "--samples", 51, "--duration", 4)
     code, out, _ = cli(*call)
     assert code == 0
-    assert out.splitlines()[1].startswith("The end effector leaves its path, by up to ")
+    assert out.splitlines()[1].startswith("The end effector leaves its path by up to ")
     assert "'joint3' is at its limit" in out
     code, out, _ = cli(*call, "--no-limits")
     assert out.splitlines()[1].startswith("The end effector stays on its path")

@@ -25,7 +25,7 @@ def test_they_are_printed_and_drawn(cli, tmp_path):
     code, out, err = cli(*CALL, "--plot", figure)
     assert (code, err) == (0, "")
     assert "kinematic" in out
-    assert "tool paths apart" in out
+    assert "distance between the tool paths" in out
     assert matplotlib.image.imread(figure).shape[1] > 1000
 
 
@@ -54,7 +54,7 @@ def test_a_planned_motion_is_played_with_a_lock_on_the_way(cli, ask, refused, re
     assert data["following_error"]["panda_joint2"] == pytest.approx(abs(0.4 - data["q_final"]["panda_joint2"]), abs=1e-9)
     code, text, _ = cli(*played, recovered / "waypoints.csv", "--error-limit", "0.05rad,1mm", "--csv", tmp_path / "run.csv")
     assert code == 0
-    assert "The following error keeps its limit in every joint." in text
+    assert "The following error stays within its limit in every joint." in text
     assert "mm and" in text
     assert (tmp_path / "run.csv").is_file()
     assert "has a number without a unit" in refused(*played, recovered, "--error-limit", "2")

@@ -90,7 +90,7 @@ def test_arms_are_judged_on_the_command_line(tmp_path, cli):
 
 
 def test_ceilings_on_the_command_line(cli):
-    assert "The best that is known is 0.2474358297 = sqrt(3)/7" in cli("upper-bound", "9", "pose", "2")[1]
+    assert "The best known value is 0.2474358297 = sqrt(3)/7" in cli("upper-bound", "9", "pose", "2")[1]
     found = json.loads(cli("upper-bound", "8", "6", "2", "--verify", "--json")[1])
     assert found["attained"]
     assert np.array(found["null_space"]).shape == (8, 2)

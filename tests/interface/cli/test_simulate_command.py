@@ -56,7 +56,7 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
     page = (out / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     check(page)
-    assert "joint1 at the start that its controller does not know of, the arm stops 1,134 mm off its target" in page
+    assert "After an undetected lock of joint1 at the start, the arm stops 1,134 mm off its target" in page
     assert "locked: joint1" in page
     data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
     assert data["locked"] == [0, None]
@@ -80,7 +80,7 @@ def test_reaching_the_target_and_keeping_the_limits_are_two_facts(cli, tmp_path)
     past = np.flatnonzero((low < limits[:, 0] - 1) | (high > limits[:, 1] + 1))
     assert past.tolist() == [1, 5]
     for text in (" ".join(said.split()), page):
-        assert "the arm reaches its target, after" in text
+        assert "the arm reaches its target after" in text
         assert "On the way panda_joint2 goes to -188.9 deg (limit -101" in text
         assert "and panda_joint6 goes to -24.27 deg (limit -1" in text
         assert "a real arm would stop there" in text

@@ -80,7 +80,7 @@ def test_the_quickstart_runs_and_holds_no_outputs(quickstart):
 def test_its_cells_end_with_a_card(quickstart):
     for name in ("arm", "assess", "unnoticed", "optimise"):
         assert "<table" in quickstart[name][-1]["text/html"], name
-    assert "that its controller does not know of" in quickstart["unnoticed"][-1]["text/html"]
+    assert "After an undetected lock of" in quickstart["unnoticed"][-1]["text/html"]
     before, after = map(float, re.findall(r"\d\.\d+", quickstart["optimise"][-2]["text/plain"]))
     assert before < after
     said = quickstart["assess"][-1]["text/plain"]

@@ -167,13 +167,13 @@ def test_where_nothing_is_found_the_answer_says_so():
     cases = {
         "No configuration of the target was found": lost,
         "No configuration better than": replace(best, value=best.start_value),
-        "no point at which the arm stops was found either": points._subset(np.zeros(len(points), dtype=bool)),
+        "no point was found at which the arm stops": points._subset(np.zeros(len(points), dtype=bool)),
         "none of 4 starts reaches the target": none,
         "does not reduce": replace(curve, gain=np.ones_like(curve.gain)),
         "reaches none of the sampled points": replace(whole, healthy_size=0.0),
         "no point even before": replace(whole, within=nowhere, survives=nowhere[:, None] & whole.survives, inside=nowhere),
         "no point found stays reachable": replace(whole, within=~nowhere, inside=nowhere, survives=np.eye(4, 3) > 0),
-        "No motion reaches its target": replace(mapped, code=np.full_like(mapped.code, RunOutcome.MOVING)),
+        "no motion reaches its target": replace(mapped, code=np.full_like(mapped.code, RunOutcome.MOVING)),
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip
     for words, result in cases.items():

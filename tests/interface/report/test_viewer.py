@@ -268,7 +268,7 @@ def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
     found = opened(html, java_script_enabled=off == "webgl")
     assert found.locator(".view3d-stage svg").is_visible()
     assert not found.locator("canvas").is_visible()
-    sentence = "if the browser had WebGL" if off == "webgl" else "Enable JavaScript"
+    sentence = "this browser has no WebGL" if off == "webgl" else "Enable JavaScript"
     assert sentence in found.locator(".view3d-hint").inner_text()
 
 

@@ -134,7 +134,7 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
     wait_for(page, lambda: window.state.failed_joints == (worst,))
     np.testing.assert_array_equal(window.q, better)
     np.testing.assert_allclose(window.machine.tool_pose(better)[:2, 3], window.machine.tool_pose(first)[:2, 3], atol=1e-6)
-    assert "of the manipulability is left, where it was" in step(4)
+    assert "of the manipulability remains, compared with" in step(4)
     wait_for(page, lambda: window.state.show == "laws" and len(window.player.ghosts) == 2)
     step(5)
     wait_for(page, lambda: np.array_equal(window.q, first))
@@ -165,7 +165,7 @@ def test_an_arm_is_dropped_on_the_page_and_a_bad_file_changes_nothing(studio, vi
     assert "nothing has changed" in said(page)
     # It stands out, and nothing beside it says that all went well.
     page.locator(".hf-alert").filter(has_text="no moving joint").wait_for()
-    page.get_by_text("Received; whether it can be opened").first.wait_for()
+    page.get_by_text("File received. The line above the controls").first.wait_for()
     assert page.get_by_text("successfully").count() == 0
     page.evaluate(DROP, ["notes.txt", "x"])
     wait_for(page, lambda: "cannot be opened here" in said(page))

@@ -210,7 +210,7 @@ def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
     # Asked for by a command line: no error either.
     at = (*pose_numbers(window.machine.tool_pose(window.q)),)
     other, second = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=at, show="laws", **PLANAR))
-    wait_for(other, lambda: "drag the second handle away" in text_of(other))
+    wait_for(other, lambda: "Drag the second handle away" in text_of(other))
     assert second.wait_until_done(60)
 
 

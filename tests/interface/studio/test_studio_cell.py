@@ -44,14 +44,14 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
     wait_for(
         page,
         lambda: (
-            f"Nearest (red line): {clear.obstacles.names[gap.pair]}, at least {gap.distance:.3g} m" in page.inner_text("body")
+            f"Closest (red line): {clear.obstacles.names[gap.pair]}, at least {gap.distance:.3g} m" in page.inner_text("body")
         ),
     )
     window.request_action("pick", "ball")
     hand = window.machine.tool_pose(window.q)
     window.request_action("object", ("ball", pose_numbers(hand)))
     assert window.wait_until_done(60)
-    wait_for(page, lambda: "In the way: " in page.inner_text("body") and "ball" in page.inner_text("body"))
+    wait_for(page, lambda: "In collision: " in page.inner_text("body") and "ball" in page.inner_text("body"))
     assert tuple(window.objects._handles["ball"].color) == (190, 30, 45)
     assert window.state.moved == (("ball", pose_numbers(hand)),)
     assert "--move=ball=" in window.state.to_command()
@@ -62,7 +62,7 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked_and_the_cell_is_saved(cell_s
     download.value.save_as(tmp_path / "bench-2.yaml")
     back = hf.Cell.load(tmp_path / "bench-2.yaml")
     assert back.digest == CELL.with_poses({"ball": hand}).digest != CELL.digest
-    wait_for(page, lambda: "Saved bench-2.yaml. From its folder: holdfast studio panda" in page.inner_text("body"))
+    wait_for(page, lambda: "To open it, run in its folder: holdfast studio panda" in page.inner_text("body"))
     assert "--cell=bench-2.yaml" in page.inner_text("body")
 
 
@@ -73,7 +73,7 @@ def test_an_object_on_the_base_is_said_and_loses_nothing(cell_studio, visit):
     wait_for(page, lambda: "may_touch" in page.inner_text("body"))
     window.request_action("object", ("ball", pose_numbers(at(0.1, 0.6, 0.9))))
     assert window.wait_until_done(60)
-    wait_for(page, lambda: "Nearest (red line): " in page.inner_text("body"))
+    wait_for(page, lambda: "Closest (red line): " in page.inner_text("body"))
 
 
 def test_where_it_is_nearest_is_on_both_surfaces(rng):

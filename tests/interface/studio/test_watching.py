@@ -34,13 +34,13 @@ def some(**more):
         "inconclusive": ("a did not",),
     }
     return MonitorDemo(
-        motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torques": values}, **{**given, **more}
+        motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torque residual": values}, **{**given, **more}
     )
 
 
 def test_what_is_known_comes_with_time():
     before, noticed, known, end = (monitor_html(some(), NAMES, t) for t in (0.9, 1.21, 1.5, 4.0))
-    assert "over: none" in before
+    assert "above it: none" in before
     assert "hf-named" not in noticed
     assert "b is &lt;locked&gt;" in known
     assert known.count("hf-named") == 1
@@ -54,17 +54,17 @@ def test_what_is_known_comes_with_time():
     ("changes", "current", "sentence"),
     [
         ({}, 1.19, "No alarm so far."),
-        ({}, 1.21, "Alarm 200 ms after the fault; the joint: not known."),
-        ({}, 1.27, "Alarm 200 ms after the fault; the joint: b."),
-        ({}, 4.0, "Alarm 200 ms after the fault; the joint: b, locked."),
-        ({"kind": "unknown"}, 4.0, "Alarm 200 ms after the fault; the joint: b."),
+        ({}, 1.21, "Alarm 200 ms after the fault; joint: not identified."),
+        ({}, 1.27, "Alarm 200 ms after the fault; joint: b."),
+        ({}, 4.0, "Alarm 200 ms after the fault; joint: b, locked."),
+        ({"kind": "unknown"}, 4.0, "Alarm 200 ms after the fault; joint: b."),
         (
             {"joint": None, "isolation_time": np.inf, "kind": "contact"},
             4.0,
-            "Alarm 200 ms after the fault; the joint: not known.",
+            "Alarm 200 ms after the fault; joint: not identified.",
         ),
-        ({"onset": 2.0}, 1.21, "Alarm at 1.200 s, before any fault; the joint: not known."),
-        ({"onset": np.inf}, 1.21, "Alarm at 1.200 s, before any fault; the joint: not known."),
+        ({"onset": 2.0}, 1.21, "Alarm at 1.200 s, before any fault; joint: not identified."),
+        ({"onset": np.inf}, 1.21, "Alarm at 1.200 s, before any fault; joint: not identified."),
     ],
 )
 def test_the_sentence_about_the_alarm_follows_the_time(changes, current, sentence):
@@ -90,8 +90,8 @@ def test_a_fault_in_the_page_is_named(studio, visit):
     wait_for(page, lambda: "panda_joint4 is locked" in page.locator(".hf-watch").inner_text())
     by_page, by_python = page.locator(".hf-head").inner_text(), window.monitor_demo
     late = 1000 * (by_python.alarm_time - by_python.onset)
-    assert by_page == f"Alarm {late:.0f} ms after the fault; the joint: {window.state.names[by_python.joint]}, locked."
-    assert "over: panda_joint4" in page.locator(".hf-watch svg").first.get_attribute("aria-label")
+    assert by_page == f"Alarm {late:.0f} ms after the fault; joint: {window.state.names[by_python.joint]}, locked."
+    assert "above it: panda_joint4" in page.locator(".hf-watch svg").first.get_attribute("aria-label")
     assert axe.serious(page) == []
     window.request_action("fault", ("limp", "panda_joint2", 2.0))
     window.request_action("time", 0.5)
@@ -99,7 +99,7 @@ def test_a_fault_in_the_page_is_named(studio, visit):
     page.get_by_role("button", name="Inject the fault now").click()
     wait_for(page, lambda: window.monitor_demo is not by_python)
     assert window.monitor_demo.onset == pytest.approx(0.5, abs=0.01)
-    wait_for(page, lambda: "the joint: panda_joint2" in page.locator(".hf-head").inner_text())
+    wait_for(page, lambda: "joint: panda_joint2" in page.locator(".hf-head").inner_text())
     page.get_by_role("button", name="Clear").first.click()
     wait_for(page, lambda: page.locator(".hf-watch").count() == 0)
     assert "--show" not in window.state.to_command()

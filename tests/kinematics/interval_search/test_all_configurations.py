@@ -134,7 +134,7 @@ def test_what_is_spent_is_said(panda, rng):
     assert found.open > 0
     assert found.widest > 0
     assert "undecided" in found.describe()[0]
-    assert "left" in found.describe()[1]
+    assert "undecided" in found.describe()[1]
 
 
 @pytest.mark.parametrize(

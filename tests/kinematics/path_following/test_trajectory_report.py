@@ -40,10 +40,10 @@ def test_a_calm_motion(calm, tmp_path):
     check(html)
     for text in (
         "The end effector stays on its path",
-        "the same path without it",
+        "the same path without the objective",
         "best of each pose",
         "best continuous motion",
-        "Nothing happened on the way: no algorithmic singularity",
+        "No events on the way: no algorithmic singularity",
         "at least",
         "holdfast follow x",
         calm.arm.fingerprint,
@@ -57,7 +57,7 @@ def test_a_hand_off_its_path_is_the_first_thing_said(stopped):
     page = build_page(present(stopped))
     assert page.warnings[0].tone == "bad"
     assert "LEAVES ITS PATH" in page.warnings[0].text
-    assert "The end effector leaves its path, by up to" in page.headline
+    assert "The end effector leaves its path by up to" in page.headline
 
 
 def test_slowness_by_joint(calm):

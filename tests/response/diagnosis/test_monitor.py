@@ -146,9 +146,9 @@ def test_nothing_seen_is_not_called_well(panda, bounds, healthy):
     still = dataclasses.replace(healthy[0], q=healthy[0].q.copy(), q_ref=healthy[0].q_ref.copy(), x=None, quat=None)
     still.q_ref[:, 2] = still.q[:, 2] = 0.1
     said = hf.diagnosis.diagnose(panda, still, dataclasses.replace(bounds, torque=np.full(7, np.inf))).describe()
-    assert said[0] == "No fault seen in 2.499 s."
-    assert "These joints did not move enough to tell: panda_joint3." in said
-    assert "Not watched: torques, the measured tool pose." in said
+    assert said[0] == "No fault was detected in 2.499 s."
+    assert "These joints did not move enough for a diagnosis: panda_joint3." in said
+    assert "Not monitored: torques, the measured tool pose." in said
     assert not any("healthy" in line or "fine" in line for line in said)
 
 
@@ -221,7 +221,7 @@ def test_gaps_in_a_record_are_nobodys_fault(panda, bounds):
             found.verdict.kind,
         )
         assert np.ravel(found.gaps) == pytest.approx(np.ravel(long), abs=2e-3)
-        assert "Nothing was looked at for 10.56 s: there the record has no numbers of the joints." in found.describe()
+        assert "Nothing was checked for 10.56 s, because there the log has no joint values." in found.describe()
 
 
 def test_joint_sensors_alone_are_heard_in_slow_motion(panda, healthy, records):

@@ -64,7 +64,7 @@ def test_the_elbow_is_invisible_for_ever(rng):
     assert shown[:, 3].max() < 1e-9
     found = hf.diagnosis.plan_identification(arm, [0.0, 0.4, 0.3, -1.0, 0.2, 0.8, 0.5])
     assert found.untestable == (arm.joint_names[3],)
-    assert "no self-motion moves it here, and its lock is not tolerable here either" in found.describe()[1]
+    assert "no self-motion moves it here; its lock is not tolerable here either" in found.describe()[1]
 
 
 def test_every_testable_lock_is_found_and_no_other_is(panda, probe, rng):

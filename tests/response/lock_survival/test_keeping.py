@@ -60,13 +60,13 @@ def test_with_detours_it_is_an_upper_bound(kept):
     machine, path, _ = kept
     wide = hf.plan_motion(machine, path, samples=5, spacing=0.2, keep=heading(np.deg2rad(89)), mode="detour")
     assert wide.kind == "upper bound"
-    assert "Detours that keep what is kept were not looked for" in " ".join(wide.describe())
+    assert "because detours with the path constraints were not searched" in " ".join(wide.describe())
 
 
 def test_rows_that_the_path_sets_are_checked_and_others_are_refused(kept):
     machine, path, best = kept
     flat = hf.plan_motion(machine, timed([1.2, 0.3], [1.9, 0.3]), samples=5, spacing=0.2, keep=["plane:0,1,0", "plane:0,0,1"])
-    assert "by the rows of the path alone" in " ".join(flat.describe())
+    assert "determined by the path alone" in " ".join(flat.describe())
     with pytest.raises(hf.InputError, match=r"path itself violates a constraint: at 0.5 s the tool is 0.1 m off the plane"):
         hf.plan_motion(machine, timed([1.2, 0.3], [1.6, 0.7]), samples=5, spacing=0.2, keep="plane:0,1,0")
     with pytest.raises(hf.InputError, match="leaves an exact constraint free"):

@@ -30,10 +30,10 @@ def test_a_lower_bound_is_called_so(four):
     _, _, best = four
     assert best.kind == "lower bound"
     assert 0.3 < best.survival < 1
-    assert best.describe()[0].startswith("At least ")
+    assert best.describe()[0].startswith("The motion survives at least ")
     assert best.survival_bound is best.gap is best.never is None
     assert len(best.found.held) == 1
-    assert any("A lower bound" in line for line in best.describe())
+    assert any("This is a lower bound" in line for line in best.describe())
 
 
 def test_what_is_said_to_be_survived_another_integrator_survives(four):

@@ -113,7 +113,7 @@ def test_the_replay_sees_an_object_between_waypoints(slim):
     check = check_waypoints(arm, q, clearance=clearance, cell=cell)
     assert not check.ok
     assert (check.closest, check.least_room) == ("joint3 & bar", check.least_clearance)
-    assert "NOT KEPT" in check.describe()[1]
+    assert "VIOLATED" in check.describe()[1]
     assert "joint3 & bar" in check.describe()[1]
 
 

@@ -141,7 +141,7 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     replay = check_waypoints(arm, [home, other], (), clearance=clearance, margin=0.5)
     assert not replay.ok
     assert replay.least_clearance == pytest.approx(clearance.exact(fine).min(), abs=5e-3)
-    assert any("NOT KEPT" in line for line in replay.describe())
+    assert any("VIOLATED" in line for line in replay.describe())
 
 
 @pytest.mark.parametrize(("tries", "vain", "made"), [(0, 1, 0), (1, 1, 1), (4, 1, 1), (9, 2, 2), (3, None, 3)])

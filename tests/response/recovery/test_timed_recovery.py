@@ -272,7 +272,7 @@ def test_the_file_keeps_speeds_and_accelerations(among_balls, tmp_path):
     check = check_waypoints(bent.arm, q, ["joint2"], clearance=bent.clearance, time=time, accelerations=4.0)
     assert check.ok
     assert bent.check().ok
-    assert "Speeds and accelerations are kept." in check.describe()
+    assert "Speeds and accelerations are respected." in check.describe()
     assert check_waypoints(bent.arm, q, ["joint2"], clearance=False, time=time, accelerations=3.9).too_hard
     hasty = check_waypoints(bent.arm, q, ["joint2"], clearance=False, time=0.9 * time)
     assert hasty.too_fast

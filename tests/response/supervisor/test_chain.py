@@ -135,7 +135,7 @@ def test_after_a_brake_the_arm_keeps_clear_of_a_cell(law, ball, monkeypatch):
     for kept in (detour, route, stopped):
         assert detour.clearance.sign(kept.q[::10]).all()  # of the meshes, by another library
         assert kept.contacts == ()
-        assert "It touched nothing." in kept.describe()
+        assert "The arm touched nothing." in kept.describe()
     touched = replace(blind, clearance=detour.clearance)
     assert not detour.clearance.sign(blind.q[::10]).all()
     assert {contact.object for contact in touched.contacts} == {"ball"}

@@ -155,20 +155,22 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
     if verdict.alarm:
         fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
         findings = [fault, *verdict.evidence]
-    inconclusive = [f"did not move enough to tell: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
+    inconclusive = (
+        [f"did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
+    )
     if verdict.alarm and len(verdict.candidates) > 1:
-        inconclusive.append(f"not told apart: {', '.join(verdict.candidates)}")
+        inconclusive.append(f"not distinguished: {', '.join(verdict.candidates)}")
     if not verdict.alarm:
-        inconclusive.insert(0, "no fault was seen, which does not prove that there is none")
+        inconclusive.insert(0, "no fault was detected, which does not prove that there is none")
     residuals = {
-        "torques": _downsample_maxima(scaled.torque, stride),
-        "joint sensors": _downsample_maxima(scaled.tracking, stride),
+        "torque residual": _downsample_maxima(scaled.torque, stride),
+        "tracking error": _downsample_maxima(scaled.tracking, stride),
     }
     if np.isfinite(scaled.tool).any():
-        residuals["the tool's measured pose"] = _downsample_maxima(scaled.tool[:, None], stride)
+        residuals["tool-pose residual"] = _downsample_maxima(scaled.tool[:, None], stride)
     motion_samples = slice(None, None, max(1, len(run.time) // (4 * MOTION_SAMPLES)))
     return MonitorDemo(
-        motion=PlayedMotion("the arm with the fault, nobody reacts", run.time[motion_samples], "s", run.q[motion_samples]),
+        motion=PlayedMotion("the arm with the fault, no response", run.time[motion_samples], "s", run.q[motion_samples]),
         time=run.time[::stride],
         residuals=residuals,
         onset=onset,
@@ -207,7 +209,7 @@ def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> s
     findings = demo.findings if current >= demo.classification_time else ()
     lines = [*findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    legend = "Each line is a joint; dashes: its bound, purple: the fault begins, orange: the alarm."
+    legend = "Each line is a joint. Dashed: threshold; purple: onset of the fault; orange: alarm."
     return (
         f'<div class="hf-watch"{" data-alarm" if current >= demo.alarm_time else ""}>'
         f'<strong class="hf-head">{escape(_describe_alarm(demo, names, current))}</strong><div class="hf-soft">{legend}</div>'
@@ -221,11 +223,11 @@ def _describe_alarm(demo: MonitorDemo, names: tuple[str, ...], current: float) -
         return "No alarm so far."
     delay = demo.alarm_time - demo.onset
     when = f"at {demo.alarm_time:.3f} s, before any fault" if delay < 0 else f"{1000 * delay:.0f} ms after the fault"
-    joint = "not known"
+    joint = "not identified"
     if demo.joint is not None and current >= demo.isolation_time:
         is_classified = current >= demo.classification_time and demo.kind != "unknown"
         joint = names[demo.joint] + (f", {demo.kind}" if is_classified else "")
-    return f"Alarm {when}; the joint: {joint}."
+    return f"Alarm {when}; joint: {joint}."
 
 
 def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: float, names: tuple[str, ...]) -> str:
@@ -255,10 +257,10 @@ def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: f
         for column in range(values.shape[1])
         if values.shape[1] > 1 and np.nanmax(np.append(values[is_past, column], 0)) > 1
     ]
-    label = f"{quantity}, in units of their bounds, to {current:.2f} s; over: {', '.join(exceeding) or 'none'}"
+    label = f"{quantity} / threshold until {current:.2f} s; above it: {', '.join(exceeding) or 'none'}"
     polylines = "".join(text for _, text in sorted(lines))
     return (
-        f"<figure><figcaption>{escape(quantity)}, of the bound</figcaption>"
+        f"<figure><figcaption>{escape(quantity)} / threshold</figcaption>"
         f'<svg viewBox="0 0 {_PANEL_WIDTH_PX} {_PANEL_HEIGHT_PX}" role="img" '
         f'aria-label="{escape(label, quote=True)}">{polylines}'
         f'<line class="hf-bound" x1="0" x2="{_PANEL_WIDTH_PX}" y1="{bound:.1f}" y2="{bound:.1f}"/>{"".join(marks)}'

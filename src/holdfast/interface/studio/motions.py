@@ -63,7 +63,7 @@ def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:
     table = read_joint_table(arm, file, "motion", TIME_COLUMNS[0])
     time_column = next((name for name in TIME_COLUMNS if name in table.header), None)
     if time_column is None:
-        raise InputError(f"{table.title}: a column '{TIME_COLUMNS[0]}' is missing; it says when the arm is there")
+        raise InputError(f"{table.title}: a column '{TIME_COLUMNS[0]}' is missing; it must contain the time of each row")
     samples = table.select_columns([time_column, *joint_columns(arm)])
     if (np.diff(samples[:, 0]) < 0).any():
         raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time_column}'")
@@ -102,7 +102,7 @@ def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[
         history = error_history(runs)
         error_note = f"error {format_errors(law, history.end.position, history.end.angle)}"
         exceeded_joints = [name for name, is_exceeded in zip(state.names, runs.limits_passed, strict=True) if is_exceeded]
-        limits_note = f", past the limits of {' and '.join(exceeded_joints)}" if exceeded_joints else ""
+        limits_note = f", beyond the limits of {' and '.join(exceeded_joints)}" if exceeded_joints else ""
         motions.append(
             PlayedMotion(
                 f"{law_label}: {runs.ending_sentence()}{limits_note} ({error_note})", sampled_path.time, "s", sampled_path.q
@@ -128,11 +128,13 @@ def simulate_swing_motion(arm: Arm, state: State) -> PlayedMotion:
     q[:, joint] += free_motion.angle
     stride = max(1, len(q) // (8 * MOTION_SAMPLES))
     factor, unit = arm.joints[joint].display_unit
-    rest_note = f", rests {factor * free_motion.rest_angle:.3g} {unit} away" if free_motion.is_settled else ""
+    rest_note = f", at rest {factor * free_motion.rest_angle:.3g} {unit} from its start" if free_motion.is_settled else ""
     drop_notes = "".join(
-        f"; braked after {drop.after_ms:g} ms it has moved {factor * drop.angle:.3g} {unit}, the tool "
+        f"; with brakes after {drop.after_ms:g} ms it moves {factor * drop.angle:.3g} {unit} and the tool "
         f"{1000 * drop.distance:.3g} mm"
         for drop in free_motion.drops
     )
-    label = f"{arm.joint_names[joint]} swings: farthest {factor * free_motion.peak:.3g} {unit}{rest_note}{drop_notes}"
+    label = (
+        f"{arm.joint_names[joint]} swings: largest displacement {factor * free_motion.peak:.3g} {unit}{rest_note}{drop_notes}"
+    )
     return PlayedMotion(label, free_motion.time[::stride], "s", q[::stride])

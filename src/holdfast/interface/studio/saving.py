@@ -100,7 +100,9 @@ class ViewSaver:
             cell = self._machine.cell_with_moved(state.moved)
             name = f"{re.sub(r'[^A-Za-z0-9._-]+', '-', cell.name).strip('-.') or 'cell'}.yaml"
             content = cell_file.format_cell(cell.to_dict()).encode()
-            self._send_file(name, content, f" From its folder: {replace(state, cell=name, moved=()).to_command()}")
+            self._send_file(
+                name, content, f" To open it, run in its folder: {replace(state, cell=name, moved=()).to_command()}"
+            )
 
         self._worker.submit(write_and_send)
 

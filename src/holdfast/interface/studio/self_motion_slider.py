@@ -62,7 +62,7 @@ class SelfMotionSlider:
         q, failed = self._current_state()
         directions = self._machine.self_motion_directions(q, failed)
         if not len(directions):
-            self._stop_with_reason("There is no self-motion here: every joint that is left is needed to hold the tool.")
+            self._stop_with_reason("There is no self-motion here, because holding the tool pose needs every healthy joint.")
             return
         if not np.any(self._direction):
             chosen_direction = directions[min(self._direction_number, len(directions) - 1)]
@@ -76,7 +76,7 @@ class SelfMotionSlider:
             self._stop_with_reason("The self-motion ends here, at a joint limit.")
             return
         self._direction = sign * direction
-        self._panel.show_message("Sliding along the self-motion: the end effector is still.")
+        self._panel.show_message("Moving along the self-motion; the end effector does not move.")
         self._set_configuration(q_next)
 
     def _stop_with_reason(self, reason: str) -> None:

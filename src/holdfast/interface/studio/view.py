@@ -128,7 +128,7 @@ class StudioView:
     def _on_pick(self, name: str) -> None:
         if self.objects is not None:
             self.objects.toggle_handle(name)
-            self.panel.show_message(f"Drag {name} by its handle; click it again to leave it there.")
+            self.panel.show_message(f"Drag {name} by its handle. Click it again to hide the handle.")
 
     def _on_object(self, value: tuple[str, tuple[float, ...]]) -> None:
         if self.objects is not None:

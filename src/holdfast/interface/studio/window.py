@@ -174,9 +174,9 @@ class Window(StudioView):
         self._discard_results(q)
         self._set_configuration(q)
         if is_reached:
-            self.panel.show_message("The end effector follows.")
+            self.panel.show_message("The end effector follows the handle.")
         else:
-            self.panel.show_message(f"Out of reach{locked}: the arm is as near as it gets from here.", is_error=True)
+            self.panel.show_message(f"Out of reach{locked}. The arm is as close as it gets from here.", is_error=True)
 
     def _on_slide(self, value: float) -> None:
         if value:
@@ -198,7 +198,9 @@ class Window(StudioView):
             return
         self._cancel_work()
         if self.player.ghosts:
-            self.panel.show_message("The ghosts were for the previous configuration; ask again for this one.")
+            self.panel.show_message(
+                "The ghost arms belonged to the previous configuration and were removed. Repeat the request for this one."
+            )
         self.player.remove_ghosts()
         self.state = replace(self.state, show="arm", time=0.0)
 
@@ -272,10 +274,12 @@ class Window(StudioView):
             best, worst, current = ("0" if abs(value) < INDEX_ROUNDING else f"{value:.4g}" for value in extremes.values)
             labels = [f"best: {best}", f"worst: {worst}"]
             self.player.place_ghosts(list(extremes.q), labels)
-            self.panel.show_message(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {current} here.")
+            self.panel.show_message(
+                f"{name} of this pose: best found {best} (green), worst found {worst} (orange), here {current}."
+            )
             self._refresh()
 
-        self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show_extremes)
+        self._start_work("Searching for the best and the worst configuration of this pose", "best-worst", show_extremes)
 
     def _on_laws(self, value: tuple[str, str] | None) -> None:
         if value is not None:  # another law was selected
@@ -287,7 +291,7 @@ class Window(StudioView):
             self._on_target(None)
         if self._is_at_target():
             self.panel.show_message(
-                "The end effector is at the target already: drag the second handle away, then move under both laws.",
+                "The end effector is already at the target. Drag the second handle away, then move under both laws.",
                 is_error=True,
             )
             return
@@ -314,12 +318,14 @@ class Window(StudioView):
         def show_demo(demo: MonitorDemo) -> None:
             self.monitor_demo = demo
             self._show_motions(
-                [demo.motion], (ORANGE_RGB,), "A joint fails while the arm moves; the monitor sees what a robot would."
+                [demo.motion],
+                (ORANGE_RGB,),
+                "A joint fails while the arm moves. The monitor reads the same signals as on a robot.",
             )
             if current:
                 self.player.toggle_play()
 
-        self._start_work("Simulating healthy motions, and one with the fault", "watch", show_demo)
+        self._start_work("Simulating healthy motions and one with the fault", "watch", show_demo)
 
     def _on_file(self, _: Any) -> None:
         if self._initial_state.file is not None:  # from the command line, because no path comes from the page
@@ -336,7 +342,7 @@ class Window(StudioView):
             try:
                 self._load_arm(self.client, name, content)
             except HoldfastError as error:
-                raise InputError(f"nothing was opened, and nothing has changed: {error}") from error
+                raise InputError(f"the file was not opened, and nothing has changed: {error}") from error
 
         self.worker.submit(load_file)
 
@@ -392,7 +398,7 @@ class Window(StudioView):
                 self.state, target=pose_numbers(self.machine.tool_pose(self.machine.nearby_configuration(self.q)))
             )
         self._show_target()
-        self.panel.show_message("Drag the second handle to where the end effector should go, or take it as it is.")
+        self.panel.show_message("Drag the second handle to the target of the end effector, or keep the suggested target.")
         self._refresh()
 
     def _on_goal(self, value: tuple[str, FloatArray, FloatArray]) -> None:

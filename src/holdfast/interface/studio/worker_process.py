@@ -92,12 +92,12 @@ class WorkerProcess:
 
     def _send_message(self, message: Any) -> None:
         if self._process is None or self._process.stdin is None:
-            raise HoldfastError("the computation was ended; ask again")
+            raise HoldfastError("the computation was stopped; request it again")
         try:
             pickle.dump(message, self._process.stdin)
             self._process.stdin.flush()
         except (OSError, ValueError) as error:
-            raise HoldfastError("the computation ended unexpectedly; ask again") from error
+            raise HoldfastError("the computation ended unexpectedly; request it again") from error
 
     def _await_answer(self, check: Callable[[], None], progress: Progress) -> Any:
         while True:
@@ -132,7 +132,7 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
         try:
             answers.put(pickle.load(pipe))
         except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            answers.put(("error", HoldfastError("the computation ended unexpectedly; ask again")))
+            answers.put(("error", HoldfastError("the computation ended unexpectedly; request it again")))
             return
 
 

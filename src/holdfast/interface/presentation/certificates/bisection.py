@@ -1,4 +1,4 @@
-"""Presentation of a proof of a kind that has no presentation of its own."""
+"""Presentation of a proof of a kind without a dedicated presentation."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from holdfast.interface.presentation.presentation import Fact, Header, Presentat
 
 
 def to_dict(check: CertificateCheck) -> dict[str, Any]:
-    """Return fractions as exact rationals and as numbers, cell counts, and seconds; of a bundle also its parts."""
+    """Return fractions as exact rationals and as numbers, cell counts, and seconds; for a bundle also its parts."""
     data = {
         "claim": check.claim,
         **{key: build_fraction_entry(getattr(check, key)) for key in ("refuted", "undecided", "tolerant")},
@@ -21,7 +21,7 @@ def to_dict(check: CertificateCheck) -> dict[str, Any]:
 
 
 def present(check: CertificateCheck) -> Presentation:
-    """Present the verified fraction of the claim, the verifier's own sentence, and each part."""
+    """Present the verified fraction of the claim, the summary of the verifier, and each part."""
     sampled = check.accepted + check.rejected < check.leaves
     proved = check.tolerant if check.parts else check.proved_fraction
     columns = [
@@ -48,8 +48,8 @@ def present(check: CertificateCheck) -> Presentation:
         qualify_claim(check.claim, proved, refuted=check.witnessed, sampled=sampled),
         lines=[check.summary],
         facts=[
-            Fact("accepted", check.accepted),
-            Fact("rejected", check.rejected),
+            Fact("boxes accepted", check.accepted),
+            Fact("boxes rejected", check.rejected),
             Fact("refuted", "by a witness" if check.witnessed else format_percent(check.refuted)),
             Fact("undecided", "the rest" if check.witnessed else format_percent(check.undecided, up=True)),
         ],

@@ -1,4 +1,4 @@
-"""Presentation of proofs about boxes of configurations: that nothing is reached, and bounds of manipulability."""
+"""Presentation of proofs about boxes of configurations: unreachable targets, and bounds on manipulability."""
 
 from __future__ import annotations
 
@@ -46,38 +46,38 @@ def present(proof: Found, **options: Any) -> Presentation:
 def _describe_fraction(fraction: Fraction, object_text: str) -> str:
     """Describe the result of a search that found no witness."""
     if not fraction:
-        return "Nothing is proved: all is undecided."
-    remainder = "nothing is undecided" if fraction == 1 else "the rest is undecided, which does not say that it is false"
+        return "Nothing is proved: everything is undecided."
+    remainder = "nothing is undecided" if fraction == 1 else "the rest is undecided, which does not mean that it is false"
     return f"{format_percent(fraction)} of {object_text}; {remainder}."
 
 
 def _present_refutation(proof: Refutation, check: CertificateCheck | None = None, **options: Any) -> Presentation:
     claim, fraction = proof.claim, find_proved_fraction(proof, check)
     lock = f" with {claim.arm.joint_names[claim.locked]} locked" if claim.locked >= 0 else ""
-    answer = _describe_fraction(fraction, "the pairs of a target and a configuration are told apart")
+    answer = _describe_fraction(fraction, "the pairs of a target and a configuration are excluded")
     if proof.witness is not None:
         position = _format_configuration(proof.witness, proof)
-        answer = f"Refuted by a witness. The claim is false: at ({position}) deg the tool is in the box."
+        answer = f"Refuted by a witness. The claim is false: at {position}, the tool is in the box."
     elif fraction == 1:
-        answer = "No target of the box is reached: all pairs of a target and a configuration are told apart."
+        answer = "No target of the box is reached: every pair of a target and a configuration is excluded."
     lemma_count, largest = len(proof.document["lemmas"]), find_largest_lemma(proof.document)
     other_axes, lemma_text = "all other joints and targets", ""
     if largest is not None:
         base_text = "the base" if largest["link"] == 0 else f"the link of {claim.arm.joint_names[largest['link'] - 1]}"
-        other_axes, lemma_text = "all others", f"Of the lemma that took most boxes, about the joints behind {base_text}. "
-    proof_text = "a bisection tree of boxes of configurations and targets; in each the tool is elsewhere, by one distance"
+        other_axes, lemma_text = "all others", f"Boxes of the largest lemma, about the joints behind {base_text}. "
+    proof_text = "a bisection tree of boxes of configurations and targets; a bound on one distance excludes the targets of each"
     if lemma_count:
-        count_text = "one of these distances is a lemma" if lemma_count == 1 else f"{lemma_count} of these distances are lemmas"
-        proof_text += f"; {count_text} about the joints behind a point alone, with a tree of its own"
+        count_text = "one of these bounds is a lemma" if lemma_count == 1 else f"{lemma_count} of these bounds are lemmas"
+        proof_text += f"; {count_text} about the joints behind one point only, with a separate tree"
     return present_proof(
         proof,
-        title=f"What {claim.arm.name}{lock} cannot reach",
+        title=f"Targets that {claim.arm.name}{lock} cannot reach",
         answer=answer,
-        fraction_phrase="of the pairs of a target and a configuration are told apart",
-        cell_phrase="boxes, each told by one inequality",
+        fraction_phrase="of the pairs of a target and a configuration are excluded",
+        cell_phrase="boxes, each proved by one inequality",
         list_tables=partial(_list_tables, proof),
         figures=_list_figures(proof, other_axes, lemma_text),
-        method=[("Proof", proof_text), ("Not said", f"{SCOPE_NOTE}; nor what is reached outside of the box")],
+        method=[("Proof", proof_text), ("Not claimed", f"{SCOPE_NOTE}; targets outside the box")],
         check=check,
         **options,
     )
@@ -86,38 +86,38 @@ def _present_refutation(proof: Refutation, check: CertificateCheck | None = None
 def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = None, **options: Any) -> Presentation:
     claim, is_upper_bound, fraction = proof.claim, proof.claim.kind == "ceiling", find_proved_fraction(proof, check)
     extreme_word, side = ("greatest", "above") if is_upper_bound else ("lowest", "below")
-    occurrence = f"{proof.value:.6f} occurs, at ({_format_configuration(proof.extreme, proof)}) deg"
+    occurrence = f"{proof.value:.6f} occurs at {_format_configuration(proof.extreme, proof)}"
     if proof.refuted:
         answer = f"Refuted by a witness. The claim is false: {occurrence}."
-        caption = f"Vermilion: from the {claim.kind} to a value that occurs, which refutes it."
+        caption = f"Orange: from the claimed {claim.kind} to a value that occurs, which refutes it."
     elif fraction == 1:
         lower_end, upper_end = sorted((proof.value, claim.threshold))
         answer = (
-            f"The {extreme_word} value in the box is from {lower_end:.6g} to {upper_end:.6g}: {occurrence}, and nothing is "
-            f"{side} {claim.threshold:g}."
+            f"The {extreme_word} value in the box is between {lower_end:.6g} and {upper_end:.6g}: {occurrence}, and no value "
+            f"is {side} {claim.threshold:g}."
         )
         caption = (
-            f"Blue: proved that nothing of the box is {side} the {claim.kind}. Hatched: the {extreme_word} value of the box "
-            "is in here."
+            f"Blue: values {side} the {claim.kind}, which are proved not to occur in the box. Hatched: range of the "
+            f"{extreme_word} value of the box."
         )
     else:
         answer = _describe_fraction(fraction, f"the box is proved to keep the {claim.kind} of {claim.threshold:g}")
         answer += f" {occurrence}."
-        caption = f"Blue: nothing is {side} the {claim.kind} but for what is undecided. Hatched: between it and what occurs."
-    bound_text = "wrench bounds what a lock leaves" if is_upper_bound else "inverse bounds what every lock leaves, as a series"
-    bound_figure = FigureSpec(partial(_draw, proof, "value_scale"), "The bound, and what occurs", caption)
+        caption = f"Blue: values {side} the {claim.kind}, which occur at most in undecided boxes. Hatched: values between both."
+    bound_text = "wrench bounds the index after a lock" if is_upper_bound else "series of an inverse bounds it after every lock"
+    bound_figure = FigureSpec(partial(_draw, proof, "value_scale"), "The bound and an observed value", caption)
     return present_proof(
         proof,
-        title=f"A {claim.kind} of relative manipulability of {claim.arm.name}",
+        title=f"{'Upper' if is_upper_bound else 'Lower'} bound on relative manipulability of {claim.arm.name}",
         answer=answer,
-        fraction_phrase=f"of the box: {claim.kind} {claim.threshold:g}",
-        cell_phrase="boxes, each told by one inequality",
-        facts=[Fact("", proof.value, phrase="occurs")],
+        fraction_phrase=f"of the box keeps the {claim.kind} of {claim.threshold:g}",
+        cell_phrase="boxes, each proved by one inequality",
+        facts=[Fact("", proof.value, phrase="occurs in the box")],
         list_tables=partial(_list_tables, proof),
         figures={"bound": bound_figure, **_list_figures(proof, "all other joints")},
         method=[
             ("Proof", f"in each box of a bisection tree one {bound_text}"),
-            ("Not said", f"{SCOPE_NOTE}; nor anything of configurations outside of the box"),
+            ("Not claimed", f"{SCOPE_NOTE}; configurations outside the box"),
         ],
         check=check,
         **options,
@@ -125,21 +125,23 @@ def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = 
 
 
 def _format_configuration(q: FloatArray, proof: Found) -> str:
-    return ", ".join(f"{position:.4g}" for position in display_factors(~proof.claim.arm.prismatic) * q)
+    is_slide = proof.claim.arm.prismatic
+    text = ", ".join(f"{position:.4g}" for position in display_factors(~is_slide) * q)
+    return f"({text}) {'deg and m' if is_slide.any() else 'deg'}"
 
 
 def _list_figures(proof: Found, other_axes: str, lemma_text: str = "") -> dict[str, FigureSpec]:
-    """List the figure of boxes, or that of the configuration that refutes the claim."""
+    """List the figure of the boxes, or that of the configuration that refutes the claim."""
     if proof.refuted:
-        caption = "Of each joint its range, and where it is."
-        return {"witness": FigureSpec(partial(_draw, proof, "witness"), "The configuration that refutes it", caption)}
+        caption = "Range of each joint in the claim (bar), and its position in the refuting configuration (dot)."
+        return {"witness": FigureSpec(partial(_draw, proof, "witness"), "The refuting configuration", caption)}
     caption = (
-        f"{lemma_text}Left: the two axes that were halved most often, to scale, the worst over {other_axes}; the darker, the "
-        "smaller the boxes that it took. Hatched: something is undecided. Right: boxes by their size."
+        f"{lemma_text}Left: the two axes that were bisected most often, to scale, with the worst case over {other_axes}; "
+        "darker areas needed smaller boxes, and hatched areas contain undecided boxes. Right: number of boxes by size."
     )
     if isinstance(proof, ManipulabilityBound):
-        caption += " The dot is the configuration that comes nearest to the bound."
-    return {"boxes": FigureSpec(partial(_draw, proof, "boxes"), "Where it was hard", caption)}
+        caption += " The dot is the configuration found closest to the bound."
+    return {"boxes": FigureSpec(partial(_draw, proof, "boxes"), "Size of the boxes", caption)}
 
 
 def _list_tables(proof: Found) -> list[TableSpec]:

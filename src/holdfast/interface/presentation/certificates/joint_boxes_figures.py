@@ -25,19 +25,19 @@ if TYPE_CHECKING:
 
 Found = Refutation | ManipulabilityBound
 
-_MAX_DRAWN_HALVINGS = 7  # halvings of an axis that a picture shows
+_MAX_DRAWN_HALVINGS = 7  # bisections of an axis that a figure shows
 _HARDEST_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
 class LeafBoxes:
-    """Boxes at which the bisection ended.
+    """Boxes at the leaves of the bisection tree.
 
     Attributes:
-        axis_ranges: (A, 2) of the whole, rad and m.
-        axis_names, is_angle: (A,) of the axes, and which are angles.
-        cell_indices, depth: (N, A), box k of 2^depth along each axis.
-        undecided: (N,).
+        axis_ranges: Ranges (A, 2) of the axes over the whole claim, rad and m.
+        axis_names, is_angle: Names of the axes (A,), and True for those that are angles.
+        cell_indices, depth: Index of each box (N, A) among the 2^depth parts of each axis, and the depth.
+        undecided: (N,) True for undecided boxes.
     """
 
     axis_ranges: FloatArray
@@ -66,18 +66,18 @@ class LeafBoxes:
 
     @property
     def halvings(self) -> IndexArray:
-        """Number of halvings of each box (N,)."""
+        """Number of bisections of each box (N,)."""
         return np.asarray(self.depth.sum(axis=1))
 
     @property
     def most_halved_axes(self) -> tuple[int, int]:
-        """The two axes that are halved most often, in their order."""
+        """The two axes that are bisected most often, in the order of the axes."""
         halving_counts = self.depth.sum(axis=0) + 1e-9 * (self.axis_ranges[:, 1] > self.axis_ranges[:, 0])
         lower_axis, upper_axis = sorted(np.argsort(-halving_counts, kind="stable")[:2].tolist())
         return lower_axis, upper_axis
 
     def describe_box(self, box_index: int) -> list[str]:
-        """Return the number of halvings of a box, its middle, and its half widths."""
+        """Return the number of bisections of a box, its middle, its half-widths, and its state as texts."""
         width = (self.axis_ranges[:, 1] - self.axis_ranges[:, 0]) * 0.5 ** self.depth[box_index]
         middle = self.axis_ranges[:, 0] + width * (self.cell_indices[box_index] + 0.5)
         scale = display_factors(self.is_angle)
@@ -89,12 +89,14 @@ class LeafBoxes:
         order = np.lexsort((np.where(self.undecided, self.halvings, -self.halvings), ~self.undecided))[:_HARDEST_ROWS]
         units = "deg and m" if not self.is_angle.all() else "deg"
         columns = [
-            Header("halvings", "halvings"),
+            Header("halvings", "bisections"),
             Header("middle", f"middle, {units}"),
-            Header("half_widths", f"half widths, {units}"),
+            Header("half_widths", f"half-widths, {units}"),
             Header("state", "proved or undecided"),
         ]
-        return TableSpec("The hardest boxes", columns, [self.describe_box(box_index) for box_index in order])
+        return TableSpec(
+            "Smallest boxes, or largest undecided boxes", columns, [self.describe_box(box_index) for box_index in order]
+        )
 
     def project_onto(self, axes: tuple[int, int]) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Project the boxes onto two axes (2^7, 2^7): the largest number of halvings over the other axes, and the undecided
@@ -116,11 +118,11 @@ class LeafBoxes:
         return max_halvings, undecided_area
 
 
-@lru_cache(maxsize=1)  # a page has a table of them, and a picture
+@lru_cache(maxsize=1)  # a report has both a table and a figure of them
 def _unpack_leaves(
     packed_tree: str, axes: int, last_token: int, lock_token: int
 ) -> tuple[IndexArray, IndexArray, NDArray[np.bool_]]:
-    """Unpack the leaves of a tree: the cell index and the halvings of each axis (N, A), and the undecided ones."""
+    """Unpack the leaves of a tree: cell index and depth along each axis (N, A), and whether each is undecided (N,)."""
     tree, tokens = verifier.decompress_payload(packed_tree, 2 * verifier.MAX_LEAVES, "tree"), list[int]()
 
     def stream_numbers() -> Any:
@@ -170,7 +172,7 @@ def draw_witness(proof: Found) -> Figure:
 
 
 def draw_value_scale(proof: ManipulabilityBound) -> Figure:
-    """Draw a line of values: those that occur, the extreme, and those that are proved not to occur."""
+    """Draw a line of values: a value that occurs, the bound, and the values that are proved not to occur."""
     from matplotlib.figure import Figure
 
     from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
@@ -200,7 +202,7 @@ def draw_value_scale(proof: ManipulabilityBound) -> Figure:
 
 
 def draw_boxes(proof: Found) -> Figure:
-    """Draw the sizes of the boxes, with the configuration that comes nearest to a bound."""
+    """Draw the sizes of the boxes, with the configuration found closest to a bound."""
     from matplotlib.figure import Figure
 
     from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
@@ -215,7 +217,7 @@ def draw_boxes(proof: Found) -> Figure:
         bars.bar(np.arange(len(proved)), proved, facecolor=SKY, linewidth=0.6, **bar_style)
         hatching = {"facecolor": EMPTY_COLOR, "hatch": "////", "linewidth": 0.3}
         bars.bar(np.arange(len(undecided)), undecided, bottom=bottom, **hatching, **bar_style)
-        bars.set(xlabel="halvings of the whole", ylabel="boxes", title="How small they are")
+        bars.set(xlabel="bisections of the whole", ylabel="boxes", title="Number of boxes by size")
         bars.xaxis.get_major_locator().set_params(integer=True)
         add_legend(figure, {"proved (darker: smaller boxes)": SKY})
         return settle_layout(figure)
@@ -247,5 +249,5 @@ def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -
         position = marked[list(shown_axes)] * scale
         axes.plot(*position, "o", color=INK, markersize=7, markeredgecolor="white", clip_on=False)
     labels = [f"{format_label(leaves.axis_names[axis])} [{'deg' if leaves.is_angle[axis] else 'm'}]" for axis in shown_axes]
-    axes.set(xlabel=labels[0], ylabel=labels[1], title="Where they are small")
+    axes.set(xlabel=labels[0], ylabel=labels[1], title="Position of the small boxes")
     axes.grid(visible=False)

@@ -24,6 +24,6 @@ def present(zero: StructuralZero) -> Presentation:
         answer = zero.document["claim"]
     else:
         reason = f"miss a common point by {zero.shifted:.4g} m" if np.isfinite(zero.shifted) else "are parallel"
-        answer, lines = f"No structural zero was found for {name}: axes before it, or behind it, {reason}.", []
-    facts = [Fact("frames turned", zero.turned, "rad", digits=2), Fact("frames shifted", zero.shifted, "m", digits=2)]
+        answer, lines = f"No structural zero was found for {name}: the axes before or behind it {reason}.", []
+    facts = [Fact("largest rotation", zero.turned, "rad", digits=2), Fact("largest shift", zero.shifted, "m", digits=2)]
     return Presentation(f"Structural zero of {name}", answer, lines=lines, facts=facts)

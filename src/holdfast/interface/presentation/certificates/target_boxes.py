@@ -44,28 +44,29 @@ def present(proof: Proof | TolerantProof, check: CertificateCheck | None = None,
     """Present the proved fraction, its meaning, and its limits; the options are those of :func:`present_proof`."""
     arm, place_text, condition, object_text = proof.claim.arm, "within limits", "", "targets"
     if isinstance(proof, TolerantProof):
-        place_text, condition = "wherever a joint locks, and while healthy", " while healthy and whatever locks"
+        place_text = "while healthy and after a lock of any one joint"
+        condition = f" {place_text}"
     elif proof.claim.locked >= 0:
         place_text, object_text = "at every locked angle", f"targets and locked angles of {arm.joint_names[proof.claim.locked]}"
-    answer, fraction = "Nothing is proved: all is undecided.", find_proved_fraction(proof, check)
+    answer, fraction = "Nothing is proved: everything is undecided.", find_proved_fraction(proof, check)
     if fraction:
         remainder = "the rest is undecided" if fraction < 1 else "nothing is undecided"
-        answer = f"Of the {object_text}, {format_percent(fraction)} are proved to be reached{condition}; {remainder}."
-    orientation_text = ", turned in every way" if len(proof.claim.box) > 3 else ""
+        answer = f"{format_percent(fraction)} of the {object_text} are proved to be reached{condition}; {remainder}."
+    orientation_text = ", in every orientation of the box," if len(proof.claim.box) > 3 else ""
     caption = (
-        f"Blue: every target{orientation_text} is proved {place_text}. Hatched: something is undecided, which does not "
-        "say that it is out of reach. Through the middle of the box, and where most is undecided."
+        f"Blue: every target{orientation_text} is proved to be reached {place_text}. Hatched: some box is undecided, which "
+        "does not mean that its targets are out of reach. Slices: through the middle, and where most is undecided."
     )
     return present_proof(
         proof,
-        title=f"What is proved of {arm.name}",
+        title=f"Targets that {arm.name} is proved to reach",
         answer=answer,
         fraction_phrase=f"of the {object_text}{condition}",
         cell_phrase="boxes, each with one configuration",
-        figures={"slices": FigureSpec(partial(_draw, proof), "Where it is proved", caption)},
+        figures={"slices": FigureSpec(partial(_draw, proof), "Proved targets", caption)},
         method=[
-            ("Proof", "a bisection tree of boxes and a configuration for each; a box is proved by one inequality, by Brouwer"),
-            ("Not said", SCOPE_NOTE.replace("speed", "speed, the way there")),
+            ("Proof", "a bisection tree of boxes with one configuration each; one inequality (Brouwer) proves each box"),
+            ("Not claimed", SCOPE_NOTE.replace("speed", "speed, the motion to the target")),
         ],
         check=check,
         **options,

@@ -1,4 +1,4 @@
-"""Presentation of a proof of the lock instants after which a path can be finished."""
+"""Presentation of a proof that a path can be finished after locks at given instants."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MAX_PANEL_COLUMNS = 4  # pictures in a row
+_MAX_PANEL_COLUMNS = 4  # panels in a row
 
 
 def to_dict(proof: PathProof) -> dict[str, Any]:
@@ -54,47 +54,47 @@ def present(proof: PathProof, check: CertificateCheck | None = None, **options: 
     tolerance_text = f" within {1000 * claim.tube[0]:g} mm" if claim.tube.any() else ""
     complete_joints = [_joint_name(proof, part) for part in proof.parts if part.proved == 1]
     undecided_text = "undecided or refuted" if proof.refuted else "undecided"
-    answer = f"Nothing is proved for all locks: something is {undecided_text} at every instant."
+    answer = f"Nothing is proved for all locks: at every instant some lock is {undecided_text}."
     if fraction:
         remainder = "nothing is undecided" if fraction == 1 else "the rest is undecided for some lock"
         if refuted_joints := [_joint_name(proof, part) for part in proof.parts if part.refuted]:
-            remainder = f"of the rest, some is refuted for locks of {', '.join(refuted_joints)}"
+            remainder = f"part of the rest is refuted, for locks of {', '.join(refuted_joints)}"
         answer = (
-            f"Whichever joint locks, at {format_percent(fraction)} of the instants the {claim.task} path{tolerance_text} is "
-            f"proved to be finished; {remainder}."
+            f"At {format_percent(fraction)} of the instants, the arm is proved to finish the {claim.task} path{tolerance_text} "
+            f"whichever joint locks; {remainder}."
         )
     elif complete_joints:
         answer = (
-            f"At no instant is it proved for all locks, but at every instant for those of {', '.join(complete_joints)}; "
-            f"for the others something is {undecided_text} at every instant."
+            f"At no instant is the path proved to be finished for all locks. For locks of {', '.join(complete_joints)} it is "
+            f"proved at every instant; at every instant, some lock of another joint is {undecided_text}."
         )
     caption = (
-        "Blue: after a lock at this instant one continuous motion takes the tool to the end of the path; lines are the "
-        "faces at which cells are glued; darker where these are turned, by a singular configuration. Vermilion: "
-        "refuted: at some later place of the path no configuration within the limits has the tool. Hatched: undecided, "
-        "which does not say that it cannot be done. Nothing is claimed of the path before the lock."
+        "Blue: after a lock at this instant, one continuous motion takes the tool to the end of the path. Lines are the faces "
+        "at which cells are matched; dark blue cells are rotated, because of a singular configuration. Orange: refuted, "
+        "because no configuration within the limits reaches some later pose of the path. Hatched: undecided, which does not "
+        "mean that the path cannot be finished. Nothing is claimed about the path before the lock."
     )
     proof_text = (
-        "cells of the path behind intervals of lock instants; in each there is one solution, and on the face between two cells "
-        "it is the same one; what is refuted, by boxes of joints that cannot close the ring of arm, tool and base"
+        "cells of the path after intervals of lock instants; each cell contains one solution, and neighbouring cells share it "
+        "on their common face. Refutations use boxes of joint values that cannot close the chain of arm, tool and base"
     )
     scope = (
-        "collisions, torques, speed, or how the healthy motion came about; links are rigid, the geometry is "
-        "the file's, locks do not slip, and the path is that of straight joint segments"
+        "collisions, torques, speed, the origin of the healthy motion. Assumptions: links are rigid, the geometry is that of "
+        "the file, locks do not slip, and the path consists of straight segments in joint space"
     )
     return present_proof(
         proof,
-        title=f"What {claim.arm.name} finishes after a lock",
+        title=f"Path that {claim.arm.name} finishes after a lock",
         answer=answer,
         fraction_phrase="of the lock instants, whichever joint locks",
-        cell_phrase="cells, glued or empty",
+        cell_phrase="cells, matched or empty",
         facts=[
-            Fact("refuted, of the lock with most", format_percent(proof.refuted)),
-            Fact("straight segments off the motion that was given", 1000 * claim.deviation, "mm", digits=2),
+            Fact("refuted for the worst joint", format_percent(proof.refuted)),
+            Fact("largest distance of the segments from the given motion", 1000 * claim.deviation, "mm", digits=2),
         ],
         gaps=[_format_undecided_intervals(proof, part) for part in proof.parts],
-        figures={"slices": FigureSpec(partial(_draw, proof), "When it may lock", caption)},
-        method=[("Proof", proof_text), ("Not said", scope)],
+        figures={"slices": FigureSpec(partial(_draw, proof), "Lock instants after which the path is finished", caption)},
+        method=[("Proof", proof_text), ("Not claimed", scope)],
         check=check,
         **options,
     )
@@ -129,7 +129,7 @@ def _draw(proof: PathProof) -> Figure:
             panel.xaxis.set_tick_params(labelbottom=is_last)
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
-        add_legend(figure, {"proved to be finished": SKY, "in turned cells": BLUE, "refuted": ORANGE})
+        add_legend(figure, {"proved to be finished": SKY, "proved with rotated cells": BLUE, "refuted": ORANGE})
         return settle_layout(figure)
 
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from holdfast.certificates import WorkingRanges
 
-SCOPE_NOTE = "collisions, torques, speed; links are rigid, the geometry is the file's, locks do not slip"
-UNVERIFIED_NOTE = "Found by the prover, not yet verified."
+SCOPE_NOTE = "collisions, torques, speed. Assumptions: links are rigid, the geometry is that of the file, locks do not slip"
+UNVERIFIED_NOTE = "The prover found this proof; it is not yet verified."
 Found = Proof | TolerantProof | Refutation | ManipulabilityBound | PathProof
 
 
@@ -52,7 +52,7 @@ def _certificate(proof: Found | BisectionResult) -> dict[str, Any]:
 
 
 def find_proved_fraction(proof: Found, check: CertificateCheck | None) -> Fraction:
-    """Return the proved fraction of the whole claim, as the verifier sees it, if it was asked."""
+    """Return the proved fraction of the whole claim: that of the verifier if there is a check, else that of the prover."""
     if check is None:
         return proof.tolerant if isinstance(proof, TolerantProof | PathProof) else proof.proved
     return check.tolerant if isinstance(proof, TolerantProof | PathProof) else check.proved_fraction
@@ -74,28 +74,28 @@ def present_proof(
     file: str | Path = "FILE",
     ranges: WorkingRanges | None = None,
 ) -> Presentation:
-    """Present a proof: the proved fraction of the claim, what is undecided, and whether it is verified.
+    """Present a proof: the proved and the undecided fraction of the claim, and whether it is verified.
 
     Args:
         proof: The proof.
-        title: Title of the page.
-        answer: Proved fraction and what is undecided, in words; whether it is verified follows.
-        fraction_phrase: What the proved fraction is a fraction of.
-        cell_phrase: What the cells are.
+        title: Title of the report.
+        answer: Sentence with the proved and the undecided fraction; a sentence on the verification is appended.
+        fraction_phrase: Phrase after the proved fraction that names the whole.
+        cell_phrase: Phrase that describes the cells.
         facts: Further facts.
         list_tables: Function that builds further tables.
         gaps: Undecided intervals of each part, for the table of parts.
-        figures: Figures.
-        method: What proves the claim, and what it does not say.
-        check: Result of the verifier, if it was asked; its numbers replace those of the prover.
+        figures: Figures by name.
+        method: Entries on how the claim is proved, and on its limits.
+        check: Result of the verifier, or None; its numbers replace those of the prover.
         file: File of the certificate.
-        ranges: Working ranges, if they were found by samples.
+        ranges: Working ranges found by sampling, or None.
     """
     document, is_refuted = _certificate(proof), isinstance(proof, Refutation | ManipulabilityBound) and proof.refuted
     whole = find_proved_fraction(proof, check)
     lines = [qualify_claim(document["claim"], whole, refuted=is_refuted)] if check is None else check.describe()
     if not (proof.finished or is_refuted):
-        lines.append("The search was stopped before the smallest cells were reached.")
+        lines.append("The search stopped before it reached the smallest cells.")
     is_composite = isinstance(proof, TolerantProof | PathProof)
     suffix = "" if check is not None and check.ok else ", not yet verified"
     if is_refuted:
@@ -103,12 +103,12 @@ def present_proof(
     else:
         proved, undecided = (proof.proved, proof.undecided) if check is None else (check.proved_fraction, check.undecided)
         counts = [
-            Fact(f"proved{' whatever locks' * is_composite}{suffix}", format_percent(whole), phrase=fraction_phrase),
+            Fact(f"proved{' for every lock' * is_composite}{suffix}", format_percent(whole), phrase=fraction_phrase),
             *[Fact("proved in the worst part", format_percent(proved))] * is_composite,
             Fact("undecided", format_percent(undecided, up=True)),
             Fact("cells proved", proof.leaves, phrase=cell_phrase),
-            Fact("cells looked at", proof.nodes),
-            Fact("search", proof.seconds, "s", digits=3),
+            Fact("cells examined", proof.nodes),
+            Fact("search time", proof.seconds, "s", digits=3),
         ]
     found_ranges = None if ranges is None else _present_ranges(ranges)
     if found_ranges is not None:
@@ -134,20 +134,20 @@ def _present_ranges(ranges: WorkingRanges) -> Presentation:
 
 
 def _describe_verification(check: CertificateCheck | None, is_refuted: bool) -> str:
-    """Describe who verified the proof, and with which result."""
+    """Describe the result of the verification."""
     if check is None:
         return UNVERIFIED_NOTE
     if check.ok and is_refuted:
-        return "Verified by code that shares nothing with the prover."
+        return "Verified by a program that is independent of the prover."
     if check.ok:
-        return f"Verified: all {check.accepted:,} boxes are accepted by code that shares nothing with the prover."
+        return f"Verified: a program that is independent of the prover accepts all {check.accepted:,} boxes."
     if check.rejected:
-        return f"The verifier rejects {check.rejected:,} of {check.leaves:,} boxes: what they cover is undecided."
-    return f"Sampled, not verified: {check.accepted:,} of {check.leaves:,} boxes are accepted."
+        return f"The verifier rejects {check.rejected:,} of {check.leaves:,} boxes; what they contain is undecided."
+    return f"Sampled, not verified: the verifier checked a sample and accepts {check.accepted:,} of {check.leaves:,} boxes."
 
 
 def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence[str]) -> TableSpec:
-    """Tabulate fractions, cells, and seconds of each part, and its verifier."""
+    """Tabulate fractions, cells, search time and verification of each part."""
     parts = proof.parts if isinstance(proof, TolerantProof | PathProof) else (proof,)
     checks = [None] * len(parts) if check is None else check.parts or (check,)
     columns = [
@@ -168,12 +168,12 @@ def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence
             shares[1] = format_percent(part.refuted)
         elif not isinstance(part, Proof) and part.refuted:
             shares = ["0 %", "by a witness", "the rest"]
-        outcome, seconds = "nobody yet", None
+        outcome, seconds = "not yet", None
         if checked is not None:
             outcome = f"not: {checked.rejected:,} rejected" if checked.rejected else "sampled"
             outcome, seconds = "verifier.py" if checked.ok else outcome, checked.seconds or None
         rows.append([_name_part(proof, part), *shares, *gaps[index : index + 1], part.leaves, part.seconds, outcome, seconds])
-    if not any(row[-1] for row in rows):  # one check of all locks at once has a time of its own
+    if not any(row[-1] for row in rows):  # a check of all locks at once has no time for each part
         columns, rows = columns[:-1], [row[:-1] for row in rows]
     return TableSpec("", columns, rows, on_console=len(parts) > 1)
 
@@ -186,7 +186,7 @@ def _name_part(proof: Found, part: Found | LockedPath) -> str:
         locks = part.claim.locks
         return "any one joint" if len(locks) == len(names) else ", ".join(names[joint] for joint in locks)
     assert not isinstance(part, TolerantProof | PathProof)
-    locked = getattr(part.claim, "locked", -1)  # a claim about no lock has no such attribute
+    locked = getattr(part.claim, "locked", -1)  # claims without a lock have no such attribute
     return "healthy" if locked < 0 else names[locked]
 
 
@@ -198,7 +198,7 @@ def _list_check_instructions(
 
     code = Markup("<code>{}</code>")
     entries: list[tuple[str, Any]] = [
-        ("Check it", code.format(f"holdfast certificate check {file}")),
+        ("Command that checks it", code.format(f"holdfast certificate check {file}")),
         ("Digest of the certificate", code.format(document["digest"])),
     ]
     if check is not None:
@@ -208,7 +208,7 @@ def _list_check_instructions(
 
 
 def add_legend(figure: Figure, colors: Mapping[str, str]) -> None:
-    """Add a legend below a figure, with the color of each label and the hatching of what is undecided."""
+    """Add a legend below a figure, with the color of each label and the hatching for undecided parts."""
     from matplotlib.patches import Patch
 
     from holdfast.interface.report.figures import EMPTY_COLOR, INK

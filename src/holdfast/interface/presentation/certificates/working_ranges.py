@@ -31,7 +31,7 @@ def to_dict(working_ranges: WorkingRanges) -> dict[str, Any]:
 
 
 def present(working_ranges: WorkingRanges) -> Presentation:
-    """Present whether ranges were found, by which sample, the limiting joint, and the range of each joint."""
+    """Present whether ranges were found, the sample, the limiting joint, and the range of each joint."""
     arm, ranges, lost = working_ranges.claim.arm, working_ranges.ranges, working_ranges.lost
     targets, relative_widths = working_ranges.targets, working_ranges.relative_widths.tolist()
     limiting = arm.joint_index(working_ranges.limiting_joint)
@@ -39,20 +39,20 @@ def present(working_ranges: WorkingRanges) -> Presentation:
     span = f"{factor * ranges[limiting, 0]:.4g} to {factor * ranges[limiting, 1]:.4g} {unit}"
     if working_ranges.ok:
         answer = (
-            f"Found working ranges: the healthy arm reaches all of {targets} sampled targets within them, and so does the arm "
-            f"with one joint locked at any of {working_ranges.values} sampled values of its range. A sample proves nothing."
+            f"Found working ranges: within them, the healthy arm reaches all {targets} sampled targets. So does the arm with "
+            f"one joint locked at any of {working_ranges.values} sampled values of its range. A sample proves nothing."
         )
         lines = [
             f"The limiting joint is {arm.joint_names[limiting]}: its range of {span} is "
             f"{format_percent(relative_widths[limiting])} of its limits."
         ]
     else:
-        reason, lines = f"the healthy arm reaches {working_ranges.healthy} of them", []
+        reason, lines = f"the healthy arm reaches {working_ranges.healthy}", []
         if lost[limiting]:
-            reason += f", and locks of {arm.joint_names[limiting]}, whose range is {span}, lose {lost[limiting]}"
+            reason += f", and locks of {arm.joint_names[limiting]}, whose range is {span}, make {lost[limiting]} unreachable"
         answer = (
-            f"Not found: with the best working ranges {working_ranges.passed} of {targets} sampled targets "
-            f"({format_percent(working_ranges.passed / targets)}) are reached whatever locks; {reason}."
+            f"Not found: with the best working ranges, the arm reaches {working_ranges.passed} of {targets} sampled targets "
+            f"({format_percent(working_ranges.passed / targets)}) whichever joint locks; {reason}."
         )
     columns = [
         Header("joint", "joint"),

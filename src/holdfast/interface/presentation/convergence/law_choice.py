@@ -15,7 +15,7 @@ from holdfast.interface.presentation.presentation import Fact, FigureSpec, Heade
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MAX_TITLE_LENGTH = 24  # letters of a title
+_MAX_TITLE_LENGTH = 24  # characters of a title
 save = partial(renderers.save, dpi=130)
 
 
@@ -25,7 +25,7 @@ def to_dict(choice: LawChoice) -> dict[str, Any]:
 
 
 def present(choice: LawChoice) -> Presentation:
-    """Present the law that reaches the target most often, and the confidence in that."""
+    """Present the law that reaches the target most often, and the confidence in that result."""
     first_map, ranking = choice.maps[0], choice.ranking
     arm, task, best_law = first_map.law.arm, first_map.law.task, ranking[0]
     shares = {name: choice.share(name) for name in ranking}
@@ -33,29 +33,31 @@ def present(choice: LawChoice) -> Presentation:
     share = shares[best_law]
     if not share.value:
         answer = (
-            f"Under none of the {len(shares)} laws a target is reached after a lock; at most {format_percent(share.high)} "
-            "would be, 95 %."
+            f"No target is reached after an undetected lock under any of the {len(shares)} laws; the success rate is at most "
+            f"{format_percent(share.high)} (upper end of the 95 % interval)."
         )
     else:
         runner_up = ranking[1]
         difference = choice.difference(best_law, runner_up)
         points = f"{100 * difference.value:.1f} percentage points"
         if difference.low > 0:
-            comparison = f"{points} more than {runner_up} ({100 * difference.low:.1f} to {100 * difference.high:.1f}, 95 %)"
+            comparison = (
+                f"{points} more than {runner_up} (95 % interval {100 * difference.low:.1f} to {100 * difference.high:.1f})"
+            )
         else:
             comparison = (
-                f"that it is more than with {runner_up} ({format_percent(shares[runner_up].value)}) cannot be told from these "
-                "failures"
+                f"the difference from {runner_up} ({format_percent(shares[runner_up].value)}) is not significant at the 95 % "
+                "level"
             )
         answer = (
-            f"After an unnoticed lock {best_law} reaches the target most often, in {format_percent(share.value)} of "
+            f"After an undetected lock, {best_law} reaches the target most often, in {format_percent(share.value)} of "
             f"{failures}; {comparison}."
         )
     facts = rank_successes(shares)
     columns = [
         Header("law", "law"),
         Header("converged", "converges after a lock", style="percent"),
-        Header("difference", "percentage points against the best"),
+        Header("difference", "difference from the best, percentage points"),
     ]
     rows: list[list[Any]] = [
         [name, shares[name], "" if name == best_law else format_points(choice.difference(name, best_law))] for name in ranking
@@ -63,17 +65,17 @@ def present(choice: LawChoice) -> Presentation:
     if first_map.touched is not None:
         touched = [choice.share(name, outcome="touched").value for name in ranking]
         touched_text = f"at most {format_percent(touched[0])}" if touched[0] else "none"
-        answer += f" With {best_law} {touched_text} of the motions touch something on the way."
-        phrase = f"of the motions touch something at most, with {best_law}; a real arm would stop"
+        answer += f" With {best_law}, {touched_text} of the motions touch something on the way."
+        phrase = f"of the motions with {best_law}, at most, touch something; a real arm would stop there"
         facts.append(Fact("", touched[0], phrase=phrase, style="percent"))
         columns.append(Header("touched", "touches something, at most", style="percent"))
         rows = [[*row, value] for row, value in zip(rows, touched, strict=True)]
     places = int(first_map.has_configuration.any(axis=1).sum())
-    caption = "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals."
+    caption = "One bar for each joint that is locked from the start, and one for no lock. Lines are 95 % intervals."
     return Presentation(
-        f"The law with which {arm.name} reaches its targets most often",
+        f"Control law with which {arm.name} reaches its targets most often",
         answer,
-        about=(f"{len(ranking)} laws on {arm.title}, task {task.describe()}: the same {failures}, {places} {first_map.over}"),
+        about=f"{len(ranking)} laws on {arm.title}, task {task.describe()}; the same {failures} from {places} {first_map.over}",
         facts=facts,
         tables=[TableSpec("Paired differences with 95 % intervals", columns, rows)],
         figures={"laws": FigureSpec(partial(_draw_outcomes, choice), "How the motions end under each law", caption)},

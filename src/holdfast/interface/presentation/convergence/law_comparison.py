@@ -33,18 +33,19 @@ if TYPE_CHECKING:
 
 _NOTABLE_UNDECIDED_FRACTION = 0.05
 _GAIN_METHOD = (
-    "over the same motions, with 95 % intervals: of a joint paired by Newcombe's method with exact limits, and McNemar's test; "
-    "of any joint from the mean over the joints of each motion, by betting, which always covers; of errors by Student's t, "
-    "which may cover less than 95 % of few motions when a few of them differ much. Undecided runs count as not converged. One "
-    "in twenty of many comparisons looks significant by chance."
+    "Paired over the same motions, with 95 % intervals. One joint: Newcombe's method for paired proportions with exact limits, "
+    "and McNemar's test. Any joint: a betting interval of the mean over the joints of each motion, whose coverage is "
+    "guaranteed. Errors: Student's t, whose coverage may be below 95 % if there are few motions and a few of them differ much. "
+    "Undecided runs count as not converged. Of many comparisons, one in twenty looks significant by chance."
 )
 _CONTACT_METHOD = (
-    "Looked at from instant to instant, and between them until half a millimetre is all that could change; of a run that "
-    "repeats its motion the first 200/Ke. Distances are lower bounds: at most so many touch, and no contact is missed"
+    "Distances are computed in steps so small that none can change by more than half a millimetre in between, and for a run "
+    "that repeats its motion over the first 200/Ke. They are lower bounds, so the fractions are upper bounds and no contact is "
+    "missed"
 )
 _OUTCOME_CAPTION = (
-    "Bars end at 1; converged: at the target; stuck: stopped elsewhere; moving: never stops, as it repeats its motion; "
-    "undecided: mostly still moving at the time limit."
+    "Converged: the end effector stops at the target. Stuck: it stops elsewhere. Moving: it never stops, because it repeats "
+    "its motion. Undecided: none of these could be shown, mostly because it was still moving at the time limit."
 )
 
 
@@ -83,26 +84,26 @@ def present(comparison: LawComparison) -> Presentation:
         "healthy.csv": tabulate_healthy_costs(comparison),
         "runs.csv": tabulate_runs(comparison),
     }
-    figures = {"outcomes": _figure(comparison, "draw_law_outcomes", "Which converge", _OUTCOME_CAPTION)}
+    figures = {"outcomes": _figure(comparison, "draw_law_outcomes", "Outcomes by locked joint", _OUTCOME_CAPTION)}
     if can_compare(comparison):
         gains = tabulate_gains(comparison)
         files["gains.csv"] = gains
         tables.append(build_gain_table(comparison, gains))
-        caption = f"Paired differences to {names[0]}, {motions}; lines are 95 % intervals."
-        figures["gains"] = _figure(comparison, "draw_law_gains", f"What the others gain over {names[0]}", caption)
+        caption = f"Paired differences from {names[0]} over {motions}. Lines are 95 % intervals."
+        figures["gains"] = _figure(comparison, "draw_law_gains", f"Differences from {names[0]}", caption)
     if comparison.joints:
-        caption = f"{format_count(len(comparison) * len(comparison.joints), 'run')} of each law, every joint alike."
-        figures["errors"] = _figure(comparison, "draw_law_errors", "How far off the target", caption)
-    method: list[tuple[str, str]] = [("Motions", comparison.about or "as they were given")]
+        caption = f"{format_count(len(comparison) * len(comparison.joints), 'run')} of each law; all joints weigh the same."
+        figures["errors"] = _figure(comparison, "draw_law_errors", "Errors at the end", caption)
+    method: list[tuple[str, str]] = [("Motions", comparison.about or "given by the user")]
     method += [(name, law.describe()) for name, law in zip(names, laws, strict=True)]
     first_run = comparison.runs[0]
     limit = f"at most {first_run._settings.time_limit:g}"
     method += [
-        ("Failures", f"each alone, from the start: {', '.join(comparison.joints) or 'none'}; the controller does not know"),
+        ("Failures", f"one joint locked from the start ({', '.join(comparison.joints) or 'none'}), undetected"),
         ("Time", f"control cycles, {limit}" if first_run.cycles else f"{limit} s"),
-        ("Converged", f"error at most {comparison.accuracy:g} {'as a cycle begins' if first_run.cycles else 'at rest'}"),
-        ("Within reach", "a configuration of the failed arm at the target was found by search, joint limits aside"),
-        ("Errors", f"{' and '.join(kind.text for kind in kinds)} at the end; astray: median of the runs that do not converge"),
+        ("Converged", f"error at most {comparison.accuracy:g} {'at the start of a cycle' if first_run.cycles else 'at rest'}"),
+        ("Within reach", "a search found a configuration of the failed arm at the target; joint limits are ignored"),
+        ("Errors", f"{' and '.join(kind.text for kind in kinds)} at the end; median miss: over the runs that do not converge"),
     ]
     if can_compare(comparison):
         method.append(("Differences", _GAIN_METHOD))
@@ -113,10 +114,11 @@ def present(comparison: LawComparison) -> Presentation:
     if comparison.comparable.any():
         tables.append(build_cost_table(comparison, files["healthy.csv"]))
         caption = (
-            f"Over the {format_count(int(comparison.comparable.sum()), 'motion')} that converge under every law with no joint "
-            "locked, each at 65 samples."
+            "Distance from the straight line, largest angle to the command, and time until the error is within 1e-3 of the "
+            f"target (in arm lengths and rad), over the {format_count(int(comparison.comparable.sum()), 'motion')} that "
+            "converge under every law with no joint locked, each at 65 samples."
         )
-        title = "What it costs while nothing has failed"
+        title = "Cost while the arm is healthy"
         figures["healthy"] = _figure(comparison, "draw_healthy_costs", title, caption)
     else:
         lines.append("No motion converges under every law while the arm is healthy, so there is no cost to compare.")
@@ -126,7 +128,7 @@ def present(comparison: LawComparison) -> Presentation:
     method.append(("Undecided", "; ".join(f"{name}: {text}" for name, text in reasons.items())))
     about = comparison.about and f"; {comparison.about}"
     return Presentation(
-        f"Control laws after a lock that nobody has noticed: {arm.name}",
+        f"Control laws after an undetected lock: {arm.name}",
         _compose_answer(comparison),
         about=f"{motions} of {arm.title}, task {laws[0].task.describe()}{about}",
         lines=lines,
@@ -153,7 +155,7 @@ def _figure(comparison: LawComparison, function: str, title: str, caption: str) 
 
 
 def _list_notices(comparison: LawComparison) -> list[Notice]:
-    """List what a real arm would do otherwise, and undecided runs."""
+    """List where a real arm would behave differently, and the undecided runs."""
     fractions = [
         [float((run.code == RunOutcome.UNDECIDED).mean()) for run in comparison.runs],
         [float(run.limits_passed.any(axis=1).mean()) for run in comparison.runs],
@@ -179,17 +181,17 @@ def _compose_answer(comparison: LawComparison) -> str:
             for row in comparison.table
             if row["failure"] == HEALTHY_CASE
         ]
-        return f"Healthy, {_join_phrases(rates)}."
-    text = "With one joint locked and nobody aware of it, the end effector "
+        return f"While the arm is healthy, {_join_phrases(rates)}."
+    text = "After an undetected lock of one joint, the end effector "
     if any(comparison.share_any(n).value for n in comparison.names):
         shares = [
-            f"{format_percent(probability.value) if probability.value else 'none'} with {n}"
-            for n in comparison.names
+            f"{format_percent(probability.value) if probability.value else 'none'}{' of the motions' * (index == 0)} with {n}"
+            for index, n in enumerate(comparison.names)
             for probability in [comparison.share_any(n)]
         ]
-        text += f"reaches its target in {_join_phrases(shares)} of the motions"
+        text += f"reaches its target in {_join_phrases(shares)}"
     else:
-        text += f"never reaches its target, whichever of the {len(comparison.names)} laws commands it"
+        text += f"never reaches its target under any of the {len(comparison.names)} laws"
     within = compute_reachable_fraction(comparison)
     text += f" ({format_percent(within) if within else 'none'} of the targets are still within reach)."
     for name in comparison.names[1:]:
@@ -203,18 +205,18 @@ def _describe_gain(comparison: LawComparison, name: str) -> str:
     gain = comparison.gain(name)
     first_name = comparison.names[0]
     if gain.low > 0 and comparison.gain(name, undecided="against").low > 0:
-        text = f"With {name} more converge than with {first_name}, by {100 * gain.value:.1f} percentage points"
+        text = f"With {name}, {100 * gain.value:.1f} percentage points more of the motions converge than with {first_name}"
     elif gain.high < 0 and comparison.gain(name, undecided="for").high < 0:
-        text = f"With {name} fewer converge than with {first_name}, by {-100 * gain.value:.1f} percentage points"
+        text = f"With {name}, {-100 * gain.value:.1f} percentage points fewer of the motions converge than with {first_name}"
     else:
-        text = f"It cannot be told whether more or fewer converge with {name} than with {first_name}"
+        text = f"The runs do not show whether more of the motions converge with {name} or with {first_name}"
     parts = []
     for kind in error_kinds(comparison.laws[0]):
         change = comparison.change(name, kind.name)
         if change.high < 0 or change.low > 0:
-            direction = "nearer to" if change.value < 0 else "farther from"
+            direction = "closer to" if change.value < 0 else "farther from"
             parts.append(f"{format_number(kind.factor * abs(change.value), 3)} {kind.unit} {direction} {kind.whole}")
-    return f"{text}{'; on average its runs end ' * bool(parts)}{' and '.join(parts)}."
+    return f"{text}{f'; on average, the runs with {name} end ' * bool(parts)}{' and '.join(parts)}."
 
 
 def _join_phrases(parts: Sequence[str]) -> str:
@@ -222,7 +224,7 @@ def _join_phrases(parts: Sequence[str]) -> str:
 
 
 def compute_reachable_fraction(comparison: LawComparison) -> float:
-    """Compute the fraction of targets that are within reach once a joint has locked, every joint alike."""
+    """Compute the fraction of targets that are within reach after a lock, as the mean over the joints."""
     return float(np.mean([comparison.case(comparison.names[0], joint).reachable.mean() for joint in comparison.joints]))
 
 

@@ -14,9 +14,9 @@ from holdfast.interface.report.figures import Curve, compare_cdf_figure
 from holdfast.interface.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 
 _COST_MEASURES = (
-    ("deviation", "off the straight line, m", 1.0),
-    ("angle", "largest angle to the command, deg", 180 / np.pi),
-    ("time", "until within 1e-3 of the target (of the arm's length, and rad), {unit}", 1.0),
+    ("deviation", "distance from the line, m", 1.0),
+    ("angle", "largest angle, deg", 180 / np.pi),
+    ("time", "time to the target, {unit}", 1.0),
 )
 
 
@@ -43,7 +43,7 @@ def draw_law_outcomes(comparison: LawComparison) -> Figure:
     return stack_figure(
         stacks,
         OUTCOME_NAMES,
-        f"fraction of {len(comparison):,} motions, each law and failure",
+        f"fraction of the {len(comparison):,} motions",
         level="targets still within reach",
     )
 
@@ -87,7 +87,7 @@ def draw_law_errors(comparison: LawComparison) -> Figure:
         (kind.name, f"{capitalise_first(kind.text)} at the end, {kind.unit}", kind.factor) for kind in kinds
     ]
     if len(kinds) == 1:
-        quantities.append(("excess", f"Error above the least possible, {kinds[0].unit}", kinds[0].factor))
+        quantities.append(("excess", f"Error above the smallest possible, {kinds[0].unit}", kinds[0].factor))
     panels = []
     for quantity, title, factor in quantities:
         samples = [factor * comparison.pool_values(name, quantity).ravel() for name in comparison.names]
@@ -100,7 +100,7 @@ def draw_law_errors(comparison: LawComparison) -> Figure:
             curves.append(Curve(axis_values, np.searchsorted(finite, axis_values, side="right") / max(len(values), 1), name))
         panels.append((title, curves))
     unit_text = " or ".join(kind.unit for kind in kinds)
-    return compare_cdf_figure(panels, [], f"error, {unit_text}", ylabel="fraction of runs with at most that", log=True)
+    return compare_cdf_figure(panels, [], f"error, {unit_text}", ylabel="fraction of runs with at most this error", log=True)
 
 
 def draw_healthy_costs(comparison: LawComparison) -> Figure:

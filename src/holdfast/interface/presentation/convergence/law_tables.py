@@ -1,4 +1,4 @@
-"""Tables of a comparison of laws, for people and as rows of CSV and JSON."""
+"""Tables of a comparison of laws, for display and as rows of CSV and JSON."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _RUN_COLUMNS = ("path_length", "path_ratio", "excursion", "time")
 
 
 def build_outcome_table(comparison: LawComparison) -> TableSpec:
-    """Tabulate how the runs of each law ended, with each joint locked."""
+    """Tabulate the outcomes of the runs of each law, for each locked joint."""
     kinds = error_kinds(comparison.laws[0])
     percent_columns = [*OUTCOME_NAMES, "reachable"]
     columns = [Header("law", "law"), Header("failure", "locked")]
     columns += [Header(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
     columns.insert(3, Header("interval", "95 % interval", style="percent"))
-    columns += [Header(f"{kind.key}_astray", f"astray, {kind.unit}", aligned=False) for kind in kinds]
+    columns += [Header(f"{kind.key}_astray", f"median miss, {kind.unit}", aligned=False) for kind in kinds]
     rows = [
         [
             row["law"],
@@ -36,18 +36,19 @@ def build_outcome_table(comparison: LawComparison) -> TableSpec:
         ]
         for row in comparison.table
     ]
-    return TableSpec(f"{format_count(len(comparison), 'motion')} each; joint limits are not enforced", columns, rows)
+    title = f"Outcomes of {format_count(len(comparison), 'motion')} for each law and lock; joint limits are not enforced"
+    return TableSpec(title, columns, rows)
 
 
 def build_detail_table(comparison: LawComparison) -> TableSpec:
-    """Tabulate quantiles of the errors, for the page."""
+    """Tabulate quantiles of the errors, for the report."""
     kinds, levels = error_kinds(comparison.laws[0]), ("50", "75", "95")
     columns = [
         Header("law", "law"),
         Header("failure", "locked"),
-        Header("converged_reachable", "converged of those within reach", style="percent"),
+        Header("converged_reachable", "converged, of those within reach", style="percent"),
         Header("converged_within_limits", "converged within limits", style="percent"),
-        Header("past_limits", "past a limit", style="percent"),
+        Header("past_limits", "pass a limit", style="percent"),
     ]
     columns += [
         Header(f"{kind.key}_{level}", f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}", aligned=False)
@@ -60,18 +61,18 @@ def build_detail_table(comparison: LawComparison) -> TableSpec:
     ]
     factors = {f"{kind.key}_{level}": kind.factor for kind in kinds for level in levels}
     rows = [[_scale(row[column.key], factors.get(column.key)) for column in columns] for row in comparison.table]
-    return TableSpec("Quantiles over all runs, at their ends; path and joints: medians", columns, rows, on_console=False)
+    return TableSpec("Quantiles of the final errors, and medians of path and joint ranges", columns, rows, on_console=False)
 
 
 def _scale(value: Any, factor: float | None) -> Any:
-    """Convert an error to the unit for people; None stays None."""
+    """Convert an error to its display unit; None stays None."""
     return value if value is None or factor is None else factor * value
 
 
 def build_gain_table(comparison: LawComparison, gains: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the paired differences to the first law, with their intervals."""
     kinds = error_kinds(comparison.laws[0])
-    columns = [Header("law", "law"), Header("failure", "locked"), Header("gain", "converge, percentage points")]
+    columns = [Header("law", "law"), Header("failure", "locked"), Header("gain", "converged, percentage points")]
     columns += [Header("gain_p_value", "p", digits=2, aligned=False)]
     columns += [Header(kind.key, f"mean {kind.text}, {kind.unit}") for kind in kinds]
     rows = [
@@ -84,7 +85,7 @@ def build_gain_table(comparison: LawComparison, gains: list[dict[str, Any]]) -> 
         ]
         for row in gains
     ]
-    return TableSpec(f"Differences to {comparison.names[0]} over the same motions, with 95 % intervals", columns, rows)
+    return TableSpec(f"Differences from {comparison.names[0]} over the same motions, with 95 % intervals", columns, rows)
 
 
 def _format_difference(row: dict[str, Any], key: str, factor: float) -> str:
@@ -110,24 +111,24 @@ def build_contact_table(comparison: LawComparison) -> TableSpec:
         objects = ", ".join(f"{name} ({format_percent(count / len(comparison))})" for name, count in first_touched)
         interval = (row["touched_low"], row["touched_high"])
         rows.append([row["law"], row["failure"], row["touched"], interval, row["converged_clear"], objects or "nothing"])
-    return TableSpec("What they touch on the way, and how often it is first", columns, rows)
+    return TableSpec("Contacts on the way, and the objects that are touched first", columns, rows)
 
 
 def build_cost_table(comparison: LawComparison, costs: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the cost of each law for the healthy arm."""
     time_unit = get_time_unit(comparison)
-    columns = [Header("law", "while healthy")]
+    columns = [Header("law", "law")]
     for measure, unit, text in (
-        ("deviation", "m", "off the line, m"),
+        ("deviation", "m", "from the line, m"),
         ("angle", "deg", "angle, deg"),
         ("time", "", f"time, {time_unit}"),
     ):
         suffix = f"_{unit}" if unit else ""
-        columns += [Header(f"{measure}_50{suffix}", f"{text}: median"), Header(f"{measure}_95{suffix}", "95 %")]
+        columns += [Header(f"{measure}_50{suffix}", f"{text}: median"), Header(f"{measure}_95{suffix}", "95 % quantile")]
     rows = [[row[column.key] for column in columns] for row in costs]
     return TableSpec(
-        "Distance from the straight line, largest angle to the command, and time of the motions that converge with every law "
-        "while nothing has failed",
+        "Cost while the arm is healthy, over the motions that converge with every law: distance from the straight line, "
+        "largest angle to the command, and time to the target",
         columns,
         rows,
     )
@@ -169,7 +170,7 @@ def tabulate_healthy_costs(comparison: LawComparison) -> list[dict[str, Any]]:
 
 
 def tabulate_runs(comparison: LawComparison) -> list[dict[str, Any]]:
-    """Return the end of the run for each law, failure and motion."""
+    """Return the outcome of the run for each law, failure and motion."""
     table_rows: list[dict[str, Any]] = []
     for case in (comparison.case(name, failure) for name in comparison.names for failure in comparison.failures):
         for motion in range(len(comparison)):

@@ -27,7 +27,7 @@ save = partial(renderers.save, dpi=130)
 _END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
 _ENDING_LABELS = (
     "converges",
-    "not there, target in reach",
+    "not reached, target in reach",
     "stuck, target out of reach",
     "keeps moving, target out of reach",
     "undecided, target out of reach",
@@ -74,13 +74,15 @@ def present(result: ConvergenceMap) -> Presentation:
     if motions:
         answer, facts, lines = _compose_answer(result)
     else:
-        answer = f"No configuration was found at any of the {places}, so no motion was made; choose places within reach."
+        answer = (
+            f"No configuration was found at any of the {places}, so no motion was simulated; choose {result.over} within reach."
+        )
         facts, lines = [], []
-    undecided = [f"{count} {reason.replace('_', ' ')}" for reason, count in result.count_undecided().items() if count]
+    undecided = [f"{count} ({reason.replace('_', ' ')})" for reason, count in result.count_undecided().items() if count]
     if undecided:
         lines.append(f"Undecided runs: {', '.join(undecided)}.")
     return Presentation(
-        f"{title} after a lock that its controller does not know of",
+        f"{title} after an undetected lock",
         answer,
         about=about,
         lines=lines,
@@ -94,7 +96,7 @@ def present(result: ConvergenceMap) -> Presentation:
 
 
 def _compose_answer(result: ConvergenceMap) -> tuple[str, list[Fact], list[str]]:
-    """Compose the answer, its facts, and the sentences after it."""
+    """Compose the answer, its facts, and the sentences that follow it."""
     converged, trapped = result.shares("converged"), result.shares("trapped")
     *joints, healthy = converged
     values = np.array([converged[name].value for name in joints])
@@ -107,37 +109,37 @@ def _compose_answer(result: ConvergenceMap) -> tuple[str, list[Fact], list[str]]
         }
         ending = max(fractions, key=lambda outcome: fractions[outcome])
         answer = (
-            f"No motion reaches its target once a joint has locked: {format_percent(fractions[ending])} of them "
+            f"After an undetected lock, no motion reaches its target; {format_percent(fractions[ending])} of them "
             f"{_END_PHRASES[ending]}"
         )
     else:
-        answer = f"Once a joint has locked and nobody knows, {format_percent(mean_success)} of the motions reach their target"
+        answer = f"After an undetected lock, {format_percent(mean_success)} of the motions reach their target"
         answer += (
-            f"; a lock of {worst_joint} leaves the least, {_format_fraction(float(values.min()))}"
+            f" on average over the joints; after a lock of {worst_joint}, the worst, {_format_fraction(float(values.min()))} do"
             if np.ptp(values)
-            else " whichever joint it is"
+            else ", whichever joint locks"
         )
-    answer += f". With no joint locked {_format_fraction(converged[healthy].value)} do."
-    phrase = "of the motions reach their target, mean over the joint that locks"
+    answer += f". With no joint locked, {_format_fraction(converged[healthy].value)} do."
+    phrase = "of the motions reach their target after a lock, on average over the joints"
     facts = [Fact("", mean_success, phrase=phrase, style="percent")]
     if np.ptp(values):
-        phrase = f"once {worst_joint} has locked, the worst of them; {format_range(converged[worst_joint])}"
+        phrase = f"after a lock of {worst_joint}, the worst; {format_range(converged[worst_joint])}"
         facts.append(Fact("", converged[worst_joint].value, phrase=phrase, style="percent"))
     facts.append(Fact("", converged[healthy].value, phrase="with no joint locked", style="percent"))
     if result.touched is not None:
         touched = result.shares("touched")
         touched_mean = float(np.mean([touched[name].value for name in joints]))
         answer += (
-            f" On the way {format_percent(touched_mean) if touched_mean else 'none'} of those with a joint locked touch "
-            "something."
+            f" {f'At most {format_percent(touched_mean)}' if touched_mean else 'None'} of the motions with a joint locked "
+            "touch something on the way."
         )
-        phrase = "of the motions touch something on the way at most, mean over the joint that locks, and a real arm would stop"
+        phrase = "of the motions with a joint locked, at most, touch something; a real arm would stop there"
         facts.append(Fact("", touched_mean, phrase=phrase, style="percent"))
     lines = []
     if trapped_mean:
         lines.append(
-            f"{format_percent(trapped_mean)} of the motions with a joint locked do not get there although the target is still "
-            "in reach."
+            f"{format_percent(trapped_mean)} of the motions with a joint locked do not reach their target although it is still "
+            "within reach."
         )
     return answer, facts, lines
 
@@ -155,14 +157,14 @@ def list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
             "Motions",
             (
                 f"{motions:,} between {places:,} of {format_count(len(result.places), result.over[:-1])} and their "
-                f"counterparts, each with every joint locked and with none"
+                f"counterparts, each simulated with every single joint locked and with none"
             ),
         ),
         (
             "Target within reach",
-            "the arm reached it, or a configuration within the limits was found with the joint locked as it is",
+            "the arm reached it, or a search found a configuration within the limits with the joint locked at its value",
         ),
-        ("Intervals", "95 %; the unit is the place, whose motions resemble each other"),
+        ("Intervals", f"95 %; sampled by {result.over}, because the motions of one resemble each other"),
         *(
             []
             if result.clearance is None
@@ -173,10 +175,10 @@ def list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
 
 
 def _tabulate_outcomes(result: ConvergenceMap) -> TableSpec:
-    """Tabulate how the motions end with each joint locked."""
+    """Tabulate the outcomes of the motions for each locked joint."""
     columns = [Header("locked", "locked"), Header("converged", "converged", style="percent")]
     columns += [Header(outcome, outcome, style="percent") for outcome in ("stuck", "moving", "undecided")]
-    columns.append(Header("trapped", "not there, in reach", style="percent"))
+    columns.append(Header("trapped", "in reach, not reached", style="percent"))
     columns += [] if result.touched is None else [Header("touched", "touch something", style="percent")]
     shares = [result.shares(column.key) for column in columns[1:]]
     rows = [(name, shares[0][name], *(share[name].value for share in shares[1:])) for name in result.columns]
@@ -191,7 +193,7 @@ def _write_csv(result: ConvergenceMap, path: Path) -> None:
 
 
 def draw_map_outcomes(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
-    """Draw how the motions ended, with a bar for each locked joint and each map."""
+    """Draw the outcomes of the motions as one bar for each locked joint and each map."""
     from holdfast.interface.report.outcomes import stack_figure
 
     stacks = [_build_outcome_stack(title, convergence_map) for title, convergence_map in zip(titles, maps, strict=True)]
@@ -219,7 +221,7 @@ def _build_outcome_stack(title: str, result: ConvergenceMap) -> Stack:
 
 def _list_figures(result: ConvergenceMap) -> dict[str, FigureSpec]:
     """List ``outcomes``, bars for each joint, and ``map-top`` and ``map-side``, or ``map`` for a planar task."""
-    percentages = {"converges": 100 * result.values("converged"), "not there, in reach": 100 * result.values("trapped")}
+    percentages = {"converges": 100 * result.values("converged"), "in reach, not reached": 100 * result.values("trapped")}
     percentages |= {} if result.touched is None else {"touches something": 100 * result.values("touched")}
     percentages = {name: values[:, :-1] for name, values in percentages.items()}
     target = result.target[result.has_configuration][:, :3, 3]
@@ -230,14 +232,14 @@ def _list_figures(result: ConvergenceMap) -> dict[str, FigureSpec]:
         percentages,
         result.columns[:-1],
         "of the motions, percent",
-        f"{_compose_caption(result)}\nwhere the {result.over} are",
+        f"{_compose_caption(result)}\npositions of the {result.over}",
         target[0] if has_one_target else None,
     )
-    bars_caption = "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals."
-    map_caption = f"The {result.over} by what becomes of their motions, joint by joint."
+    bars_caption = "One bar for each joint that is locked from the start, and one for no lock. Lines are 95 % intervals."
+    map_caption = f"Outcomes of the motions at the positions of the {result.over}, for each locked joint."
     return {
         "outcomes": FigureSpec(partial(draw_map_outcomes, [result]), "How the motions end", bars_caption),
-        **{f"map{view}": FigureSpec(draw_view, "Where", map_caption) for view, draw_view in maps.items()},
+        **{f"map{view}": FigureSpec(draw_view, "Outcomes by position", map_caption) for view, draw_view in maps.items()},
     }
 
 
@@ -251,7 +253,7 @@ def _compose_caption(result: ConvergenceMap, laws: int = 1) -> str:
 
 
 def _compute_unreachable_fractions(result: ConvergenceMap, outcome: str) -> FloatArray:
-    """Compute the fraction (n + 1,) of runs with this outcome and the target out of reach, every place alike."""
+    """Compute the fraction (n + 1,) of runs with this outcome and the target out of reach, as the mean over the places."""
     has_motions = result.has_configuration.any(axis=1)
     runs = (result.has_outcome(outcome) & ~result.in_reach)[has_motions].sum(axis=1)
     return np.asarray((runs / result.has_configuration[has_motions].sum(axis=1)[:, None]).mean(axis=0))

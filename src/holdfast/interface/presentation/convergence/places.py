@@ -37,9 +37,9 @@ def prepare_place_maps(
     """Prepare a figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and
     y.
 
-    ``percentages`` are by title, (P, C) percentages, NaN where there are none; ``column_titles`` (C,) titles;
-    ``colorbar_label`` is of the colour bar; ``target`` (3,) a target to show. Places in a plane that do not form a lattice are
-    averaged in square cells if ``average_cells``, as those of spatial arms always are; else each is a dot.
+    ``percentages`` maps titles to arrays (P, C) of percentages, NaN where there is no value; ``column_titles`` are the C titles
+    of the columns; ``target`` (3,) is a target to mark, m. Places in a plane that do not form a lattice are averaged in square
+    cells if ``average_cells``, otherwise each is a dot. Places of spatial tasks are always averaged.
     """
     views = {"": None} if is_planar_position(task) else _VIEW_AXES
 
@@ -60,7 +60,7 @@ def prepare_place_maps(
             first_plane = next(iter(binned_values.values()))[0]
             plane = replace(first_plane, labels=view.names, mark=target_point, mark_label="target")
             shown_values = {title: values for title, (_, values) in binned_values.items()}
-            remark = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
+            remark = "\nmean over the positions in a cell" + ("" if axes is None else ", at any depth")
         return place_maps(plane, shown_values, column_titles, label=colorbar_label, caption=caption + remark)
 
     return {name: partial(draw, name) for name in views}

@@ -1,4 +1,4 @@
-"""Cells and facts about how often laws reach their targets."""
+"""Table cells and facts about the success rates of control laws."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ def format_points(difference: Difference) -> str:
 
 def format_range(interval: Interval) -> str:
     """Format the ends of the interval of a fraction, with the confidence."""
-    return f"{format_percent(interval.low)} to {format_percent(interval.high)}, {100 * interval.confidence:.4g} %"
+    return f"{100 * interval.confidence:.4g} % interval {format_percent(interval.low)} to {format_percent(interval.high)}"
 
 
 def rank_successes(shares: Mapping[str, Interval]) -> list[Fact]:
-    """Return facts about how often the first laws of a ranking reach the target."""
+    """Return facts about the success rates of the first laws of a ranking."""
     return [
         Fact("", share.value, phrase=f"of the motions reach the target with {name}; {format_range(share)}", style="percent")
         for name, share in list(shares.items())[:4]

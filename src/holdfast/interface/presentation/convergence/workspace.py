@@ -21,14 +21,14 @@ from holdfast.interface.presentation.convergence.places import prepare_place_map
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 _METHOD_TEXTS = {
-    "brute": "all failures simulated, from configurations equally far apart along the self-motion",
-    "procedure": "simulated only where a sink exists; elsewhere the arm is taken to reach the target",
+    "brute": "all failures simulated, from configurations equally spaced along the self-motion",
+    "procedure": "simulated only where a sink exists; elsewhere the arm is assumed to reach the target",
     "sampled": "random configurations, all failures simulated",
 }
 _MEASURE_DEFINITIONS = (
-    "R: part of the way on which the joint may lock and the target stays within reach; F: part of that from which the failed "
-    "arm reaches it. 100: fraction of the configurations for which that is all of the way; avg: mean; sens: greatest minus "
-    "least"
+    "R: fraction of the path on which the joint may lock with the target still within reach. F: fraction of that part from "
+    "which the failed arm reaches the target. 100: fraction of the configurations with R or F of 100 %. avg: mean over the "
+    "configurations. sens: greatest minus least value"
 )
 
 
@@ -66,7 +66,7 @@ def to_dict(analysis: Workspace | TargetMeasures) -> dict[str, Any]:
 
 
 def save(analysis: Workspace | TargetMeasures, folder: Path, command: str = "") -> list[Path]:
-    """Save the figures, the values of each place, and the report."""
+    """Save the figures, the values at each start or target, and the report."""
     prefix = "targets-" if isinstance(analysis, TargetMeasures) else ""
     return renderers.save(analysis, folder, command, prefix, 130)
 
@@ -77,11 +77,11 @@ def present(analysis: Workspace | TargetMeasures) -> Presentation:
     if isinstance(analysis, TargetMeasures):
         target_count, start_count = format_count(len(analysis.targets), "target"), format_count(len(analysis.starts), "start")
         within = int(np.isfinite(analysis.measures["Ravg"][:, -1]).sum())
-        fallback = f"None of the {target_count} is within reach of motions from {start_count}; choose others."
+        fallback = f"None of the {target_count} is within reach of motions from {start_count}; choose other targets."
         end_counts = zip(FAILURE_END_TEXTS, analysis.ends.sum(axis=0).tolist(), strict=True)
         answer, facts = _compose_answer(analysis, fallback)
         return Presentation(
-            f"Which targets of {arm.name} an unnoticed lock puts at risk",
+            f"Targets of {arm.name} that an undetected lock puts at risk",
             answer + _name_extreme_targets(analysis),
             about=f"{law_text} on {arm.title}: {within} of {target_count} within reach of motions from {start_count}",
             lines=[f"Failures: {', '.join(f'{count} {phrase}' for phrase, count in end_counts)}."],
@@ -92,10 +92,13 @@ def present(analysis: Workspace | TargetMeasures) -> Presentation:
                 ("Law", law_text),
                 (
                     "Motions",
-                    f"to {target_count} from {start_count}, the same for all; {int(analysis.configurations.sum()):,} of them",
+                    f"to {target_count} from the same {start_count}; {int(analysis.configurations.sum()):,} motions",
                 ),
                 ("Measures", _MEASURE_DEFINITIONS),
-                ("Source", "measures: Goel, Maciejewski, Balakrishnan 2005; over targets ours"),
+                (
+                    "Source",
+                    "measures: Goel, Maciejewski, Balakrishnan 2005; their means over targets are an extension of holdfast",
+                ),
             ],
             arm=arm,
             exports={
@@ -142,8 +145,8 @@ def _name_extreme_targets(measures: TargetMeasures) -> str:
         for index in (int(np.nanargmin(target_means)), int(np.nanargmax(target_means)))
     )
     return (
-        f" The target at {worst_text} is most at risk ({format_percent(lowest / 100)} of the way), that at {best_text} least "
-        f"({format_percent(highest / 100)})."
+        f" The target at {worst_text} is most at risk (within reach on {format_percent(lowest / 100)} of the way), the target "
+        f"at {best_text} least ({format_percent(highest / 100)})."
     )
 
 
@@ -155,21 +158,19 @@ def _describe_failures(workspace: Workspace) -> list[str]:
         fraction_text = f" ({100 * workspace.undecided_fraction:.2f} %)" if workspace.simulated_count else ""
         lines.append(
             f"{workspace.simulated_count} failures simulated: {end_text}, {end_counts['undecided'] + end_counts['arriving']} "
-            f"undecided at the time limit{fraction_text}, of which {end_counts['arriving']} next to a solution that attracts, "
-            "counted as converged."
+            f"undecided at the time limit{fraction_text}. Of the undecided runs, {end_counts['arriving']} are next to a stable "
+            "solution and count as converged."
         )
     if workspace.method == "procedure":
         lines.append(
-            f"{end_counts['no_sink']} more were not simulated ({100 * workspace.skipped_fraction:.2f} %): the joint locked "
-            "away from every sink, which makes convergence very likely but does not prove it."
+            f"{end_counts['no_sink']} more failures were not simulated ({100 * workspace.skipped_fraction:.2f} %) because no "
+            "sink was found at the locked value, which makes convergence very likely but does not prove it."
         )
     return lines
 
 
 def _compose_answer(analysis: Workspace | TargetMeasures, fallback: str) -> tuple[str, list[Fact]]:
-    """Compose the answer and its facts: the part of the path with the target within reach for any lock, and how often it is
-    reached.
-    """
+    """Compose the answer and its facts: the part of the path with the target within reach, and how often it is reached."""
     means, joints = analysis.means(), analysis.law.arm.joint_names
     reach, finish = means["Ravg"] / 100, means["Favg"][:-1] / 100
     if np.isnan(reach[-1]):
@@ -179,28 +180,28 @@ def _compose_answer(analysis: Workspace | TargetMeasures, fallback: str) -> tupl
     facts = [Fact("", reach[-1], phrase=phrase, style="percent")]
     if reach[-1]:
         text = (
-            f"Whichever joint locks, the target stays within reach on {format_percent(reach[-1])} of the way, mean over all "
-            "motions"
+            f"On {format_percent(reach[-1])} of the way (mean over all motions), the target stays within reach whichever joint "
+            "locks"
         )
     else:
-        text = "There is no part of the way on which any joint may lock and the target stays within reach"
+        text = "On no part of the way does the target stay within reach whichever joint locks"
     if reach[worst] < reach[best]:
-        remainder = format_percent(reach[worst]) if reach[worst] else "nothing"
-        text += f"; a lock of {joints[worst]} takes most, it leaves {remainder}"
+        remainder = f"on {format_percent(reach[worst])} of the way" if reach[worst] else "nowhere"
+        text += f"; after a lock of {joints[worst]} alone, the worst joint, it is within reach {remainder}"
         facts += [
-            Fact("", reach[worst], phrase=f"if it is {joints[worst]}, the worst of them", style="percent"),
-            Fact("", reach[best], phrase=f"if it is {joints[best]}, the best of them", style="percent"),
+            Fact("", reach[worst], phrase=f"after a lock of {joints[worst]}, the worst joint", style="percent"),
+            Fact("", reach[best], phrase=f"after a lock of {joints[best]}, the best joint", style="percent"),
         ]
     if not analysis.ends.sum():
         return f"{text}. No failure was simulated.", facts
     if np.isfinite(finish).any():
         rarest, mean_finish = int(np.nanargmin(finish)), float(np.nanmean(finish))
-        phrases = {0.0: "never gets there after a failure", 1.0: "gets there after every failure that was tried"}
-        frequency = phrases.get(mean_finish, f"gets there after {format_percent(mean_finish)} of the failures")
-        text += f". Where it is within reach, the failed arm {frequency}"
+        phrases = {0.0: "never reaches it", 1.0: "reaches it after every failure that was tried"}
+        frequency = phrases.get(mean_finish, f"reaches it after {format_percent(mean_finish)} of the failures")
+        text += f". Where the target is within reach, the failed arm {frequency}"
         if mean_finish and finish[rarest] < np.nanmax(finish):
-            text += f", least often once {joints[rarest]} has locked ({format_percent(finish[rarest])})"
-        phrase = "of the failures that leave the target within reach do not keep the arm from it"
+            text += f", least often after a lock of {joints[rarest]} ({format_percent(finish[rarest])})"
+        phrase = "of the failures that leave the target within reach end at the target"
         facts.append(Fact("", mean_finish, phrase=phrase, style="percent"))
     return f"{text}.", facts
 
@@ -215,7 +216,9 @@ def _tabulate_means(analysis: Workspace | TargetMeasures, place_noun: str, with_
         else values
         for measure, values in means.items()
     ]
-    title = f"mean over {place_noun}, percent{' (and 95 % interval)' * with_intervals}"
+    title = (
+        f"Means over {place_noun}, percent{' (with 95 % intervals)' * with_intervals}; R: target within reach, F: then reached"
+    )
     return TableSpec(title, columns, list(zip((*analysis.law.arm.joint_names, "any"), *cells, strict=True)))
 
 
@@ -233,7 +236,7 @@ def _build_workspace_tables(workspace: Workspace) -> list[TableSpec]:
         bound_rows.append([joint.name, arcs_text or "no value"])
     tables = [
         _tabulate_means(workspace, "the starts", sampled),
-        TableSpec("", [Header("joint", "joint"), Header("bounds", "target in reach with it at")], bound_rows),
+        TableSpec("", [Header("joint", "joint"), Header("bounds", "target within reach if locked at")], bound_rows),
     ]
     if sampled:
         names = ["R100", "F100"] if workspace.ends.sum() else ["R100"]
@@ -245,7 +248,7 @@ def _build_workspace_tables(workspace: Workspace) -> list[TableSpec]:
             ]
             for name in names
         ]
-        title = "where all configurations that were drawn do, an upper bound for all that there are"
+        title = "Starts at which every sampled configuration has the full measure, an upper bound for all configurations"
         tables.append(TableSpec(title, columns, list(zip(workspace.columns, *shares, strict=True))))
     return tables
 
@@ -253,15 +256,15 @@ def _build_workspace_tables(workspace: Workspace) -> list[TableSpec]:
 def _list_maps(analysis: Workspace | TargetMeasures, place_noun: str) -> dict[str, FigureSpec]:
     """List maps of R100, Ravg, Rsens and, if failures were simulated, of F100, Favg, Fsens: ``reach``, ``finish``.
 
-    For tasks that are not in a plane they are ``reach-top`` and ``reach-side``, seen along z and along y.
+    For spatial tasks the maps are ``reach-top`` and ``reach-side``, seen along z and along y.
     """
     law, columns = analysis.law, [*analysis.law.arm.joint_names, "any joint"]
     failures, target = "", None
     if isinstance(analysis, TargetMeasures):
         places = analysis.targets
         about = (
-            f"{law.arm.name}, {law.name}: each place is a target, its value the mean over {len(analysis.starts)} starts; grey: "
-            "no value"
+            f"{law.arm.name}, {law.name}: each position is a target, its value is the mean over {len(analysis.starts)} starts; "
+            "grey: no value"
         )
         if count := int(analysis.ends.sum()):
             failures = f"{count} failures"
@@ -277,21 +280,21 @@ def _list_maps(analysis: Workspace | TargetMeasures, place_noun: str) -> dict[st
                 "time limit"
             )
             if analysis.method == "procedure":
-                failures += f", {int(analysis.ends[:, -1].sum())} locked where no sink is"
+                failures += f", {int(analysis.ends[:, -1].sum())} not simulated (no sink at the locked value)"
     kinds = {
         "reach": (
             REACH_NAMES,
             "of the path, percent",
             "R: fraction of the path on which the joint may lock and the target stays in reach",
             "Where the target stays within reach",
-            f"R of each of the {place_noun}, for each joint that locks on the way and for any of them.",
+            f"R of the {place_noun}, for each joint that locks on the way and for any joint.",
         ),
         "finish": (
             FINISH_NAMES,
             "percent",
             f"F: fraction of that part from which the failed arm reaches the target; {failures}",
             "Where the failed arm reaches the target",
-            f"F of each of the {place_noun}: of the way on which the target stays within reach.",
+            f"F of the {place_noun}, for each joint that locks on the way and for any joint.",
         ),
     }
     figures: dict[str, FigureSpec] = {}

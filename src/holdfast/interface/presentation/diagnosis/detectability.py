@@ -1,4 +1,4 @@
-"""Presentation of the predicted detectability of locks, and of the evaluation of a record of a probing motion."""
+"""Presentation of the predicted detectability of locks, and of the evaluation of the log of a probing motion."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from holdfast.response.diagnosis.detectability.separation import LOG_LIKELIHOOD_
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MAX_NAME_LETTERS = 24  # letters of a name
-_MIN_VISIBLE_RATE = 1e-6  # of a unit rate
+_MAX_NAME_LETTERS = 24  # characters of a name
+_MIN_VISIBLE_RATE = 1e-6  # fraction of a unit rate
 _SEPARATION_CAPTION = (
-    "Two explanations of the tool's pose, in nats: how much more likely the true one becomes by this motion. Below 9.2, a "
-    "factor of 10,000, the two are not told apart; the colour ends at three times that. None: no joint is locked."
+    "Log-likelihood ratio: natural logarithm of how much more likely the true hypothesis makes the measured tool poses than "
+    "the other one. Below 9.2, a factor of 10,000, the motion does not distinguish the two. The colour scale ends at three "
+    "times that value. None: no joint is locked."
 )
 
 
@@ -60,22 +61,22 @@ def to_dict(result: Observability | ProbingMotion | Identification) -> dict[str,
 
 
 def present(result: Observability | ProbingMotion | Identification) -> Presentation:
-    """Present which locks the motion shows, or the locked joint that a record of it shows."""
+    """Present which locks the motion reveals, or the locked joint that a log of it reveals."""
     if isinstance(result, Identification):
         answer, *lines = _describe_identification(result)
         rows = [[name, "possible"] for name in result.remaining] + [[name, "not locked"] for name in result.cleared]
-        columns = [Header("joint", "locked joint"), Header("state", "after the record")]
-        return _compose("Which joint is locked", answer, lines, TableSpec("What the tool's pose says", columns, rows))
+        columns = [Header("joint", "locked joint"), Header("state", "after the log")]
+        return _compose("Identification of a locked joint", answer, lines, TableSpec("Hypotheses", columns, rows))
     is_probe = isinstance(result, ProbingMotion)
     answer, *lines = _describe_probe(result) if isinstance(result, ProbingMotion) else _describe_observability(result)
     return _compose(
-        "A self-motion that tells which joint is locked" if is_probe else "What a motion shows of locked joints",
+        "Self-motion that identifies a locked joint" if is_probe else "Locked joints that a motion reveals",
         answer,
         lines,
         _tabulate_joints(result),
         about=result.arm.title,
         figures={
-            "separation": FigureSpec(partial(_draw_separation, result), "Which locks can be told apart", _SEPARATION_CAPTION)
+            "separation": FigureSpec(partial(_draw_separation, result), "Separation of the hypotheses", _SEPARATION_CAPTION)
         },
         arm=result.arm,
     )
@@ -89,46 +90,49 @@ def _compose(title: str, answer: str, lines: list[str], table: TableSpec, **part
 def _describe_observability(result: Observability) -> list[str]:
     """Describe which locks the tool's pose and the joint signals detect, and which pairs are not separable."""
     shown = f"{result.arm.n - len(result.unseen)} of {result.arm.n} joints"
-    lines = [f"the tool's pose alone shows the lock of {shown} on this motion of {result.duration:.3g} s"]
-    lines += [f"not shown: {', '.join(result.unseen)}"] if result.unseen else []
-    lines += [f"locks of {first} and {second} cannot be told apart" for first, second in result.inseparable]
+    lines = [f"on this motion of {result.duration:.3g} s, the tool pose alone reveals a lock of {shown}"]
+    lines += [f"not revealed: {', '.join(result.unseen)}"] if result.unseen else []
+    lines += [f"locks of {first} and {second} cannot be distinguished" for first, second in result.inseparable]
     if result.delays is not None and result.strayed is not None:
         for name, delays, errors in zip(result.arm.joint_names, result.delays.T, result.strayed.T, strict=True):
             is_detected = np.isfinite(delays)
             if not is_detected.any():
-                lines.append(f"a lock of {name} would not be noticed by joint sensors or torques")
+                lines.append(f"joint sensors and torques do not detect a lock of {name}")
                 continue
             lines.append(
-                f"a lock of {name} is noticed after {1e3 * np.median(delays[is_detected]):.3g} ms, with the tool "
-                f"{1e3 * np.median(errors[is_detected]):.2g} mm off (medians; {is_detected.mean():.0%} of the times at which "
-                f"it may lock)"
+                f"a lock of {name} is detected after {1e3 * np.median(delays[is_detected]):.3g} ms, with a tool error of "
+                f"{1e3 * np.median(errors[is_detected]):.2g} mm (medians over the {is_detected.mean():.0%} of the lock times "
+                "at which it is detected)"
             )
     if result.alike:
-        lines.append(f"locked and free-swinging look alike, for gravity is small: {', '.join(result.alike)}")
+        lines.append(
+            "a lock cannot be distinguished from a free-swinging joint, because the gravity torque is small: "
+            f"{', '.join(result.alike)}"
+        )
     return lines
 
 
 def _describe_probe(result: ProbingMotion) -> list[str]:
-    """Describe which locks the motion can isolate, before anything moves."""
+    """Describe which locks the motion can identify, before the arm moves."""
     isolable = f": {', '.join(result.isolable)}" if result.isolable else ""
-    count = f"{len(result.isolable)} of {len(result.suspects)} suspects"
-    lines = [f"a self-motion of {result.t[-1]:.3g} s tells {count} apart{isolable}"]
+    count = f"{len(result.isolable)} of {len(result.suspects)} candidate joints"
+    lines = [f"a self-motion of {result.t[-1]:.3g} s can identify a lock of {count}{isolable}"]
     for name in result.untestable:
         is_invisible = result.visible[result.arm.joint_names.index(name)] < _MIN_VISIBLE_RATE
-        reason = ": no self-motion moves it here, and its lock is not tolerable here either" if is_invisible else ""
+        reason = ", because no self-motion moves it here; its lock is not tolerable here either" if is_invisible else ""
         lines.append(f"a lock of {name} cannot be tested{reason}")
-    lines += [f"locks of {first} and {second} cannot be told apart" for first, second in result.inseparable]
-    return [*lines, f"the tool stays within {1e3 * result.tool:.2g} mm of where it is while nothing is locked"]
+    lines += [f"locks of {first} and {second} cannot be distinguished" for first, second in result.inseparable]
+    return [*lines, f"if no joint is locked, the tool stays within {1e3 * result.tool:.2g} mm of its position"]
 
 
 def _describe_identification(result: Identification) -> list[str]:
     """Describe the locked joint, or the remaining hypotheses."""
-    decision_point = f"{result.time:.3g} s, with the tool {1e3 * result.displacement:.2g} mm from its rest"
+    decision_point = f"{result.time:.3g} s, with the tool {1e3 * result.displacement:.2g} mm from its initial position"
     if result.joint is not None:
-        return [f"{result.joint} is locked: decided after {decision_point}"]
+        return [f"{result.joint} is locked; decided after {decision_point}"]
     if result.remaining == ("none",):
-        return [f"none of the suspects is locked: decided after {decision_point}"]
-    lines = [f"not decided after {decision_point}: what remains possible is {', '.join(result.remaining)}"]
+        return [f"none of the candidate joints is locked; decided after {decision_point}"]
+    lines = [f"not decided after {decision_point}; the remaining hypotheses are {', '.join(result.remaining)}"]
     return lines + ([f"not locked: {', '.join(result.cleared)}"] if result.cleared else [])
 
 
@@ -137,17 +141,19 @@ def _tabulate_joints(result: Observability | ProbingMotion) -> TableSpec:
     distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.inseparable for name in locks}
     distinguishable |= dict.fromkeys(unseen, "no")
     nearest = [float(np.delete(row, row_index).min()) for row_index, row in enumerate(result.separation)][1:]
-    columns = [Header("joint", "joint"), Header("nats", "nats to the nearest", digits=3, aligned=False)]
-    columns.append(Header("apart", "told apart by the tool's pose"))
+    columns = [Header("joint", "joint"), Header("nats", "log-likelihood ratio", digits=3, aligned=False)]
+    columns.append(Header("apart", "distinguished by the tool pose"))
+    remark = f"with the log-likelihood ratio to the closest hypothesis, above {LOG_LIKELIHOOD_THRESHOLD:.2g} if distinguished"
     if not isinstance(result, ProbingMotion):
-        return TableSpec("Locks", columns, [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)])
-    columns.insert(1, Header("rate", "largest rate", digits=2, aligned=False))
+        rows = [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)]
+        return TableSpec(f"Locks, {remark}", columns, rows)
+    columns.insert(1, Header("rate", "largest rate in a unit self-motion", digits=2, aligned=False))
     rows = [[names[row], result.visible[row], nearest[row], distinguishable[names[row]]] for row in result.suspects]
-    return TableSpec("Suspects", columns, rows)
+    return TableSpec(f"Candidate joints, {remark}", columns, rows)
 
 
 def _draw_separation(result: Observability | ProbingMotion) -> Figure:
-    """Draw a square for each pair of explanations."""
+    """Draw a square for each pair of hypotheses."""
     from matplotlib.figure import Figure
 
     from holdfast.interface.report import figures as style
@@ -190,6 +196,6 @@ def _draw_separation(result: Observability | ProbingMotion) -> Figure:
         axes.set_yticks(np.arange(count) + 0.5, names)
         axes.invert_yaxis()
         axes.grid(visible=False)
-        axes.set(title="Locked joint against locked joint", xlim=(0, count))
-        figure.colorbar(mesh, ax=axes, label="nats")
+        axes.set(title="Separation of the hypotheses", xlim=(0, count))
+        figure.colorbar(mesh, ax=axes, label="log-likelihood ratio")
         return style.settle_layout(figure)

@@ -1,4 +1,4 @@
-"""Presentation of the diagnosis of a record: the fault, its evidence, and what was not watched."""
+"""Presentation of the diagnosis of a log: the fault, its evidence, and the signals that were not monitored."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 
 _KIND_PHRASES = {
     "locked": "is locked",
-    "standstill": "does not move: locked, or free-swinging and held by friction",
-    "limp": "swings free: its motor gives no torque",
-    "weak": "is weak",
-    "friction": "has more friction",
-    "sluggish": "moves against more than it should: its motor is weak, or it has more friction",
-    "sensor": "has a faulty sensor, or a clutch that slips",
+    "standstill": "does not move, so it is locked, or free-swinging and held by friction",
+    "limp": "swings freely, because its motor gives no torque",
+    "weak": "has lost part of its motor torque",
+    "friction": "has increased friction",
+    "sluggish": "needs more torque than the model predicts, so it has lost part of its motor torque or has increased friction",
+    "sensor": "has a faulty sensor or a slipping clutch",
     "unknown": "has a fault of an unknown kind",
 }
 _RESIDUALS_CAPTION = (
-    "Every residual in units of its bound, one line a joint. A line above 1 for longer than the test allows is an alarm: 10 ms "
-    "of torque, 20 ms of tracking, 50 ms of the tool, each at twice its bound."
+    "Residuals divided by their thresholds, one line per joint. A line that stays above 1 for too long raises an alarm; at "
+    "twice the threshold, after 10 ms of torque, 20 ms of tracking, or 50 ms of the tool pose."
 )
-_MAX_POINTS = 2000  # of a line: the largest of what lies between
+_MAX_POINTS = 2000  # points of a line; each is the largest value of its interval
 _MIN_PLOTTED_RATIO = 1e-2
 _PANEL_TITLES = {
-    "torque": "Torque that the model does not know",
-    "tracking": "Joint sensors behind their references",
-    "tool": "Measured tool beside that of the joints",
+    "torque": "Torque residuals",
+    "tracking": "Tracking errors of the joints",
+    "tool": "Measured tool pose, compared with that of the joint sensors",
 }
 
 
@@ -66,28 +66,28 @@ def present(diagnosis: Diagnosis) -> Presentation:
     lines = list(verdict.evidence)
     other_kinds = [kind for kind in verdict.candidates if kind != verdict.kind]
     if other_kinds:
-        lines.append(f"it may also be: {', '.join(other_kinds)}")
+        lines.append(f"other possible kinds: {', '.join(other_kinds)}")
     if diagnosis.inconclusive:
-        lines.append(f"these joints did not move enough to tell: {', '.join(diagnosis.inconclusive)}")
+        lines.append(f"these joints did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}")
     if diagnosis.gaps:
         unmonitored = sum(gap_end - gap_start for gap_start, gap_end in diagnosis.gaps)
-        lines.append(f"nothing was looked at for {unmonitored:.4g} s: there the record has no numbers of the joints")
+        lines.append(f"nothing was checked for {unmonitored:.4g} s, because there the log has no joint values")
     if diagnosis.unmonitored:
-        lines.append(f"not watched: {', '.join(diagnosis.unmonitored)}")
+        lines.append(f"not monitored: {', '.join(diagnosis.unmonitored)}")
     if diagnosis.beyond:
-        lines.append(f"faster than calibrated, so that an alarm proves little: {', '.join(diagnosis.beyond)}")
+        lines.append(f"faster than in the calibration, so that an alarm proves little: {', '.join(diagnosis.beyond)}")
     bounds = present_bounds(diagnosis.bounds)
-    lines += ["a record without an alarm does not prove that nothing is wrong", "this is no certified safety function"]
+    lines += ["a log without an alarm does not prove that the arm has no fault", "this is not a certified safety function"]
     return Presentation(
-        "Diagnosis of a record",
+        "Diagnosis of a log",
         _compose_answer(diagnosis),
-        about=f"{diagnosis.arm.title}, {diagnosis.log.duration:.4g} s at {diagnosis.log.rate:.4g} samples a second",
+        about=f"{diagnosis.arm.title}, {diagnosis.log.duration:.4g} s at {diagnosis.log.rate:.4g} Hz",
         lines=[f"{capitalise_first(line)}." for line in lines],
         tables=[_tabulate_joints(diagnosis)],
         figures={
-            "residuals": FigureSpec(partial(_draw_residuals, diagnosis), "Residuals and their bounds", _RESIDUALS_CAPTION)
+            "residuals": FigureSpec(partial(_draw_residuals, diagnosis), "Residuals and their thresholds", _RESIDUALS_CAPTION)
         },
-        method=[("Bounds", " ".join((bounds.answer, *bounds.lines)))],
+        method=[("Thresholds", " ".join((bounds.answer, *bounds.lines)))],
         arm=diagnosis.arm,
     )
 
@@ -95,15 +95,15 @@ def present(diagnosis: Diagnosis) -> Presentation:
 def _compose_answer(diagnosis: Diagnosis) -> str:
     verdict = diagnosis.verdict
     if not verdict.alarm:
-        return f"No fault seen in {diagnosis.log.duration:.4g} s."
+        return f"No fault was detected in {diagnosis.log.duration:.4g} s."
     if verdict.kind == "contact":
-        blame_text = "; no joint is to blame"
+        blame_text = "; no joint was found faulty"
         if verdict.suspect:
-            blame_text = f", or {verdict.suspect} has a fault: it alone is above its bound"
-        return f"Alarm at {format_seconds(verdict.time)}: something pushed the arm{blame_text}."
+            blame_text = f", or {verdict.suspect} is faulty, because only its residual exceeds its threshold"
+        return f"Alarm at {format_seconds(verdict.time)}: an external force acted on the arm{blame_text}."
     loss_text = f" (it gives {1 - verdict.loss:.0%} of its torque, ± {verdict.uncertainty:.0%})"
     return (
-        f"Alarm at {format_seconds(verdict.time)}: {verdict.joint or 'a joint that is not known'} "
+        f"Alarm at {format_seconds(verdict.time)}: {verdict.joint or 'an unidentified joint'} "
         f"{_KIND_PHRASES[verdict.kind]}{loss_text if verdict.kind == 'weak' else ''}."
     )
 
@@ -115,7 +115,7 @@ def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
             name,
             float(np.fmax.reduce(scaled.torque[:, joint])) if has_torque else "-",
             float(np.fmax.reduce(scaled.tracking[:, joint])),
-            "too little to tell" if name in diagnosis.inconclusive else "yes",
+            "no" if name in diagnosis.inconclusive else "yes",
         ]
         for joint, name in enumerate(diagnosis.arm.joint_names)
     ]
@@ -123,9 +123,9 @@ def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
         Header("joint", "joint"),
         Header("torque", "residual torque", digits=3, aligned=False),
         Header("tracking", "tracking", digits=3, aligned=False),
-        Header("moved", "moved"),
+        Header("moved", "moved enough"),
     ]
-    return TableSpec("Largest, in units of the bounds", columns, rows)
+    return TableSpec("Largest residuals, divided by their thresholds", columns, rows)
 
 
 def _draw_residuals(diagnosis: Diagnosis) -> Figure:
@@ -155,7 +155,7 @@ def _draw_residuals(diagnosis: Diagnosis) -> Figure:
                     zorder=2 + is_blamed,
                 )
             for interval in diagnosis.gaps:
-                axes.axvspan(*interval, color=style.EMPTY_COLOR, linewidth=0, zorder=4)  # over the lines that lead across
+                axes.axvspan(*interval, color=style.EMPTY_COLOR, linewidth=0, zorder=4)  # above the lines that bridge the gap
             axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
             if verdict.alarm:
                 axes.axvline(verdict.time, color=style.INK, linewidth=1.0)
@@ -163,7 +163,7 @@ def _draw_residuals(diagnosis: Diagnosis) -> Figure:
                     axes.text(
                         verdict.time, 1.02, f" alarm, {verdict.time:.3f} s", transform=axes.get_xaxis_transform(), fontsize=8
                     )
-            axes.set(title=_PANEL_TITLES[name], ylabel="of the bound", yscale="log", ylim=(_MIN_PLOTTED_RATIO, None))
+            axes.set(title=_PANEL_TITLES[name], ylabel="residual / threshold", yscale="log", ylim=(_MIN_PLOTTED_RATIO, None))
             if verdict.joint is not None and name != "tool":
                 axes.legend(loc="lower left", fontsize=8)
         panels[-1].set(xlabel="time, s", xlim=(diagnosis.log.t[0], diagnosis.log.t[-1]))

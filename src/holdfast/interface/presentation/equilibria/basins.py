@@ -41,14 +41,14 @@ def present(basins: Basins) -> Presentation:
     lock_text = points_of.describe_locks(points)
     confidence_text = f"{100 * converged.confidence:.4g} %"
     if converged.value == 0:
-        reach_note = "" if (points.kind == Kind.SOLUTION).any() else ": it is out of reach"
+        reach_note = "" if (points.kind == Kind.SOLUTION).any() else ", which is out of reach"
         answer = (
-            f"With {lock_text} none of {start_count} reaches the target{reach_note} (at most "
-            f"{format_percent(converged.high)} would, {confidence_text})."
+            f"With {lock_text}, none of {start_count} reaches the target{reach_note} (upper end of the {confidence_text} "
+            f"interval: {format_percent(converged.high)})."
         )
     else:
         answer = (
-            f"With {lock_text} {format_percent(converged.value)} of {start_count} reach the target "
+            f"With {lock_text}, {format_percent(converged.value)} of {start_count} reach the target "
             f"({format_percent(converged.low)} to {format_percent(converged.high)}, {confidence_text})."
         )
     error_by_name = _target_errors(basins)
@@ -66,29 +66,29 @@ def present(basins: Basins) -> Presentation:
         phrase = f"of the starts reach the target; {format_percent(converged.low)} to {format_percent(converged.high)}"
         facts.insert(0, Fact("", converged.value, phrase=phrase, style="percent"))
     sampling_text = (
-        f"{basins.shape[0]} by {basins.shape[1]} cells" if basins.shape else "starts drawn uniformly within the limits"
+        f"a grid of {basins.shape[0]} by {basins.shape[1]}" if basins.shape else "sampled uniformly within the joint limits"
     )
     errors = dict(zip(map(basins.name, range(len(points))), points_of.format_target_errors(points).tolist(), strict=True))
-    columns = [Header("end", "ends at"), Header("fraction", "fraction of starts"), Header("error", "error")]
+    columns = [Header("end", "ends at"), Header("fraction", "fraction of starts"), Header("error", "distance from the target")]
     rows = [(name, fraction, errors.get(name, "")) for name, fraction in basins.shares]
     return Presentation(
         f"Starts from which {points.law.arm.name} still reaches its target",
         answer,
-        about=f"{points.law.arm.title}, {points.law.describe()}; {points.starts:,} starts looked for stationary points",
+        about=f"{points.law.arm.title}, {points.law.describe()}; stationary points from {points.starts:,} random starts",
         facts=facts,
-        tables=[TableSpec("Where the starts end", columns, rows)],
+        tables=[TableSpec("Outcomes of the starts", columns, rows)],
         figures={
             "basins": FigureSpec(
-                partial(_draw_basins, basins), "Where the starts end", f"{start_count}, by where each ends; {sampling_text}."
+                partial(_draw_basins, basins), "Basins of attraction", f"{start_count} by outcome; {sampling_text}."
             )
         },
         sections=partial(points_of.draw_stationary_arms, points),
         method=[
-            ("Starts", f"{start_count}: {sampling_text}; each is simulated until it stops or the time limit comes"),
+            ("Starts", f"{start_count}, {sampling_text}; each is simulated until it stops or reaches the time limit"),
             (
                 "Intervals",
-                f"{100 * converged.confidence:.4g} %, exact (Clopper-Pearson); of a grid those that as many random "
-                f"starts would have",
+                f"{100 * converged.confidence:.4g} %, exact (Clopper-Pearson); for a grid, computed as for the same number of "
+                "random starts",
             ),
             *points_of.list_methods(points),
         ],
@@ -101,15 +101,15 @@ def _is_target(basins: Basins, name: str) -> bool:
 
 
 def _outcome_phrase(name: str) -> str:
-    """Return the outcome of an initial configuration as words after the verb."""
-    return {"moving": "nowhere: they keep moving", "undecided": "undecided", "target": "at the target"}.get(
+    """Return the outcome of an initial configuration as a phrase after the verb end."""
+    return {"moving": "nowhere, because they keep moving", "undecided": "undecided", "target": "at the target"}.get(
         name, name if name.startswith("stuck") else f"at {name}"
     )
 
 
 def _target_errors(basins: Basins) -> dict[str, str]:
     return {
-        basins.name(point): f", {error} off it"
+        basins.name(point): f" ({error} from the target)"
         for point, error in enumerate(points_of.format_target_errors(basins.points))
         if basins.points.kind[point] != Kind.SOLUTION
     }

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def to_dict(curves: Curves) -> dict[str, Any]:
-    """Return the segments of the curves by kind, all at values of the locked joint, rad or m."""
+    """Return the segments of the curves by kind, with the values of the locked joint, rad or m."""
     arm = curves.law.arm
     return {
         **arm.entry(),
@@ -56,7 +56,7 @@ def to_dict(curves: Curves) -> dict[str, Any]:
 
 
 def present(curves: Curves) -> Presentation:
-    """Present the locked values at which the arm can stop off its target."""
+    """Present the locked values at which the arm can stop away from its target."""
     arm = curves.law.arm
     joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].display_unit
     arcs = [f"{factor * begin:.4g} to {factor * end:.4g}" for begin, end in curves.sink_arcs]
@@ -72,32 +72,32 @@ def present(curves: Curves) -> Presentation:
     if arcs:
         all_angles = curves.sink_arcs == [(-np.pi, np.pi)]
         answer = (
-            f"With {joint.name} locked at {'any value' if all_angles else f'{list_alternatives(arcs)} {unit}'} "
-            f"the arm can stop off its target, by up to {largest_error}."
+            f"With {joint.name} locked at {'any value' if all_angles else f'{list_alternatives(arcs)} {unit}'}, "
+            f"the arm can stop up to {largest_error} from its target."
         )
         if not all_angles:
-            answer += " At other values no sink was found."
+            answer += " At other values, no sink was found."
     elif curves.degenerate_angles or curves.loose.attracting.any():
         answer = (
-            f"No isolated sink was found at any value of {joint.name}, but whole curves or "
-            f"surfaces of stationary points, on which the arm can stop."
+            f"No isolated sink was found at any value of {joint.name}, but there are whole curves or surfaces of stationary "
+            "points on which the arm can stop."
         )
     else:
-        answer = f"No value of {joint.name} was found at which the arm stops off its target."
+        answer = f"No value of {joint.name} was found at which the arm stops away from its target."
     facts = [
         Fact("curves of stationary points", len(curves), phrase="curves of stationary points"),
-        Fact("random starts", curves.starts, phrase="random starts that looked for them"),
+        Fact("random starts", curves.starts, phrase="random starts of the search"),
     ]
     if arcs:
         sink_length = sum(end - begin for begin, end in curves.sink_arcs)
         whole_range = float(np.nan_to_num(joint.upper - joint.lower, posinf=np.inf)) if joint.prismatic else 2 * np.pi
-        facts.insert(0, Fact("", largest_error, phrase="off the target, at the farthest sinks"))
+        facts.insert(0, Fact("", largest_error, phrase="from the target, at the farthest sinks"))
         if np.isfinite(whole_range):
-            phrase = f"of {'the range' if joint.prismatic else 'a turn'} of {joint.name} has a sink"
+            phrase = f"of {'the range' if joint.prismatic else 'one revolution'} of {joint.name} has a sink"
             facts.insert(0, Fact("", min(sink_length / whole_range, 1.0), phrase=phrase, style="percent"))
-    caption = "Off the target: sinks hold the arm, saddles and sources do not. Shaded: the target is within reach."
+    caption = "The arm stops at sinks, but not at saddles or sources. In the shaded ranges, the target is within reach."
     return Presentation(
-        f"Where {arm.name} can stop, over the value at which {joint.name} locks",
+        f"Stationary points of {arm.name} over the value at which {joint.name} locks",
         answer,
         about=f"{arm.title}, {curves.law.describe()}",
         facts=facts,
@@ -107,10 +107,10 @@ def present(curves: Curves) -> Presentation:
         method=[
             (
                 "Search",
-                f"{curves.starts:,} random starts, each followed along its curve; curves that none converges to are missed",
+                f"{curves.starts:,} random starts, each followed along its curve; a curve that no start converges to is missed",
             ),
             ("Law", curves.law.describe()),
-            ("Not excluded", "limit cycles, and slow motion beside degenerate values"),
+            ("Not excluded", "limit cycles, and slow motion close to degenerate values"),
         ],
         arm=arm,
     )
@@ -131,7 +131,7 @@ def _compose_remarks(curves: Curves) -> list[str]:
             for lower, upper in merge_arcs([(angle - SAMPLE_RADIUS, angle + SAMPLE_RADIUS) for angle in angles], unit == "deg")
         )
         remarks.append(
-            f"{len(curves.loose)} samples of surfaces of stationary points, {int(attracting.sum())} attracting"
+            f"{len(curves.loose)} samples of surfaces of stationary points, of which {int(attracting.sum())} are attracting"
             f"{arcs and f', about {arcs} {unit}'}."
         )
     return remarks
@@ -149,8 +149,10 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
             spans = [values[segment.first : segment.last + 1] for values in errors]
             rows.append((index, f"{first:.3f} to {last:.3f}", segment.kind.word, *((s.min(), s.max()) for s in spans)))
     columns = [Header("curve", "curve"), Header("range", f"{arm.joint_names[curves.joint]}, {unit}"), Header("kind", "kind")]
-    columns += [Header(kind.key, f"{kind.text}, {kind.unit}, least to most", aligned=False) for kind in error_kinds(curves.law)]
-    return TableSpec("Parts of one kind", columns, rows)
+    columns += [
+        Header(kind.key, f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)
+    ]
+    return TableSpec("Segments of one kind", columns, rows)
 
 
 def _draw_curves(curves: Curves) -> Figure:

@@ -15,7 +15,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.report.curves import StationaryCurve, basin_fraction_figure, basin_map_figure, stationary_curves_figure
 from holdfast.model.arm.model import Arm
 
-# _REACH_CELLS and _SAMPLES_PER_CELL: of the locked value, to see where the target is within reach
+# Number of cells of the locked value, and of samples per cell, that show where the target is within reach
 _REACH_CELLS = 360
 _SAMPLES_PER_CELL = 16
 _MAX_SHOWN_JOINTS = 3
@@ -24,7 +24,8 @@ _MAX_SHOWN_JOINTS = 3
 def draw_curves(curves: Curves) -> Figure:
     """Draw curves of stationary points over the locked value: the error, and the other joints if they are few.
 
-    Where the target can be reached is shaded, found by inverse kinematics in steps of a degree (or a 360th of the range).
+    Ranges in which the target can be reached are shaded; inverse kinematics finds them in steps of 1 degree, or 1/360 of the
+    range of a prismatic joint.
     """
     arm, joint, system = curves.law.arm, curves.joint, curves._system
     other_joints = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MAX_SHOWN_JOINTS]
@@ -51,9 +52,9 @@ def draw_curves(curves: Curves) -> Figure:
     ]
     values, reached = _reachable_ranges(curves)
     caption = (
-        f"{arm.name}, {curves.law.name}; {arm.joint_names[joint]} locked, the controller does not know; "
+        f"{arm.name}, {curves.law.name}; undetected lock of {arm.joint_names[joint]}; "
         f"{len(curves)} curves from {curves.starts} starts"
-        + (f", dots: {len(surface_points)} points sampled of surfaces" if len(surface_points) else "")
+        + (f", dots: {len(surface_points)} points sampled from surfaces" if len(surface_points) else "")
     )
     return stationary_curves_figure(
         lines, point_lines, labels, _axis_label(arm, joint), (values[0], values[-1]), reached, caption

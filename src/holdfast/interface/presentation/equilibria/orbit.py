@@ -22,7 +22,7 @@ def present(orbit: Orbit) -> Presentation:
     columns = [
         Header("joint", "joint"),
         Header("amplitude", "range, rad (or m)", aligned=False),
-        Header("windings", "whole turns"),
+        Header("windings", "full revolutions"),
         Header("rate", "mean rate, rad/s (or m/s)", aligned=False),
     ]
     rows = zip(range(1, len(orbit.rates) + 1), orbit.amplitude, orbit.windings, orbit.rates, strict=True)

@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
     from holdfast.interface.report.page import Section
 
-ROWS_PER_KIND = 12  # points of a kind that are listed
-MAX_LISTED_EIGENVALUES = 3  # eigenvalues: of more only the ends of their range
-_MAX_DRAWN_ARMS = 3  # that are drawn off the target
+ROWS_PER_KIND = 12  # listed points of each kind
+MAX_LISTED_EIGENVALUES = 3  # more eigenvalues are listed as a range
+_MAX_DRAWN_ARMS = 3  # drawn arms away from the target
 _KIND_CAPTIONS = {
     Kind.SOLUTION: "configurations at the target",
-    Kind.SINK: "sinks: the arm stops there",
-    Kind.SADDLE: "saddles: hardly any start ends there",
-    Kind.SOURCE: "sources: no start ends there",
-    Kind.DEGENERATE: "points where the linearisation does not decide",
+    Kind.SINK: "sinks, at which the arm stops",
+    Kind.SADDLE: "saddles, at which hardly any start ends",
+    Kind.SOURCE: "sources, at which no start ends",
+    Kind.DEGENERATE: "degenerate points, whose stability the linearisation does not decide",
 }
 
 
@@ -57,7 +57,7 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
 
 
 def present(points: StationaryPoints) -> Presentation:
-    """Present whether the arm can stop at its target, off it, or nowhere."""
+    """Present whether the arm can stop at its target, away from it, or nowhere."""
     law, table = points.law, _tabulate_points(points)
     is_solution = points.kind == Kind.SOLUTION
     is_trap = ~is_solution & points.attracting
@@ -68,14 +68,14 @@ def present(points: StationaryPoints) -> Presentation:
         if (points.kind == kind).any()
     ]
     if errors.size:
-        phrase = "off the target, at the nearest point that holds the arm away from it"
+        phrase = "from the target, at the closest point at which the arm can stop away from it"
         facts.insert(0, Fact("", str(errors[0]), phrase=phrase))
     omitted_points = len(points) - len(table.rows)
     return Presentation(
-        f"Where {law.arm.name} can stop with a lock that its controller does not know of",
+        f"Stationary points of {law.arm.name} after an undetected lock",
         _compose_answer(points, is_solution, errors),
         about=f"{law.arm.title}, {law.describe()}; {points.starts:,} starts",
-        lines=[*_compose_remarks(points), *([f"{omitted_points} more points: --json has all."] if omitted_points else [])],
+        lines=[*_compose_remarks(points), *[f"{omitted_points} more points; --json prints all."] * bool(omitted_points)],
         facts=facts,
         tables=[table],
         sections=partial(draw_stationary_arms, points),
@@ -87,43 +87,41 @@ def present(points: StationaryPoints) -> Presentation:
 def list_methods(points: StationaryPoints) -> list[tuple[str, str]]:
     """List how the points were found and classified."""
     return [
-        ("Search", f"{points.starts:,} random starts; points that none of them converges to are missed"),
+        ("Search", f"{points.starts:,} random starts; a point that no start converges to is missed"),
         ("Kinds", "by the eigenvalues of the linearised motion of the healthy joints, in units of the gain Ke"),
         ("Law", points.law.describe()),
     ]
 
 
 def _compose_answer(points: StationaryPoints, is_solution: NDArray[np.bool_], errors: NDArray[np.str_]) -> str:
-    opening = f"With {describe_locks(points)} the target"
+    opening = f"With {describe_locks(points)}, the target"
     if not len(points):
-        return f"{opening} is not reached in any configuration found, and no point at which the arm stops was found either."
+        return f"{opening} is not reached in any configuration found, and no point was found at which the arm stops."
     elif not errors.size:
-        reached = "is within reach, and nothing else was found at which the arm can stop" if is_solution.any() else ""
-        answer = (
-            f"{opening} {reached or 'is out of reach, and no stationary point that attracts was found: the arm keeps moving'}."
-        )
+        if is_solution.any():
+            return f"{opening} is within reach, and no other point was found at which the arm can stop."
+        return f"{opening} is out of reach, and no attracting stationary point was found, so the arm keeps moving."
     else:
         smallest_error, largest_error = errors[[0, -1]]
-        trap_text = "a stationary point" if len(errors) == 1 else f"one of {len(errors)} stationary points that attract"
-        trap_text += (
-            f", {smallest_error} off it" if smallest_error == largest_error else f", {smallest_error} to {largest_error} off it"
-        )
+        trap_text = f"one {f'of {len(errors)} ' * (len(errors) > 1)}attracting stationary point{'s' * (len(errors) > 1)}"
+        trap_text += f", {smallest_error}{f' to {largest_error}' * (smallest_error != largest_error)} from it"
         reach_text = "within reach, but the arm can also stop at" if is_solution.any() else "out of reach, and the arm stops at"
         answer = f"{opening} is {reach_text} {trap_text}."
     return answer
 
 
 def _compose_remarks(points: StationaryPoints) -> list[str]:
-    """Compose sentences about joints that the task does not notice, and about points that are not isolated."""
+    """Compose sentences about joints that do not affect the task, and about points that are not isolated."""
     names = [points.law.arm.joint_names[joint] for joint in idle_joints(points.law) if joint not in points.locked]
-    remarks = [f"The task does not notice {', '.join(names)}, shown at 0."] if names else []
+    remarks = [f"These joints do not affect the task and are shown at 0: {', '.join(names)}."] if names else []
     for kind in Kind:
         is_continuum = (points.kind == kind) & points.continuum
         if is_continuum.any():
             attracting_count = int((is_continuum & points.attracting).sum())
             attracting_text = "" if kind == Kind.SOLUTION else f", {attracting_count} of them attracting"
             remarks.append(
-                f"{int(is_continuum.sum())} x {kind.word}, sampled from points that are not isolated{attracting_text}."
+                f"{int(is_continuum.sum())} points of kind {kind.word} are samples of sets of points that are not isolated"
+                f"{attracting_text}."
             )
     return remarks
 
@@ -144,7 +142,7 @@ def _tabulate_points(points: StationaryPoints) -> TableSpec:
         if (points.kind[:index] == points.kind[index]).sum() >= ROWS_PER_KIND:
             continue
         in_continuum = points.continuum[index]
-        notes = ["one of many"] * bool(in_continuum)
+        notes = ["not isolated"] * bool(in_continuum)
         notes += ["attracting"] * bool(in_continuum and points.error[index] > REACHED_ERROR and attracting[index])
         notes += ["beyond limits"] * bool(not points.within_limits[index])
         values = [joint.display_unit[0] * position for joint, position in zip(joints, points.q[index], strict=True)]
@@ -161,7 +159,7 @@ def describe_locks(points: StationaryPoints) -> str:
 
 
 def draw_stationary_arms(points: StationaryPoints) -> list[Section]:
-    """Draw the arm at its target, and at the first points that hold it away from there."""
+    """Draw the arm at its target, and at the first points at which it stops elsewhere."""
     from holdfast.interface.presentation.arm.view import build_view_section
 
     is_solution = points.kind == Kind.SOLUTION
@@ -173,12 +171,12 @@ def draw_stationary_arms(points: StationaryPoints) -> list[Section]:
     if not labels:
         return []
     section = build_view_section(
-        "The arm where it stops",
+        "The arm at its stationary points",
         points.law.arm,
         points.q[list(labels)],
-        f"Where it can stop: {', '.join(labels.values())}.",
+        f"Configurations at which the arm can stop: {', '.join(labels.values())}.",
         name="stops",
-        label="The arm where it can stop",
+        label="The arm at its stationary points",
         labels=list(labels.values()) if len(labels) > 1 else (),
         locked=points.locked,
         task=points.law.task,
@@ -189,7 +187,7 @@ def draw_stationary_arms(points: StationaryPoints) -> list[Section]:
 
 
 def format_target_errors(points: StationaryPoints) -> NDArray[np.str_]:
-    """Return the position and orientation errors of each point (P,) in words, as far as the task prescribes them."""
+    """Format the position and orientation errors of each point (P,), as far as the task prescribes them."""
     pairs = zip(points.position_error, points.angle_error, strict=True)
     return np.array([format_errors(points.law, position, angle) for position, angle in pairs], dtype=np.str_)
 

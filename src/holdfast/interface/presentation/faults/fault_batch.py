@@ -29,8 +29,8 @@ def present(batch: FaultBatch) -> Presentation:
         for sentence in [event.sentence() for event in events] or ["no fault"]
     ]
     fault_counts = [len(events) for events in batch.episodes]
-    episodes = f"{format_count(len(fault_counts), 'episode')}, seed {batch.seed}; {fault_counts.count(0)} without any"
-    omission = f"{batch.left_out} come after another of the same joint, and are not in the arrays."
+    episodes = f"{format_count(len(fault_counts), 'episode')} (seed {batch.seed}); {fault_counts.count(0)} without a fault"
+    omission = f"{batch.left_out} of the faults follow another fault of the same joint and are not in the arrays."
     return Presentation(
         "Sampled faults",
         f"{sum(fault_counts)} faults in {episodes}.",

@@ -1,4 +1,4 @@
-"""Presentation of an upper bound of the least singular value."""
+"""Presentation of an upper bound on the smallest singular value."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ def present(bound: SingularValueBound) -> Presentation:
         lengths = f"mean lever of the joints {bound.lever:.4g} {'in ' * bound.angular}{lever_unit}"
     reason = f"{bound.bound_by}, {BOUND_REASONS[bound.bound_by]}{', attained' if bound.jacobian is not None else ''}"
     return Presentation(
-        "Upper bound of the least singular value",
-        f"{bound.n} joints, a task of {count_rows(bound.m)}, {lengths}: when {failure_phrase(bound.k)}, no least singular "
-        f"value is above {bound.bound:.6g} ({reason}).",
+        "Upper bound on the smallest singular value",
+        f"With {bound.n} joints, a task of {count_rows(bound.m)} and {lengths}, the smallest singular value is at most "
+        f"{bound.bound:.6g} when {failure_phrase(bound.k)} ({reason}).",
         facts=[
             Fact("joints", bound.n, key="joints"),
             Fact("rows", bound.m, key="rows"),

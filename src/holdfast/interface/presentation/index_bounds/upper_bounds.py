@@ -1,4 +1,4 @@
-"""Presentation of an upper bound of relative manipulability, and of the table of the stored ones."""
+"""Presentation of an upper bound on relative manipulability, and of the table of stored bounds."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ def present(bounds: UpperBound | UpperBoundTable) -> Presentation:
     if isinstance(bounds, UpperBoundTable):
         attained_count = sum(bound.is_attained for bound in bounds.ceilings)
         answer = (
-            f"The ceiling is known for {attained_count} of {len(bounds.ceilings)} sizes; for the others the best known is "
-            "below the bound."
+            f"The maximum is known for {attained_count} of {len(bounds.ceilings)} sizes, where the bound is attained; for the "
+            "others, the best known value is below the bound."
         )
-        return Presentation("Upper bounds of relative manipulability", answer, tables=[_tabulate_bounds(bounds.ceilings)])
-    head = f"{bounds.n} joints, a task of {count_rows(bounds.m)}: when {failure_phrase(bounds.k)}"
+        return Presentation("Upper bounds on relative manipulability", answer, tables=[_tabulate_bounds(bounds.ceilings)])
+    head = f"With {bounds.n} joints and a task of {count_rows(bounds.m)}, when {failure_phrase(bounds.k)}"
     proof = " and ".join(f"{name}, {THEOREM_TEXTS[name]}" for name in bounds.bound_by.replace(" with ", " and ").split(" and "))
     if bounds.is_attained:
-        answer = f"{head}, the ceiling is {bounds.bound:.10g}: proved, and attained ({proof})."
+        answer = f"{head}, relative manipulability is at most {bounds.bound:.10g}: proved, and attained ({proof})."
     else:
-        answer = f"{head}, no arm keeps more than {bounds.bound:.6g} of its manipulability ({proof})."
+        answer = f"{head}, no arm keeps more than {bounds.bound:.6g} of its manipulability: proved ({proof})."
     lines = []
     if bounds.best_known is None:
-        lines.append("What can be attained is not stored for this size: search for it.")
+        lines.append("No best known value is stored for this size; search for one.")
     elif not bounds.is_attained:
         form = f" = {bounds.closed_form}" if bounds.closed_form else ""
         gap_text = format_percent(bounds.gap or 0.0)
-        lines.append(f"The best that is known is {bounds.best_known:.10g}{form}; the bound is {gap_text} above it.")
-    return Presentation("Upper bound of relative manipulability", answer, lines=lines, tables=[_tabulate_bounds([bounds])])
+        lines.append(f"The best known value is {bounds.best_known:.10g}{form}; the bound is {gap_text} above it.")
+    return Presentation("Upper bound on relative manipulability", answer, lines=lines, tables=[_tabulate_bounds([bounds])])
 
 
 def _tabulate_bounds(bounds: Sequence[UpperBound]) -> TableSpec:
@@ -49,10 +49,10 @@ def _tabulate_bounds(bounds: Sequence[UpperBound]) -> TableSpec:
         Header("rows", "rows"),
         Header("failures", "failures"),
         Header("bound", "bound", digits=6),
-        Header("bound_by", "by"),
+        Header("bound_by", "theorem"),
         Header("best_known", "best known", digits=6),
         Header("attained", "attained"),
-        Header("closed_form", "in roots"),
+        Header("closed_form", "closed form"),
         Header("gap", "gap", style="percent"),
     ]
     rows = [(b.n, b.m, b.k, b.bound, b.bound_by, b.best_known, b.is_attained, b.closed_form or None, b.gap) for b in bounds]

@@ -27,12 +27,14 @@ def present(configurations: Configurations) -> Presentation:
     joints = list(zip(arm.joint_names, arm.prismatic, strict=True))
     columns = [Header("number", ""), *[Header(name, f"{name}, {'m' if slides else 'deg'}") for name, slides in joints]]
     rows = [(index, *q) for index, q in enumerate(np.where(arm.prismatic, found.q, np.rad2deg(found.q)).tolist(), 1)]
-    open_phrase = f", {found.open:,} of them left, up to {2 * found.widest:.2g} wide" if found.open else ""
-    blocked_phrase = f", {found.blocked:,} of them blocked and left out" if found.blocked else ""
+    open_phrase = f", {found.open:,} of them undecided and up to {2 * found.widest:.2g} wide" if found.open else ""
+    blocked_phrase = f", {found.blocked:,} of them blocked and excluded" if found.blocked else ""
     return Presentation(
         f"All configurations of {arm.name} for one pose",
         f"{len(found.q)} configurations of '{arm.name}', task {found.task.name}: {found.finding.sentence}.",
-        lines=[f"{found.boxes:,} boxes of joints{blocked_phrase}{open_phrase}, {found.seconds:.2g} s."],
+        lines=[
+            f"The search examined {found.boxes:,} boxes of joint values{blocked_phrase}{open_phrase}, in {found.seconds:.2g} s."
+        ],
         facts=[] if rows else [Fact("finding", found.finding.sentence)],
         tables=[TableSpec("Configurations", columns, rows)] if rows else [],
         arm=arm,

@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 
 _MAP_BINS = 64
-_SAMPLES_PER_NODE = 8  # places in a piece between two nodes
+_SAMPLES_PER_NODE = 8  # samples between two nodes
 
 
 def draw_survival(survival: LockSurvival) -> Figure:
     """Draw the survival over time with that of other motions."""
     bound = survival.survival_bound
-    level = None if bound is None else (100 * bound, "no motion survives more, in the mean")
+    level = None if bound is None else (100 * bound, "no motion survives more on average")
     motion_name = "most locks survived" if survival.found is not None else "this motion"
     lines = {motion_name: 100 * survival.curve()} | {each.name: 100 * each.curve for each in survival.comparisons}
-    panel = TimePanel(survival.time, lines, "if a joint locks now, survived, %", "", reference_level=level)
+    panel = TimePanel(survival.time, lines, "survival if a joint locks now, %", "", reference_level=level)
     return motion_figure([panel], "", "time, s", panel_width=WIDTH_IN)
 
 
@@ -62,11 +62,11 @@ def draw_map(survival: LockSurvival) -> Figure:
     for pose_index in range(len(survival.time)):
         curve_values, survives = _sample_curves(search, pose_index, joint)
         bins = np.clip(np.searchsorted(edges, display_position(curve_values), side="right") - 1, 0, _MAP_BINS - 1)
-        order = np.argsort(survives @ lock_fractions, kind="stable")  # what is written last stays
+        order = np.argsort(survives @ lock_fractions, kind="stable")  # later writes replace earlier ones, so the best stays
         values[0, pose_index, bins[order]] = 100 * (survives @ lock_fractions)[order]
         values[1:, pose_index, bins[order]] = 100.0 * survives[order].T
     path = display_position(survival.q[:, joint])
-    path[1:][np.abs(np.diff(path)) > (upper - lower) / 2] = np.nan  # round by way of pi
+    path[1:][np.abs(np.diff(path)) > (upper - lower) / 2] = np.nan  # the angle wraps around at pi
     panels = [
         _StripPanel(values[0], "all locks"),
         *(_StripPanel(panel, f"lock of {name}") for panel, name in zip(values[1:], survival.arm.joint_names, strict=True)),
@@ -96,8 +96,8 @@ class _StripPanel:
     """Values over time and joint position.
 
     Attributes:
-        values: (T, B) in each of B bins, NaN where there is nothing.
-        title: One line.
+        values: Values (T, B), one for each time and bin; NaN where there is none.
+        title: Title of the map.
     """
 
     values: FloatArray
@@ -117,13 +117,13 @@ def _draw_strips(
     """Draw maps in a grid, on one scale.
 
     Args:
-        time: (T,) s.
-        edges: (B + 1,) of the bins.
+        time: Times (T,), s.
+        edges: Edges (B + 1,) of the bins, in the unit of ``ylabel``.
         panels: The maps.
-        path: (T,) where the motion is.
-        scale: Of the colours.
-        label: Of the colour bar.
-        ylabel: Of the places.
+        path: Positions (T,) of the joint on the motion, in the same unit.
+        scale: Color scale of all maps.
+        label: Label of the color bar.
+        ylabel: Label of the joint axis, with its unit.
     """
     column_count = min(4, len(panels))
     row_count = -(-len(panels) // column_count)

@@ -1,4 +1,4 @@
-"""Presentation of the lock survival of a motion: which locks it survives, and how many any motion could survive."""
+"""Presentation of the lock survival of a motion: the locks it survives, and an upper bound for every motion."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first, format_number, format_percent
+from holdfast.core.formatting import capitalise_first, format_count, format_number, format_percent
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.renderers import write_json
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _NEGLIGIBLE_SPEED_M_S = 1e-9  # m/s
 _SMALL_MOTION = 0.3  # rad and m along a whole curve
 _STANDSTILL_TOLERANCE = 1e-6  # rad and m along a whole curve
-_PROBABILITY_TOLERANCE = 1e-9  # of a probability: less is rounding
+_PROBABILITY_TOLERANCE = 1e-9  # smaller differences of probabilities are rounding
 _KIND_PREFIXES = {"exact": "", "upper bound": "at most ", "lower bound": "at least "}
 
 
@@ -92,13 +92,13 @@ def present(survival: LockSurvival) -> Presentation:
         Fact("locks survived", survival.survival, phrase=f"of the locks on the way are survived{bound}", style="percent"),
     ]
     if survival.survival_bound is not None:
-        phrase = "is the most that any motion could survive, up to the grid"
+        phrase = "is the most that any motion can survive, up to the grid"
         facts.append(Fact("no motion survives more than", survival.survival_bound, phrase=phrase, style="percent"))
     start = f"{format_number(survival.safe_from)} s"
     phrase = f"from then on every lock {verb} survived" if 0 < survival.safe_from < survival.time[-1] else ""
     facts += [
         Fact(f"every lock {verb} survived from", start, phrase=phrase),
-        Fact("at the worst instant", f"{prefix}{format_percent(worst_survival)}, at {format_number(worst_time)} s"),
+        Fact("survived at the worst instant", f"{prefix}{format_percent(worst_survival)}, at {format_number(worst_time)} s"),
         Fact("largest loss of tool velocity at a lock", f"{format_number(survival.jump.most_linear)} m/s"),
     ]
     figures = {
@@ -109,21 +109,21 @@ def present(survival: LockSurvival) -> Presentation:
         )
     }
     if survival.found is not None:
-        held = f" All of them hold {' and '.join(survival.found.held)}, as the motion does." if survival.found.held else ""
+        held = f" All of them keep {' and '.join(survival.found.held)} fixed, like the motion." if survival.found.held else ""
         figures["map"] = FigureSpec(
             partial(_draw, survival, "map"),
-            "Which locks are survivable where",
-            "Configurations found of every pose, by the joint that self-motion moves most; of several with the same value the "
-            "best. Line: the motion. First the part of all locks that is survivable there, then for each joint whether its "
-            f"lock is (yellow).{held}",
+            "Survivable locks by configuration",
+            "Configurations found for every pose, by the position of the joint that the self-motion moves most; where several "
+            "share a position, the best is shown. The line is the motion. The first map shows the fraction of all locks that "
+            f"is survivable, the others whether the lock of one joint is (yellow).{held}",
         )
     figures["jump"] = FigureSpec(
         partial(_draw, survival, "jump"),
-        "What a lock takes from the tool",
-        "Velocity of the tool point that is lost when a joint stops at once, for each joint.",
+        "Loss of tool velocity at a lock",
+        "Velocity that the tool point loses when a joint stops instantly, for each joint.",
     )
     return Presentation(
-        "Which locks a motion survives",
+        "Locks that a motion survives",
         _compose_answer(survival),
         about=f"{arm.title}, task {survival.task.name}, {survival.path.describe()}, "
         + ("without leaving the path" if survival.mode == "on-path" else "with detours"),
@@ -133,9 +133,9 @@ def present(survival: LockSurvival) -> Presentation:
         figures=figures,
         sections=partial(_build_sections, survival),
         method=[
-            ("Failure", "one joint locks, at a random time, and stays; later locks are not counted"),
+            ("Failure", "one joint locks at a random time and stays locked; later locks are not considered"),
             ("Mode", survival.mode),
-            *(("Kept before a lock and after it", str(constraint)) for constraint in survival.keep),
+            *(("Path constraint before and after a lock", str(constraint)) for constraint in survival.keep),
             ("Rates", "per second" if survival.rates.per_second else "relative"),
             ("Poses", f"{len(survival.time)}, evenly spaced in time"),
         ],
@@ -146,69 +146,71 @@ def present(survival: LockSurvival) -> Presentation:
 
 def _compose_answer(survival: LockSurvival) -> str:
     if survival.survives_all_locks:
-        return "Every lock of a joint, at any sample of the path, is survived."
-    text = f"{_KIND_PREFIXES[survival.kind]}{format_percent(survival.survival)} of all locks of a joint on the way are survived"
+        return "The motion survives a lock of any one joint at any sample of the path."
+    share = f"{_KIND_PREFIXES[survival.kind]}{format_percent(survival.survival)}"
+    text = f"The motion survives {share} of all single-joint locks on the way"
     if survival.survival_bound is not None:
         text += f"; no motion along this path survives more than {format_percent(survival.survival_bound)}"
     if survival.comparisons:
         best_baseline = max(survival.comparisons, key=lambda baseline: baseline.survival)
-        text += f"; of the other motions {best_baseline.name} survives most, {format_percent(best_baseline.survival)}"
-    return f"{capitalise_first(text)}."
+        text += f"; of the other motions, {best_baseline.name} survives most ({format_percent(best_baseline.survival)})"
+    return f"{text}."
 
 
 def _list_reasons(survival: LockSurvival) -> list[str]:
-    """List the kind of the bound, the constraints, the injected locks, and the joints that no motion can save."""
+    """List the kind of the bound, the constraints, the injected locks, and the joints whose lock no motion survives."""
     lines, conditions, redundancy = [], survival.conditions, survival.redundancy
     if survival.kind == "lower bound":
-        cone_text = ", or the axis that is kept in a cone and fewer joints" if conditions.left_to_arm else ""
+        cone_text = ", or the axis of the cone and fewer joints" if conditions.left_to_arm else ""
         lines.append(
-            "a lower bound: after a lock the failed arm has redundancy left, and of its ways on only those are followed "
-            f"that hold {redundancy - 1} more of its joints{cone_text}"
+            "this is a lower bound: after a lock the arm is still redundant, and the search considers only continuations that "
+            f"keep {format_count(redundancy - 1, 'further joint')} fixed{cone_text}"
             if survival.mode == "on-path"
-            else "a lower bound: of the poses to come only what inverse kinematics found with the joint locked counts"
+            else "this is a lower bound: of the later poses, only those that inverse kinematics reached with the lock count"
         )
     elif survival.found is not None:
         lower, upper = survival.found.interval
-        best = "none is found" if np.isnan(lower) else f"the best survives {format_percent(lower)}"
+        best = "no motion was found" if np.isnan(lower) else f"the best motion survives {format_percent(lower)}"
         lines.append(
-            f"the bound of every motion holds up to the grid of {len(survival.time)} poses and {survival.found.spacing:g} rad; "
-            f"over its nodes within the velocity limits {best}, with the spacing on top of them {format_percent(upper)}"
+            f"the bound for every motion holds up to the grid of {len(survival.time)} poses and {survival.found.spacing:g} "
+            f"rad; on its nodes, {best} within the velocity limits, and {format_percent(upper)} with one spacing added to them"
         )
     if survival.kept is not None and survival.kind != "lower bound":
-        lines.append("clearance is judged by shapes that cover the links; the arm is smaller and may survive more")
+        lines.append("clearance is computed with shapes that enclose the links; the real arm is smaller and may survive more")
     if survival.keep:
-        task_text = "" if conditions.left_to_arm else ", by the rows of the path alone"
-        lines.append(f"kept at every sample, before a lock and after it{task_text}: {'; '.join(map(str, survival.keep))}")
+        task_text = "" if conditions.left_to_arm else ", determined by the path alone"
+        lines.append(f"path constraints before and after a lock{task_text}: {'; '.join(map(str, survival.keep))}")
     if survival.injected is not None:
         interval = survival.injected.interval
         lines.append(
-            f"of {len(survival.injected.time)} locks injected at random times {format_percent(interval.value)} were survived "
-            f"({format_percent(interval.low)} to {format_percent(interval.high)}, 95 %), "
-            f"{format_percent(survival.injected.agreement)} of them as the motion says"
+            f"{format_percent(interval.value)} of {len(survival.injected.time)} locks injected at random times were survived "
+            f"({format_percent(interval.low)} to {format_percent(interval.high)}, 95 %); "
+            f"{format_percent(survival.injected.agreement)} of the outcomes agree with the prediction"
         )
     if survival.never is not None:
         time, name = survival.never
         lines.append(
-            f"no motion survives all: at {format_number(time, 4)} s no configuration survives every lock, least of all {name}'s"
+            f"no motion survives every lock: at {format_number(time, 4)} s no configuration does, and the fewest survive "
+            f"that of {name}"
         )
     lines += _explain_pose_limits(survival)
     if survival.speed > 1 + _PROBABILITY_TOLERANCE:
-        lines.append(f"the motion takes {survival.speed:.3g} times the velocity limit of a joint: slow the path down")
+        lines.append(f"the motion needs {survival.speed:.3g} times the velocity limit of a joint; slow the path down")
     if survival.loss_probability is not None:
-        lines.append(f"probability that a lock loses the path: {survival.loss_probability:.3g}")
+        lines.append(f"probability that a lock prevents the arm from finishing the path: {survival.loss_probability:.3g}")
     if survival.kind == "upper bound":
-        condition_text = "that keep what is kept" if survival.keep else "among obstacles"
-        lines.append(f"detours {condition_text} were not looked for: every probability is an upper bound")
+        condition_text = "with the path constraints" if survival.keep else "among obstacles"
+        lines.append(f"every probability is an upper bound, because detours {condition_text} were not searched")
     jump = survival.jump
     lines.append(
-        f"when a joint stops at once the tool loses at most {jump.most_linear:.3g} m/s and {jump.most_angular:.3g} rad/s, in "
-        f"the mean {jump.mean_linear:.3g} m/s and {jump.mean_angular:.3g} rad/s"
+        f"when a joint stops instantly, the tool loses at most {jump.most_linear:.3g} m/s and {jump.most_angular:.3g} rad/s, "
+        f"and on average {jump.mean_linear:.3g} m/s and {jump.mean_angular:.3g} rad/s"
     )
     return lines
 
 
 def _explain_pose_limits(survival: LockSurvival) -> list[str]:
-    """Explain why some locks are hardly survived by any motion, for full poses mostly that of an elbow."""
+    """Explain why hardly any motion survives some locks; for full poses this is mostly the lock of an elbow."""
     if survival.found is None or survival.kind == "lower bound":
         return []
     is_fixed = (survival.found.moved <= _SMALL_MOTION) & (survival.rates.each > 0) & ~survival.survives.all(axis=0)
@@ -217,8 +219,8 @@ def _explain_pose_limits(survival: LockSurvival) -> list[str]:
         joint, motion_range = survival.arm.joints[index], survival.found.moved[index]
         range_text = f" by more than {motion_range:.3g} {joint.unit}" if motion_range > _STANDSTILL_TOLERANCE else ""
         lines.append(
-            f"no self-motion moves {joint.name}{range_text}: the pose sets it (of an elbow between spherical shoulder and "
-            "wrist their distance does), so that its lock is survived only while that hardly changes"
+            f"no self-motion moves {joint.name}{range_text}, because the pose determines it (for an elbow between a spherical "
+            "shoulder and wrist, their distance does); its lock is survived only while this value hardly changes"
         )
     return lines
 
@@ -231,7 +233,7 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
         "Survival by joint",
         [
             Header("joint", "joint"),
-            Header("part", "part of all locks", style="percent"),
+            Header("part", "fraction of all locks", style="percent"),
             Header("survived", "of its locks survived", style="percent"),
             Header("loss", "largest loss of tool velocity"),
         ],
@@ -246,7 +248,7 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
         [
             Header("motion", "motion"),
             Header("survival", "locks survived", style="percent"),
-            Header("off", "off the path", style="percent"),
+            Header("off", "samples off the path", style="percent"),
         ],
         [
             [motion_name, survival.survival, 0.0],
@@ -257,7 +259,7 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
 
 
 def _format_largest(values: FloatArray, time: FloatArray) -> str:
-    """Format the largest of speeds (T,) with its time; 0 where it is rounding."""
+    """Format the largest of the speeds (T,) with its time; rounding errors become 0."""
     largest = float(values.max())
     if largest <= _NEGLIGIBLE_SPEED_M_S:
         return "0 m/s"

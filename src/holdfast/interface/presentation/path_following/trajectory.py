@@ -63,11 +63,11 @@ def present(trajectory: Trajectory) -> Presentation:
     """Present whether the end effector stays on its path, the objective along it, and the events."""
     objective, arm = trajectory.objective, trajectory.arm
     unit = "" if objective.unit in ("1", "mixed") else objective.unit
-    worst_text = f"worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}."
+    worst_text = f"The worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}."
     if trajectory.on_path:
-        answer = f"The end effector stays on its path, off it by {trajectory.tool_error}; the {worst_text}"
+        answer = f"The end effector stays on its path (largest error {trajectory.tool_error}). {worst_text}"
     else:
-        answer = f"The end effector leaves its path, by up to {trajectory.tool_error}. The {worst_text}"
+        answer = f"The end effector leaves its path by up to {trajectory.tool_error}. {worst_text}"
     lines, tables = [], [_tabulate_values(trajectory, unit)]
     if trajectory.clearance is not None and trajectory.nearest is not None:
         sample, pair = trajectory.nearest
@@ -79,7 +79,7 @@ def present(trajectory: Trajectory) -> Presentation:
         tables.append(_tabulate_slowness(trajectory, slowness))
     if trajectory.events:
         columns = [
-            Header("kind", "what"),
+            Header("kind", "event"),
             Header("start_s", "from, s", aligned=False),
             Header("end_s", "to, s", aligned=False),
             Header("text", ""),
@@ -87,9 +87,9 @@ def present(trajectory: Trajectory) -> Presentation:
         events = [
             (event.kind, event.start, event.end, capitalise_first(event.text.split(": ", 1)[1])) for event in trajectory.events
         ]
-        tables.append(TableSpec("What happened", columns, events))
+        tables.append(TableSpec("Events", columns, events))
     else:
-        lines.append("Nothing happened on the way: no algorithmic singularity, no joint at a limit, no outlying rate.")
+        lines.append("No events on the way: no algorithmic singularity, no joint at a limit, no unusually high joint rate.")
     return Presentation(
         f"Motion of {arm.name} along a path",
         answer,
@@ -107,16 +107,16 @@ def present(trajectory: Trajectory) -> Presentation:
             ("Task", trajectory.task.describe()),
             ("Gain", format_as_given(trajectory.gain)),
             (
-                "Kept clear",
-                "nothing" if trajectory.clear_of is None else describe_shape(trajectory.clear_of, trajectory.margin),
+                "Collision avoidance",
+                "none" if trajectory.clear_of is None else describe_shape(trajectory.clear_of, trajectory.margin),
             ),
             ("Rate cap", "none" if trajectory.rate_cap is None else f"{trajectory.rate_cap:g} rad/s"),
             (
                 "Steps",
                 f"{trajectory.steps:,} of {trajectory.time[-1] / trajectory.steps:.3g} s; {len(trajectory.time):,} "
-                f"samples of them are kept",
+                f"samples are stored",
             ),
-            ("Without the objective", "least-norm rates, from the same configuration; everything else alike"),
+            ("Without the objective", "least-norm joint rates from the same configuration, all else equal"),
             ("Seed", str(trajectory.seed)),
         ],
         arm=arm,
@@ -141,12 +141,12 @@ def _list_facts(trajectory: Trajectory, unit: str) -> list[Fact]:
     rate_phrase = f"largest norm of the joint rates, at {trajectory.peak_time:.3g} s"
     facts = [
         Fact("", trajectory.worst, unit, phrase=f"worst {trajectory.objective.name} on the way"),
-        Fact("", float(trajectory.value.mean()), unit, phrase="mean on the way"),
+        Fact("", float(trajectory.value.mean()), unit, phrase=f"mean {trajectory.objective.name} on the way"),
         Fact(rate_phrase, trajectory.peak_rate, "rad/s", phrase=rate_phrase),
-        Fact("median of that norm", float(np.median(trajectory.rate_norm)), "rad/s"),
+        Fact("median norm of the joint rates", float(np.median(trajectory.rate_norm)), "rad/s"),
     ]
     for label, fraction, is_shown in (
-        ("samples in which the cap slows the self-motion", trajectory.self_motion, trajectory.rate_cap is not None),
+        ("samples in which the rate cap slows the self-motion", trajectory.self_motion, trajectory.rate_cap is not None),
         ("samples in which joint limits slow the end effector", trajectory.task_share, None),
     ):
         slowed = float(np.mean(fraction < 1 - 1e-9))
@@ -156,7 +156,7 @@ def _list_facts(trajectory: Trajectory, unit: str) -> list[Fact]:
 
 
 def _tabulate_values(trajectory: Trajectory, unit: str) -> TableSpec:
-    """Tabulate the objective along the path, with the best of each pose if it is known."""
+    """Tabulate the objective along the path, with the best value of each pose if it is known."""
     values = {f"{trajectory.method}{unit and f', {unit}'}": trajectory.value}
     if trajectory.best_value is not None:
         values["best of each pose"] = trajectory.best_value
@@ -180,23 +180,24 @@ def _compose_verdict(trajectory: Trajectory, bound: float, slowness: Sequence[Sl
     worst = max(slowness, key=lambda joint_slowness: joint_slowness.time_scale)
     scale, joint = format_value(worst.time_scale), trajectory.arm.joint_names[list(slowness).index(worst)]
     duration = format_value(worst.time_scale * trajectory.time[-1], unit="s")
+    goal = f"to keep all joint torques within {bound:g} N m of the gravity torques"
     if worst.satisfied:
-        verdict = f"slow enough: it needs at least {scale} of the time"
+        verdict = f"The motion is slow enough {goal}: it must take at least {scale} of its duration"
     else:
-        verdict = f"too fast: it must take at least {scale} times as long ({duration})"
-    return f"For torques within {bound:g} N m of gravity's the motion is {verdict}; joint '{joint}' sets the limit."
+        verdict = f"The motion is too fast {goal}: it must take at least {scale} times as long ({duration})"
+    return f"{verdict}; joint '{joint}' sets the limit."
 
 
 def _tabulate_slowness(trajectory: Trajectory, slowness: Sequence[SlowMotion]) -> TableSpec:
-    """Tabulate how slow the motion must be for each joint."""
+    """Tabulate the time scale that each joint requires."""
     columns = [
         Header("joint", "joint"),
         Header("time_scale", "time scale"),
         Header("duration_s", "duration, s"),
-        Header("decided_at", "decided at"),
+        Header("decided_at", "critical instant"),
     ]
     rows = []
     for name, joint_slowness in zip(trajectory.arm.joint_names, slowness, strict=True):
         scale, instant = joint_slowness.time_scale, trajectory.time[joint_slowness.worst_time_index]
         rows.append((name, scale, scale * trajectory.time[-1], f"{instant:.4g} s" if scale > 0 else ""))
-    return TableSpec("How slow is slow enough (English and Maciejewski 1998, eq. 6)", columns, rows)
+    return TableSpec("Required time scale (English and Maciejewski 1998, eq. 6)", columns, rows)

@@ -1,4 +1,4 @@
-"""Figure of a motion along a path, and the sections of its page."""
+"""Figure of a motion along a path, and the sections of its report."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_VIEW_FRAMES = 201
-# _NEGLIGIBLE_CHANGE and _MAX_RELATIVE_CHANGE: changes that are none, and those that a fraction would not tell
+# A relative change below _NEGLIGIBLE_CHANGE is reported as none; above _MAX_RELATIVE_CHANGE a percentage is not helpful.
 _NEGLIGIBLE_CHANGE = 5e-3
 _MAX_RELATIVE_CHANGE = 10.0
-SPEED_FACTORS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
+SPEED_FACTORS = (1.0, 0.5, 0.25)  # fractions of the duration of the motion, as in Figs. 9 to 12
 
 
 def draw_figure(trajectory: Trajectory) -> Figure:
@@ -40,12 +40,12 @@ def draw_figure(trajectory: Trajectory) -> Figure:
     )
     caption = f"{trajectory.arm.name}, {trajectory.method}, {len(trajectory.time):,} samples"
     return stick_motion_figure(
-        moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="path asked for"
+        moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="desired path"
     )
 
 
 class TrajectorySections:
-    """Sections of the page of a motion: the moving arm, and everything over time."""
+    """Sections of the report of a motion: the moving arm, and its quantities over time."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self.trajectory = trajectory
@@ -53,7 +53,7 @@ class TrajectorySections:
         self.singular_times = [event.start for event in trajectory.events if event.kind == "algorithmic singularity"]
 
     def build(self) -> list[Section]:
-        """Build the sections of the page."""
+        """Build the sections of the report."""
         trajectory = self.trajectory
         return [
             Section("", self.compare_objective()),
@@ -62,7 +62,7 @@ class TrajectorySections:
             Section("Clearance", self.draw_clearance()),
             Section("Joint rates", self.draw_rates()),
             Section("Joint positions", self.draw_joints()),
-            Section("Torques, and how slow is slow enough", self.draw_torques()),
+            Section("Joint torques at three speeds", self.draw_torques()),
             Section("Curvature along the self-motion", self.draw_curvature()),
             Section("Error of the end effector", self.draw_tool_error()),
         ]
@@ -75,11 +75,13 @@ class TrajectorySections:
         change = (worst - baseline.worst) / abs(baseline.worst) if baseline.worst else np.inf
         text = f"{format_number(baseline.worst, 4)}{self.unit_suffix}"
         if abs(change) < _NEGLIGIBLE_CHANGE:
-            return [Text(f"The worst value is as on the same path without it, with least-norm rates ({text}).")]
+            return [
+                Text(f"On the same path without the objective, with least-norm rates, the worst value is the same ({text}).")
+            ]
         comparison = ""
         if abs(change) < _MAX_RELATIVE_CHANGE:
-            comparison = f"; the objective makes it {format_percent(abs(change))} {'less' if change < 0 else 'more'}"
-        return [Text(f"On the same path without it, with least-norm rates, the worst value is {text}{comparison}.")]
+            comparison = f"; the objective {'reduces' if change < 0 else 'increases'} it by {format_percent(abs(change))}"
+        return [Text(f"On the same path without the objective, with least-norm rates, the worst value is {text}{comparison}.")]
 
     def animate_motion(self) -> list[Block]:
         """Animate the arm, with the motion without the objective for comparison."""
@@ -87,7 +89,7 @@ class TrajectorySections:
         samples = np.unique(np.linspace(0, len(trajectory.time) - 1, min(_MAX_VIEW_FRAMES, len(trajectory.time))).astype(int))
         readings = []
         for sample in samples:
-            comparison = "" if baseline is None else f", without it {baseline.value[sample]:.4g}"
+            comparison = "" if baseline is None else f", without the objective {baseline.value[sample]:.4g}"
             readings.append(
                 f"{trajectory.time[sample]:.2f} s, {trajectory.objective.name} {trajectory.value[sample]:.4g}{comparison}"
             )
@@ -103,7 +105,7 @@ class TrajectorySections:
         )
         caption = "The arm on its path (orange)."
         if baseline is not None:
-            caption += " See-through: the same path from the same configuration without the objective, by least-norm rates."
+            caption += " Transparent: the same path from the same configuration without the objective, with least-norm rates."
         return [Picture(motion_scene.to_html("motion", f"{trajectory.arm.name} moving along its path"), caption)]
 
     # ---- curves ------------------------------------------------------------------------------------------------
@@ -112,7 +114,7 @@ class TrajectorySections:
         return Picture(draw_stacked_panels(self.trajectory.time, panels, description), caption)
 
     def draw_objective(self) -> list[Block]:
-        """Draw the objective, and each joint's measure."""
+        """Draw the objective and, where it has them, the susceptibilities of the joints."""
         trajectory = self.trajectory
         lines = [TimelineLine(trajectory.value, trajectory.method, "first")]
         if trajectory.without_objective is not None:
@@ -124,8 +126,8 @@ class TrajectorySections:
         if trajectory.best_value is not None:
             lines.append(TimelineLine(trajectory.best_value, "best of each pose", "compared"))
             caption += (
-                " Best of each pose: over the whole self-motion manifold, traced at up to 101 poses, whether a motion leads "
-                "there or not."
+                " Best of each pose: over the whole self-motion manifold, traced at up to 101 poses, even if no continuous "
+                "motion leads there."
             )
         if trajectory.best_path is not None:
             has_motion = np.isfinite(trajectory.best_path).all(axis=1)
@@ -158,7 +160,7 @@ class TrajectorySections:
         return [self._stack_panels(panels, f"{trajectory.objective.name} along the path", caption)]
 
     def draw_rates(self) -> list[Block]:
-        """Draw the norm of the joint rates, and each of them."""
+        """Draw the norm of the joint rates, and the rate of each joint."""
         trajectory = self.trajectory
         cap_lines = (
             []
@@ -185,7 +187,7 @@ class TrajectorySections:
             f"{trajectory.peak_time:.4g} s."
         )
         if trajectory.rate_cap is not None:
-            caption += " The cap slows only the self-motion, so the norm passes it where the task alone needs more."
+            caption += " The cap slows only the self-motion, so the norm exceeds the cap where the task alone needs more."
         return [self._stack_panels(panels, "Joint rates over time", caption)]
 
     def draw_joints(self) -> list[Block]:
@@ -202,7 +204,7 @@ class TrajectorySections:
                     lines.append(TimelineLine(np.full(len(trajectory.time), scale * limit), "limit", "compared"))
             panels.append(Timeline(lines, unit, joint.name))
         image = draw_small_multiples(trajectory.time, panels, "Joint positions over time")
-        return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
+        return [Picture(image, "Joint positions. Dashed lines are joint limits, where one is near.")]
 
     def draw_clearance(self) -> list[Block]:
         """Draw the smallest distance of the arm from everything that it must avoid."""
@@ -211,9 +213,9 @@ class TrajectorySections:
             return []
         lines = [TimelineLine(1000 * trajectory.clearance, "smallest distance", "first")]
         required_mm = 1000 * (trajectory.margin + float(trajectory.clear_of.margins.max(initial=0.0)))
-        lines.append(TimelineLine(np.full(len(trajectory.time), required_mm), "to be kept", "level"))
+        lines.append(TimelineLine(np.full(len(trajectory.time), required_mm), "required", "level"))
         caption = (
-            f"Smallest distance of any pair, nearest: {trajectory.nearest[1]}. "
+            f"Smallest distance over all pairs of bodies; the closest pair is {trajectory.nearest[1]}. "
             f"{capitalise_first(describe_shape(trajectory.clear_of, trajectory.margin))}."
         )
         return [self._stack_panels([Timeline(lines, "mm", "Smallest distance")], "Clearance over time", caption)]
@@ -243,10 +245,11 @@ class TrajectorySections:
         return [
             Picture(
                 image,
-                "Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
-                f"motion takes {', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} "
-                "s, drawn over the time of the first; dashed: at rest. The susceptibilities assume that these hardly differ. "
-                "English and Maciejewski 1998, eq. (5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
+                "Torque of each joint, with inertia, centrifugal and Coriolis terms and viscous friction, if the same motion "
+                f"takes {', '.join(f'{joint_slowness * trajectory.time[-1]:.4g}' for joint_slowness in SPEED_FACTORS)} s. All "
+                "curves are plotted over the time of the first; dashed lines are the torques at rest. The susceptibilities "
+                "assume that these torques hardly differ (English and Maciejewski 1998, eq. (5), Figs. 9 to 12). Accelerations "
+                "are differences of the sampled rates.",
             )
         ]
 
@@ -270,8 +273,9 @@ class TrajectorySections:
             self._stack_panels(
                 [panel],
                 "Curvature along the self-motion over time",
-                "Above 0 at a local best. Where it reaches 0 while the arm is not singular the local best ends or splits: an "
-                "algorithmic singularity (English and Maciejewski 1998, section VI-B), marked where joint rates show it.",
+                "The curvature is above 0 at a local optimum. Where it reaches 0 while the arm is not singular, the local "
+                "optimum ends or splits. This is an algorithmic singularity (English and Maciejewski 1998, section VI-B); it "
+                "is marked where the joint rates show it.",
             )
         ]
 
@@ -280,18 +284,18 @@ class TrajectorySections:
         trajectory = self.trajectory
         panels = [
             Timeline(
-                [TimelineLine(1000 * trajectory.position_error, "off", "first")],
+                [TimelineLine(1000 * trajectory.position_error, "error", "first")],
                 "mm",
-                "Position of the end effector off its path",
+                "Position error of the end effector",
                 (),
                 "log",
             )
         ]
         if trajectory.task.angular:
-            lines = [TimelineLine(1000 * trajectory.rotation_error, "off", "first")]
-            panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
+            lines = [TimelineLine(1000 * trajectory.rotation_error, "error", "first")]
+            panels.append(Timeline(lines, "mrad", "Orientation error of the end effector", (), "log"))
         caption = (
-            f"Errors in the rows of task '{trajectory.task.name}', log scale; beyond {1000 * TRACKING_TOLERANCE:g} mm or mrad "
-            "the end effector is off."
+            f"Errors in the dimensions of task '{trajectory.task.name}', on a log scale. Above {1000 * TRACKING_TOLERANCE:g} "
+            "mm or mrad, the end effector has left its path."
         )
         return [self._stack_panels(panels, "Error of the end effector over time", caption)]

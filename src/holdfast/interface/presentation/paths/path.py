@@ -10,10 +10,10 @@ from holdfast.kinematics.paths.timed_path import TimedPath
 
 
 def present(path: Path | TimedPath) -> Presentation:
-    """Present the path with the positions at which its legs begin and end."""
+    """Present the path with the positions at which its segments begin and end."""
     geometry = path.path if isinstance(path, TimedPath) else path
     positions = np.round(geometry.pose(geometry.bounds)[:, :3, 3], 9)
-    columns = [Header("fraction", "fraction of the way", digits=3, aligned=False)]
+    columns = [Header("fraction", "fraction of the path", digits=3, aligned=False)]
     columns += [Header(axis, f"{axis}, m", aligned=False) for axis in "xyz"]
     rows = [(fraction, *position) for fraction, position in zip(geometry.bounds, positions, strict=True)]
     return Presentation(geometry.name, geometry.name, lines=[path.describe()], tables=[TableSpec("", columns, rows)])

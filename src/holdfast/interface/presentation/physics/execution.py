@@ -29,7 +29,7 @@ _OUTCOME_PHRASES = {
 
 
 def to_dict(run: Execution) -> dict[str, Any]:
-    """Return the outcome, the errors, and the constraints that were satisfied."""
+    """Return the outcome, the errors, and the deviations from the constraints."""
     names = run.arm.joint_names
     return {
         **run.arm.entry(),
@@ -68,8 +68,8 @@ def present(run: Execution) -> Presentation:
     if faults:
         answer += f", and {'; '.join(faults)}"
     elif run.outcome == "finished":
-        achievements = ["the tool is at its goal"] * (run.goal is not None) + ["what was to be kept was kept"] * bool(run.keep)
-        answer += f": {' and '.join([*achievements, 'the joints kept their limits'])}"
+        achievements = ["the tool is at its goal"] * (run.goal is not None) + ["all constraints are satisfied"] * bool(run.keep)
+        answer += f": {' and '.join([*achievements, 'the joints stayed within their limits'])}"
     return Presentation(
         f"{run.arm.name} with masses and servos",
         f"{answer}.",
@@ -81,7 +81,7 @@ def present(run: Execution) -> Presentation:
             "execution": FigureSpec(
                 partial(_draw_figure, run),
                 "Over time",
-                "What was asked of the tool, and how far the joints lag behind their references.",
+                "Errors of the tool with respect to its goal and its path constraints, and tracking errors of the joints.",
             )
         },
         sections=partial(_animate_motion, run),
@@ -99,19 +99,19 @@ def _compose_remarks(run: Execution) -> list[str]:
         lock_text = f"locked at {lock_time:.4g} s" if lock_time > 0 else "locked"
         remarks.append(f"{joint.name} {lock_text}, at {factor * run.q_final[index]:.4g} {unit}.")
     if run.noticed <= run.time[-1]:
-        remarks.append(f"The controller noticed at {run.noticed:.4g} s and slowed down.")
+        remarks.append(f"The controller detected the lock at {run.noticed:.4g} s and slowed down.")
     distances, angles = run.tool_error
     largest_text, final_text = (
         f"{format_error(1000 * distance)} mm and {format_error(np.rad2deg(angle))} deg"
         for distance, angle in ((distances.max(), angles.max()), (distances[-1], angles[-1]))
     )
-    remarks.append(f"The tool is at most {largest_text} off the motion, at the end {final_text}.")
+    remarks.append(f"The tool deviates from the motion by at most {largest_text}, and by {final_text} at the end.")
     if run.error_limit is not None and run.first_excess is None:
-        remarks.append("The following error keeps its limit in every joint.")
+        remarks.append("The following error stays within its limit in every joint.")
     if not run.beyond_limits and not run.too_fast:
-        remarks.append("The joints kept within their limits and speeds.")
+        remarks.append("The joints stayed within their position and speed limits.")
     if run.outcome == "unstable":
-        remarks.append("The physics left all bounds; make the servos softer or their rate higher.")
+        remarks.append("The simulation became unstable; use softer servos or a higher servo rate.")
     return remarks
 
 
@@ -120,27 +120,27 @@ def _list_facts(run: Execution) -> list[Fact]:
     facts = [Fact("simulated time", float(run.time[-1]), "s")]
     if run.goal_distance is not None:
         facts.append(
-            Fact("tool off the goal", format_error(1000 * run.goal_distance) + " mm", phrase="from the tool to its goal")
+            Fact("distance from the goal", format_error(1000 * run.goal_distance) + " mm", phrase="from the tool to its goal")
         )
     if run.goal_turn is not None:
-        facts.append(Fact("turned away from it", format_error(np.rad2deg(run.goal_turn)) + " deg"))
+        facts.append(Fact("angle from the goal", format_error(np.rad2deg(run.goal_turn)) + " deg"))
     for constraint, (deviation, tilt) in zip(run.keep, run.constraint_errors, strict=True):
         if len(constraint.normals):
-            facts.append(Fact(f"{constraint.name}: off at most", 1000 * deviation, "mm", digits=3))
+            facts.append(Fact(f"{constraint.name}: largest deviation", 1000 * deviation, "mm", digits=3))
         if np.isfinite(constraint.widest):
             allowed = f"{np.rad2deg(constraint.widest):.3g} allowed"
             facts.append(
                 Fact(
-                    f"{constraint.name}: turned away at most, {allowed}",
+                    f"{constraint.name}: largest tilt, {allowed}",
                     np.rad2deg(tilt),
                     "deg",
-                    phrase=f"is the most that the tool was turned away; {allowed}",
+                    phrase=f"is the largest tilt of the tool; {allowed}",
                     digits=3,
                 )
             )
     joint_index = int(run.tracking_error.argmax())
     factor, unit = run.arm.joints[joint_index].display_unit
-    label = f"joint behind its reference at most ({run.arm.joint_names[joint_index]})"
+    label = f"largest tracking error ({run.arm.joint_names[joint_index]})"
     return [*facts, Fact(label, factor * run.tracking_error[joint_index], unit, digits=3)]
 
 
@@ -155,7 +155,7 @@ def _animate_motion(run: Execution) -> list[Section]:
         "The motion",
         run.arm,
         run.q[frame_indices],
-        "The arm as it was measured.",
+        "Measured motion of the arm.",
         time=np.linspace(0, run.time[-1], len(frame_indices)),
         readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
         locked=locks,
@@ -166,7 +166,7 @@ def _animate_motion(run: Execution) -> list[Section]:
 
 
 def _draw_figure(run: Execution) -> Figure:
-    """Draw over time the distance of the tool from its goal, the deviation from the constraints, and the lag of the joints."""
+    """Draw the distance of the tool from its goal, the constraint deviations, and the tracking errors over time."""
     from holdfast.interface.report.motions import TimePanel, motion_figure
 
     locks = run.lock_time[np.isfinite(run.lock_time) & (run.lock_time > 0)]
@@ -179,16 +179,16 @@ def _draw_figure(run: Execution) -> Figure:
     if run.goal is not None:
         goal_position = run.goal[:3, 3] if run.goal.ndim == 2 else run.goal
         distances = np.linalg.norm(run.poses[:, :3, 3] - goal_position, axis=1)
-        panels.append(make_panel(distances, "tool off its goal, m", "Goal"))
+        panels.append(make_panel(distances, "distance from the goal, m", "Goal"))
     for constraint in run.keep:
         deviation, tilt = constraint.distances(run.poses)
         if np.isfinite(constraint.widest):
             max_tilt = float(np.rad2deg(constraint.widest))
-            panels.append(make_panel(np.rad2deg(tilt), "turned away, deg", constraint.name.capitalize(), (max_tilt, "allowed")))
+            panels.append(make_panel(np.rad2deg(tilt), "tilt, deg", constraint.name.capitalize(), (max_tilt, "allowed")))
         else:
             panels.append(
                 make_panel(
-                    1000 * deviation, "tool off, mm", constraint.name.capitalize(), (1000 * constraint.within[0], "allowed")
+                    1000 * deviation, "deviation, mm", constraint.name.capitalize(), (1000 * constraint.within[0], "allowed")
                 )
             )
     tracking_errors = np.where(run.is_locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)

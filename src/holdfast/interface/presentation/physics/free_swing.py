@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 _CLOSE_UP_FACTOR = 1.5  # times the last brake time
 _VIEW_FRAMES = 201  # of a motion
-_VISIBLE_FRACTION = 0.01  # of the farthest that it goes
+_VISIBLE_FRACTION = 0.01  # fraction of the largest displacement
 
-POWER_LOSS_NOTE = "A power loss frees all joints at once, and then the tool drops further."
+POWER_LOSS_NOTE = "A power loss releases all joints at the same time; the tool then drops further."
 
 
 def to_dict(swing: FreeSwing) -> dict[str, Any]:
@@ -57,40 +57,40 @@ def present(swing: FreeSwing) -> Presentation:
     """Present the swing of the joint, and the drop of the tool until the brakes hold it."""
     failed = swing.arm.joints[swing.joint]
     factor, unit = failed.display_unit
-    friction = Fact("friction", float(swing.damping), "N s/m" if failed.prismatic else "N m s/rad")
-    duration = Fact("simulated", float(swing.time[-1]), "s")
-    rest = [Fact("displacement at the end", swing.rest_angle, failed.unit, style="angle")] if swing.is_settled else []
+    friction = Fact("viscous friction", float(swing.damping), "N s/m" if failed.prismatic else "N m s/rad")
+    duration = Fact("simulated time", float(swing.time[-1]), "s")
+    rest = [Fact("displacement at rest", swing.rest_angle, failed.unit, style="angle")] if swing.is_settled else []
     columns = [
         Header("after_ms", "brakes engage after", "ms"),
         Header("moved", "joint has moved", unit, aligned=False),
-        Header("speed", "at", f"{unit}/s", aligned=False),
+        Header("speed", "joint speed", f"{unit}/s", aligned=False),
         Header("drop", "tool has dropped", "mm", aligned=False),
-        Header("distance", "and moved", "mm", aligned=False),
+        Header("distance", "tool has moved", "mm", aligned=False),
     ]
     rows = [
         (f"{braked.after_ms:g} ms", factor * braked.angle, factor * braked.speed, 1000 * braked.drop, 1000 * braked.distance)
         for braked in swing.drops
     ]
-    tables = [TableSpec("When brakes engage", columns, rows)] if rows else []
+    tables = [TableSpec("State when the brakes engage", columns, rows)] if rows else []
     positions = zip(swing.q, swing.arm.joints, strict=True)
     return Presentation(
         f"A free-swinging {failed.name} of {swing.arm.name}",
         _compose_answer(swing),
         about=f"Arm {swing.arm.title}. All other joints are held. {POWER_LOSS_NOTE}",
         lines=[
-            *(["More --duration or --damping shows where it ends."] if swing.outcome == "moving" else []),
-            *(["It touches nothing on the way."] if swing.contacts == () else []),
+            *(["More --duration or --damping shows where the joint settles."] if swing.outcome == "moving" else []),
+            *(["The arm touches nothing on the way."] if swing.contacts == () else []),
         ],
         notices=[Notice(f"{capitalise_first(swing.contacts[0].sentence())}.")] if swing.contacts else [],
         facts=[
-            Fact("largest displacement", swing.peak, failed.unit, phrase="farthest that the joint goes", style="angle"),
+            Fact("largest displacement", swing.peak, failed.unit, phrase="largest displacement of the joint", style="angle"),
             *rest,
             *[
                 Fact(
                     "",
                     1000 * braked.distance,
                     "mm",
-                    phrase=f"is how far the tool has moved when brakes engage after {braked.after_ms:g} ms",
+                    phrase=f"moved by the tool until brakes engage after {braked.after_ms:g} ms",
                 )
                 for braked in swing.drops[:3]
             ],
@@ -98,7 +98,7 @@ def present(swing: FreeSwing) -> Presentation:
                 "initial acceleration",
                 swing.initial_acceleration,
                 f"{failed.unit}/s^2",
-                phrase="acceleration of the joint as it fails",
+                phrase="acceleration of the joint at the failure",
             ),
             friction,
             duration,
@@ -108,13 +108,13 @@ def present(swing: FreeSwing) -> Presentation:
             "swing": FigureSpec(
                 partial(_draw_figure, swing),
                 "Over time",
-                "How far the joint has moved and the height of the tool; dots: where brakes would hold it.",
+                "Displacement of the joint and height of the tool; dots mark where brakes would stop the tool.",
             )
         },
         sections=partial(_animate_swing, swing),
         method=[
             ("Friction", f"viscous, {friction.text}"),
-            ("Brakes", "are assumed to stop the joint at once"),
+            ("Brakes", "assumed to stop the joint instantly"),
             ("Simulated", f"{duration.text}, MuJoCo"),
             ("Configuration", ", ".join(f"{q * joint.display_unit[0]:.4g} {joint.display_unit[1]}" for q, joint in positions)),
         ],
@@ -127,18 +127,18 @@ def _compose_answer(swing: FreeSwing) -> str:
     factor, unit = failed.display_unit
     peak, rest = (f"{format_number(abs(factor * angle), 4)} {unit}" for angle in (swing.peak, swing.rest_angle))
     if swing.outcome == "balanced":
-        return f"{failed.name} does not move when it swings free here: gravity pulls it neither way."
+        return f"{failed.name} does not move when it is released here, because it is balanced under gravity."
     answer = {
-        "rest": f"{failed.name} swings by up to {peak} and hangs still {rest} away",
-        "stop": f"{failed.name} falls against its stop, {rest} away",
-        "contact": f"{failed.name} falls until {_describe_contact(swing)}, {rest} away",
+        "rest": f"{failed.name} swings by up to {peak} and settles {rest} from its start",
+        "stop": f"{failed.name} falls against its stop, {rest} from its start",
+        "contact": f"{failed.name} falls until {_describe_contact(swing)}, {rest} from its start",
         "moving": f"{failed.name} swings by up to {peak} and is still moving after {format_number(swing.time[-1], 4)} s",
     }[swing.outcome]
     if swing.drops:
         last_drop = swing.drops[-1]
         direction = "dropped" if last_drop.drop >= 0 else "risen"
         answer += (
-            f"; if brakes engage after {last_drop.after_ms:g} ms the tool has {direction} by "
+            f"; if brakes engage after {last_drop.after_ms:g} ms, the tool has {direction} by "
             f"{format_number(1000 * abs(last_drop.drop), 4)} mm"
         )
     return f"{answer}."
@@ -162,24 +162,24 @@ def _animate_swing(swing: FreeSwing) -> list[Section]:
     q[:, swing.joint] += displacements
     factor, unit = swing.arm.joints[swing.joint].display_unit
     readings = [
-        f"{instant:.2f} s, moved by {factor * displacement:.3g} {unit}"
+        f"{instant:.2f} s, displacement {factor * displacement:.3g} {unit}"
         for instant, displacement in zip(time, displacements, strict=True)
     ]
-    caption = f"{swing.arm.joint_names[swing.joint]} swinging free, all other joints held."
+    caption = f"{swing.arm.joint_names[swing.joint]} swinging freely, all other joints held."
     return [build_view_section("The swing", swing.arm, q, caption, time=time, readings=readings, cell=swing.cell)]
 
 
 def _draw_figure(swing: FreeSwing) -> Figure:
-    """Draw the joint and the height of the tool over time, and a close-up of the time until the brakes act."""
+    """Draw the joint and the height of the tool over time, and a close-up of the time until the brakes engage."""
     from holdfast.interface.report.motions import TimePanel, motion_figure
 
     failed = swing.arm.joints[swing.joint]
     factor, unit = failed.display_unit
     gravity_norm = float(np.linalg.norm(swing.arm.gravity)) or 1.0
     height = -(swing.tool_position - swing.tool_position[0]) @ swing.arm.gravity / gravity_norm
-    level = (factor * swing.rest_angle, "where it ends") if swing.is_settled else None
+    level = (factor * swing.rest_angle, "rest position") if swing.is_settled else None
     panels = [
-        TimePanel(swing.time, factor * swing.angle, f"joint has moved, {unit}", f"Joint {failed.name}", level),
+        TimePanel(swing.time, factor * swing.angle, f"joint displacement, {unit}", f"Joint {failed.name}", level),
         TimePanel(swing.time, height, "tool height above its start, m", "Tool"),
     ]
     last_brake_s = max((brake_drop.after_ms for brake_drop in swing.drops), default=0.0) / 1000
@@ -195,7 +195,7 @@ def _draw_figure(swing: FreeSwing) -> Figure:
         )
         label = "tool height above its start, mm"
         panels.append(
-            TimePanel(swing.time[is_early], 1000 * height[is_early], label, "Tool, when brakes engage", None, moments)
+            TimePanel(swing.time[is_early], 1000 * height[is_early], label, "Tool until the brakes engage", None, moments)
         )
     friction = f"{swing.damping:.3g} {'N s/m' if failed.prismatic else 'N m s/rad'}"
     caption = f"{swing.arm.name}: free swing of {failed.name}, all other joints held, friction {friction}, MuJoCo"

@@ -48,35 +48,37 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
 
 
 def present(run: PhysicalRun) -> Presentation:
-    """Present the kinematic run, with the differences in MuJoCo."""
+    """Present the kinematic run, and its differences from the run in MuJoCo."""
     kinematic = simulation.present(run.kinematic)
-    lines = [f"In MuJoCo, with {run.servos.describe()}: {run.ending}; kinematic: {run.kinematic.outcome}."]
+    lines = [f"In MuJoCo, with {run.servos.describe()}: {run.ending}; in the kinematic simulation: {run.kinematic.outcome}."]
     contact_sentence = "The arm touches nothing" if not run.contacts else run.contacts[0].sentence()
     contact_sentence = f"{capitalise_first(contact_sentence)} (with masses and servos)."
     notices = [Notice(contact_sentence)] if run.contacts else []
     saturation = zip(run.law.arm.joint_names, run.saturated_fraction, strict=True)
     saturated_text = ", ".join(f"{name} {format_percent(fraction)}" for name, fraction in saturation if fraction > 0)
     if saturated_text:
-        notices.append(Notice(f"Motors are at their effort for a part of the time: {saturated_text}."))
+        notices.append(Notice(f"Motors are at their torque limit for a part of the time: {saturated_text}."))
     columns = [Header("", ""), Header("kinematic", "kinematic"), Header("mujoco", "in MuJoCo")]
-    caption = "Thick: kinematic; thin: with masses and joint servos. Right: how far the joints lag behind."
+    caption = (
+        "Thick lines: kinematic simulation. Thin lines: with masses and joint servos. Right: tracking error of the joints."
+    )
     return replace(
         kinematic,
         lines=[*kinematic.lines, *lines, *([contact_sentence] if run.contacts == () else [])],
         notices=[*kinematic.notices, *notices],
         facts=[
             *kinematic.facts,
-            Fact("tool paths apart, kinematic and in MuJoCo, at most", 1000 * run.path_distance, "mm", digits=3),
-            Fact("tools apart at the end", 1000 * run.terminal_distance, "mm", digits=3),
-            *([] if saturated_text else [Fact("motors at their effort", "none")]),
+            Fact("largest distance between the tool paths, kinematic and in MuJoCo", 1000 * run.path_distance, "mm", digits=3),
+            Fact("distance between the tools at the end", 1000 * run.terminal_distance, "mm", digits=3),
+            *([] if saturated_text else [Fact("motors at their torque limit", "none")]),
         ],
         tables=[
             *kinematic.list_tables(),
-            TableSpec("The same with masses and servos", columns, _compare_endings(run)),
+            TableSpec("Comparison with the simulation with masses and servos", columns, _compare_endings(run)),
             *([replace(tabulate_contacts(run.contacts), title="Contacts in MuJoCo")] if run.contacts else []),
         ],
         figures={
-            "physics": FigureSpec(partial(_draw_figure, run), "The same with masses and servos", caption),
+            "physics": FigureSpec(partial(_draw_figure, run), "Comparison with the simulation with masses and servos", caption),
             **kinematic.figures,
         },
     )

@@ -1,4 +1,4 @@
-"""Presentation of a recovery: whether the goal is met with the locked joints, the motion, and the remaining workspace."""
+"""Presentation of a recovery: whether the goal is reached with the locked joints, the motion, and the remaining workspace."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from holdfast.response.recovery.recovery import Recovery
     from holdfast.response.recovery.timing.motion import TimedMotion
 
-_TIMING_CAPTION = "Rates and accelerations of the joints, each in parts of its limit, over time."
+_TIMING_CAPTION = "Joint rates and accelerations over time, each divided by its limit."
 
 
 def to_dict(recovery: Recovery) -> dict[str, Any]:
-    """Return the outcome, the motion, its check, the remaining workspace, and the relaxed rows."""
+    """Return the outcome, the motion, its check, the remaining workspace, and the relaxed task dimensions."""
     path_rest, timed_motion = recovery.rest, recovery.timed
     return {
         **recovery.arm.entry(),
@@ -96,7 +96,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
 
 
 def _relaxed_misses(relaxed_rows: RelaxedRows | None) -> dict[str, float] | None:
-    """Return the errors of the relaxed rows by name with their unit."""
+    """Return the errors in the relaxed task dimensions, by name with the unit."""
     if relaxed_rows is None:
         return None
     return {
@@ -106,10 +106,10 @@ def _relaxed_misses(relaxed_rows: RelaxedRows | None) -> dict[str, float] | None
 
 
 def present(recovery: Recovery) -> Presentation:
-    """Present whether the goal is met, the motion with its checks, and the remaining workspace."""
+    """Present whether the goal is reached, the motion with its checks, and the remaining workspace."""
     arm = recovery.arm
     remainder = None if recovery.left is None else present_remainder(recovery.left)
-    timing = None if recovery.timed is None else FigureSpec(partial(_draw, recovery, "timing"), "The timing", _TIMING_CAPTION)
+    timing = None if recovery.timed is None else FigureSpec(partial(_draw, recovery, "timing"), "Timing", _TIMING_CAPTION)
     exports: dict[str, Any] = {"recovery.json": partial(write_json, recovery)}
     return Presentation(
         f"{arm.name} after a known failure",
@@ -127,17 +127,17 @@ def present(recovery: Recovery) -> Presentation:
         method=[
             ("Goal", recovery.goal),
             ("Task", recovery.task.describe()),
-            ("Search", f"{recovery.starts} random starts for configurations of the goal, seed {recovery.seed}"),
+            ("Search", f"{recovery.starts} random restarts for configurations of the goal, seed {recovery.seed}"),
             (
-                "Shortest",
-                "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
+                "Length",
+                "in joint space, 1 m counts as 1 rad" if recovery.unit == "rad" else "duration within the velocity limits",
             ),
             *([] if recovery.timed is None else [("Timing", _describe_timing(recovery.timed))]),
-            *(("Kept all the way", str(constraint)) for constraint in recovery.keep),
-            ("Verified", "there is no motion" if recovery.verified is None else str(recovery.verified)),
+            *(("Path constraint", str(constraint)) for constraint in recovery.keep),
+            ("Verified", "no motion to verify" if recovery.verified is None else str(recovery.verified)),
             (
                 "Clearance",
-                "not looked at" if recovery.clearance is None else describe_shape(recovery.clearance, recovery.margin),
+                "not checked" if recovery.clearance is None else describe_shape(recovery.clearance, recovery.margin),
             ),
         ],
         arm=arm,
@@ -148,43 +148,44 @@ def present(recovery: Recovery) -> Presentation:
 def _compose_answer(recovery: Recovery) -> str:
     answer = f"With {recovery.degraded.describe()}, {recovery.ending.sentence}"
     if recovery.relaxed is not None:
-        answer += f", given up: {recovery.relaxed}"
+        answer += f". The motion misses the goal in {recovery.relaxed}"
     if len(recovery.q) > 1:
+        quantity = "length" if recovery.unit == "rad" else "duration"
         is_shortest = recovery.length <= recovery.lower_bound * (1 + 1e-9)
-        bound = f"at least {format_number(recovery.lower_bound, 4)} are needed"
+        bound = f"lower bound {format_number(recovery.lower_bound, 4)} {recovery.unit}"
         bound = "no route to any configuration found is shorter" if is_shortest else bound
         answer += (
-            f"; the motion has {format_count(len(recovery.q), 'waypoint')} and {format_number(recovery.length, 4)} "
-            f"{recovery.unit}, {bound}"
+            f". The motion has {format_count(len(recovery.q), 'waypoint')} and a {quantity} of "
+            f"{format_number(recovery.length, 4)} {recovery.unit} ({bound})"
         )
     elif recovery.ending == RecoveryOutcome.GOAL_REACHED:
-        answer += "; the arm is there already"
+        answer += "; the arm is already there"
     if not recovery.ok:
         kind = f" ({recovery.verdict.kind})" if recovery.verdict.kind else ""
-        answer += f". What was asked for as a whole is {recovery.verdict.answer}{kind}"
+        answer += f". Verdict: {recovery.verdict.answer}{kind}"
     return f"{answer}."
 
 
 def _list_reasons(recovery: Recovery) -> list[str]:
-    """List the verdict with its reason, the legs of the motion, and the results of the replay."""
+    """List the verdict of a solved request or else its reason, the legs of the motion, and the results of the replay."""
     is_verified = recovery.verdict.is_solved and recovery.verified is not None
-    lines = [f"verdict: {recovery.verdict}" + (f", {recovery.verified}" if is_verified else "")]
-    lines += [f"kept all the way: {constraint}" for constraint in recovery.keep]
+    lines = [f"verdict: {recovery.verdict}" + f", {recovery.verified}" * is_verified] if recovery.ok else [recovery.verdict.why]
+    lines += [f"path constraint: {constraint}" for constraint in recovery.keep]
     if recovery.reason and recovery.reason != recovery.verdict.why:
         lines.append(recovery.reason)
     if len(recovery.q) and isinstance(recovery.clearance, ExactClearance):
-        lines.append(f"by the bound this is not clear; it is by exact distances ({recovery.clearance.exact_by}), all the way")
+        lines.append(f"exact distances ({recovery.clearance.exact_by}), but not the lower bounds, show a collision-free motion")
     other_options = [
         str(option)
         for option in recovery.choices
         if recovery.relaxed is None or not set(option.names) <= set(recovery.relaxed.names)
     ]
     if other_options:
-        lines.append("other sets of rows that could be given up: " + "; ".join(other_options[:6]))
+        lines.append("other sets of task dimensions that could be missed instead: " + "; ".join(other_options[:6]))
     for leg in recovery.legs:
         text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {format_number(leg.length, 4)} {recovery.unit}"
         if leg.name != "along the path":
-            kind = "a straight line" if leg.straight else "the shortest route found"
+            kind = "a straight line in joint space" if leg.straight else "the shortest route found"
             is_shortest = leg.length <= leg.lower_bound * (1 + 1e-9)
             bound = "no route" if is_shortest else f"lower bound {format_number(leg.lower_bound, 4)} {recovery.unit}"
             text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if is_shortest else ''})"
@@ -193,10 +194,10 @@ def _list_reasons(recovery: Recovery) -> list[str]:
     if len(recovery.q):
         shape_note = "" if recovery.clearance is None else f" ({describe_shape(recovery.clearance, recovery.margin)})"
         lines += [
-            f"independent replay: {sentence.removesuffix('.')}{shape_note * sentence.startswith('Least')}"
+            f"independent replay: {sentence.removesuffix('.')}{shape_note * sentence.startswith('Smallest')}"
             for sentence in sentences(recovery.check())
         ]
-    return [f"{capitalise_first(line).removesuffix('.')}." for line in lines]
+    return [f"{capitalise_first(line).removesuffix('.')}." for line in lines if line]
 
 
 def _list_facts(recovery: Recovery) -> list[Fact]:
@@ -204,12 +205,12 @@ def _list_facts(recovery: Recovery) -> list[Fact]:
     if len(recovery.q) > 1:
         label = "length of the motion" if recovery.unit == "rad" else "duration of the motion"
         facts.append(Fact(label, recovery.length, recovery.unit, phrase=label))
-        facts.append(Fact("waypoints", len(recovery.q), phrase="waypoints, with straight lines in joint space between them"))
+        facts.append(Fact("waypoints", len(recovery.q), phrase="waypoints, joined by straight lines in joint space"))
         if recovery.timed is not None:
-            label = "duration within the accelerations given"
+            label = "duration within the acceleration limits"
             facts.append(Fact(label, recovery.timed.duration, "s", phrase=label))
     if recovery.found:
-        facts.append(Fact("configurations of the goal found", recovery.found, phrase="configurations of the goal were found"))
+        facts.append(Fact("configurations found for the goal", recovery.found, phrase="configurations were found for the goal"))
     return facts
 
 
@@ -220,7 +221,7 @@ def _tabulate_joints(recovery: Recovery) -> TableSpec:
     marks = [recovery.degraded.mark(name) for name in recovery.arm.joint_names]
     columns = [Header("joint", "joint"), Header("start", "start", units), Header("end", "end", units), Header("mark", "")]
     rows = list(zip(recovery.arm.joint_names, start.tolist(), end.tolist(), marks, strict=True))
-    return TableSpec("Where the joints begin and end", columns, rows)
+    return TableSpec("Joint positions", columns, rows)
 
 
 def _describe_timing(timed_motion: TimedMotion) -> str:
@@ -232,8 +233,8 @@ def _describe_timing(timed_motion: TimedMotion) -> str:
         )
     )
     return (
-        f"as fast as the speed limits and accelerations of {limits} allow, corners rounded where that is proved, by parabolas; "
-        f"rows every {format_number(timed_motion.period, 4)} s"
+        f"as fast as the speed limits and accelerations of {limits} allow, with parabolic blends at waypoints where they are "
+        f"proved collision-free; one row every {format_number(timed_motion.period, 4)} s"
     )
 
 

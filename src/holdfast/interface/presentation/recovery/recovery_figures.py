@@ -29,28 +29,28 @@ from holdfast.interface.report.views import SIDE_VIEW, choose_side_and_top_views
 if TYPE_CHECKING:
     from holdfast.response.recovery.recovery import Recovery
 
-_PATH_DOTS = 160  # of the tool's path
-_GHOST_COUNT = 4  # ghosts of the arm on its way
+_PATH_DOTS = 160  # samples of the tool path
+_GHOST_COUNT = 4  # drawings of the arm between start and end
 _VIEW_FRAMES = 121
 
 
 def build_sections(recovery: Recovery) -> list[Section]:
-    """Build the view of the motion with the locked joints, or of the arm that stays where it is."""
+    """Build the view of the motion with the locked joints, or of the arm if there is no motion."""
     goals = [] if recovery.goal_pose is None else [recovery.goal_pose]
     if len(recovery.q) < 2:
-        caption = "Where the arm is and stays, with the directions that the lock takes."
+        caption = "The arm, which does not move, with the directions of motion that the lock removes."
         view = scene(
             recovery.arm, recovery.at, locked=list(recovery.locked), task=recovery.task, targets=goals, cell=recovery.cell
         )
-        return [Section("Where the arm is", [Picture(view.to_html("motion", caption), caption)])]
+        return [Section("The arm", [Picture(view.to_html("motion", caption), caption)])]
     q, time = _resample_path(recovery.q, _VIEW_FRAMES), np.linspace(0.0, 100.0, _VIEW_FRAMES)
-    readings, speed_text = [f"{progress:.0f} % of the way" for progress in time], "at one speed in joint space"
+    readings, speed_text = [f"{progress:.0f} % of the path" for progress in time], "at constant speed in joint space"
     if recovery.timed is not None:
         timed_motion, time = recovery.timed, np.linspace(0.0, recovery.timed.time[-1], _VIEW_FRAMES)
         q = np.stack([np.interp(time, timed_motion.time, column) for column in timed_motion.q.T], axis=1)
-        readings, speed_text = [f"{instant:.2f} s" for instant in time], "as it is timed within accelerations"
+        readings, speed_text = [f"{instant:.2f} s" for instant in time], "with its timing within the acceleration limits"
     view = scene(recovery.arm, q, locked=list(recovery.locked), targets=goals, time=time, readings=readings, cell=recovery.cell)
-    caption = f"The motion with what is locked, {speed_text}." + " The target of the end effector is marked." * bool(goals)
+    caption = f"The motion with the locked joints, {speed_text}." + " The target of the end effector is marked." * bool(goals)
     return [Section("The motion", [Picture(view.to_html("motion", caption), caption)])]
 
 
@@ -64,7 +64,7 @@ def draw_motion(recovery: Recovery) -> Figure:
     start, *ghosts, final = arm.frames(
         np.vstack([recovery.at, ghost_configurations, recovery.q[-1] if has_motion else recovery.at])
     )[..., :3, 3]
-    # What only widens the view: the places of everything that is drawn by hand below.
+    # The box widens the view so that it contains everything that is drawn by hand below.
     drawn_points = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     bounds = np.array([drawn_points.min(axis=0), drawn_points.max(axis=0)])
     arm_scene = Scene(
@@ -93,7 +93,7 @@ def draw_motion(recovery: Recovery) -> Figure:
                 )
             if has_motion:
                 axes.plot(
-                    *view.project(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
+                    *view.project(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="start"
                 )
             draw_view(
                 axes, arm_scene, view, scale, choose_dot_area(arm_scene, views, panel_width / spans[0]), spans, panel_width
@@ -102,7 +102,7 @@ def draw_motion(recovery: Recovery) -> Figure:
             locked_at_end = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
             axes.plot(*view.project(locked_at_start).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
             axes.plot(*view.project(locked_at_end).T, "X", color=ORANGE, markersize=8, zorder=3.6)
-            axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if has_motion else "where it is and stays")
+            axes.plot([], [], color="#1b1f24", linewidth=2.8, label="end" if has_motion else "the arm, without a motion")
             if recovery.goal_pose is not None:
                 goal_point = view.project(recovery.goal_pose[:3, 3])
                 axes.plot(

@@ -13,11 +13,13 @@ if TYPE_CHECKING:
 
     from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
 
-_MAPS_CAPTION = "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side."
+_MAPS_CAPTION = (
+    "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach; small numbers count the targets."
+)
 
 
 def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
-    """Return the number of targets that the healthy arm reaches, and that the failed arm still reaches."""
+    """Return the number of targets that the healthy arm reaches, and the number that the failed arm still reaches."""
     fractions = {
         "fraction_left": remainder.left,
         "fraction_of_region": remainder.of_region,
@@ -37,32 +39,32 @@ def to_dict(remainder: RemainingWorkspace) -> dict[str, Any]:
 def present(remainder: RemainingWorkspace) -> Presentation:
     """Present the remaining fraction of the workspace."""
     lock_text, remaining, healthy = remainder.degraded.describe(), remainder.left, int(remainder.healthy.sum())
-    region = f"{remainder.region}; {len(remainder.rows)} rows: {', '.join(remainder.rows)}"
-    title = f"What is left of the workspace with {lock_text}"
+    region = f"{remainder.region}; task dimensions {', '.join(remainder.rows)}"
+    title = f"Remaining workspace with {lock_text}"
     if remaining is None:
         answer = f"No configuration of the healthy arm was found for any of the {len(remainder.healthy):,} targets ({region})."
         return Presentation(title, answer)
     targets = f"{healthy:,} targets that the healthy arm reaches ({region})"
     answer = (
-        f"With {lock_text}, none of the {targets} was found to be reached in {remainder.starts} starts each, which does not "
-        f"prove that none is."
+        f"With {lock_text}, no configuration was found for any of the {targets} in {remainder.starts} random restarts each, "
+        "which does not prove that there is none."
     )
     if remaining.value:
-        answer = f"With {lock_text}, {format_value(remaining, 'percent')} of the {targets} are still reached."
-    phrase = "of what the healthy arm reaches is left" if remaining.value else ""
+        answer = f"With {lock_text}, the arm still reaches {format_value(remaining, 'percent')} of the {targets}."
+    phrase = "of the targets that the healthy arm reaches are still reached" if remaining.value else ""
     return Presentation(
         title,
         answer,
         facts=[
-            Fact("fraction of the workspace left", remaining, style="percent", phrase=phrase),
+            Fact("remaining fraction of the workspace", remaining, style="percent", phrase=phrase),
             Fact("targets that the healthy arm reaches", healthy, phrase="targets that the healthy arm reaches were tried"),
             Fact("targets tried", len(remainder.healthy)),
             Fact("targets that the failed arm still reaches", int(remainder.locked.sum())),
         ],
-        figures={"left": FigureSpec(partial(_draw_maps, remainder), "What is left of the workspace", _MAPS_CAPTION)},
+        figures={"left": FigureSpec(partial(_draw_maps, remainder), "Remaining workspace", _MAPS_CAPTION)},
         method=[
-            ("Reached", f"a configuration was found in {remainder.starts} random starts; the fraction is a lower bound"),
-            ("Rows that count", ", ".join(remainder.rows)),
+            ("Reached", f"a configuration was found in {remainder.starts} random restarts, so the fraction is a lower bound"),
+            ("Task dimensions", ", ".join(remainder.rows)),
         ],
     )
 

@@ -32,29 +32,27 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
 
 def present(check: WaypointCheck) -> Presentation:
     """Present the satisfied and the violated constraints."""
-    verdict = "keep everything that was asked for" if check.ok else "do NOT keep everything that was asked for"
-    lines = [f"{name} leaves its limits by {format_number(excess, 4)}" for name, excess in check.beyond_limits.items()]
-    lines += [
-        f"{name} should be locked and moves {format_number(excess, 4)} away" for name, excess in check.locks_moved.items()
-    ]
-    lines += [f"{name} is too fast: {format_number(rate, 4)} a second" for name, rate in check.too_fast.items()]
-    lines += [f"{name} accelerates by {format_number(rate, 4)} a second squared" for name, rate in check.too_hard.items()]
+    verdict = "satisfy all requirements" if check.ok else "do NOT satisfy all requirements"
+    lines = [f"{name} exceeds its limits by {format_number(x, 4)} (rad or m)" for name, x in check.beyond_limits.items()]
+    lines += [f"{name} is locked but moves by {format_number(x, 4)} (rad or m)" for name, x in check.locks_moved.items()]
+    lines += [f"{name} is too fast: {format_number(rate, 4)} (rad/s or m/s)" for name, rate in check.too_fast.items()]
+    lines += [f"{name} accelerates too much: {format_number(x, 4)} (rad/s² or m/s²)" for name, x in check.too_hard.items()]
     lines += [f"the tool is {violation}" for violation in check.kept if violation]
     if check.kept and not any(check.kept):
-        lines.append("what is kept all the way is kept")
+        lines.append("all path constraints are satisfied")
     if check.least_clearance is None:
-        lines.append("clearance was not looked at")
+        lines.append("the clearance was not checked")
     else:
         pair_text = f"{check.closest}, " if check.closest else ""
-        clearance, outcome = format_number(check.least_clearance, 4), "kept" if check.is_collision_free else "NOT KEPT"
-        lines.append(f"least clearance {clearance} m ({pair_text}margin {check.margin:g} m): {outcome}")
+        clearance, outcome = format_number(check.least_clearance, 4), "satisfied" if check.is_collision_free else "VIOLATED"
+        lines.append(f"smallest clearance {clearance} m ({pair_text}margin {check.margin:g} m): {outcome}")
     if not check.beyond_limits and not check.locks_moved:
-        lines.append("limits and locks are kept")
+        lines.append("limits and locks are respected")
     if check.paced and not check.too_fast and not check.too_hard:
-        lines.append(f"{check.paced} are kept")
+        lines.append(f"{check.paced} are respected")
     return Presentation(
         "Replay of waypoints",
-        f"The waypoints {verdict}, at all configurations on the way.",
+        f"The waypoints {verdict} at all checked configurations of the motion.",
         lines=[f"{capitalise_first(line)}." for line in lines],
         facts=[Fact("waypoints", len(check.q)), Fact("configurations checked", check.looked_at)],
     )

@@ -12,7 +12,7 @@ _CONE_COLUMNS = (
     *_BOX_COLUMNS[:3],
     ("cosine of the angle from the axis", ""),
     ("direction about the axis", "deg"),
-    ("turn about z", "deg"),
+    ("rotation about z", "deg"),
 )
 
 
@@ -23,7 +23,7 @@ def present(region: Region) -> Presentation:
         return Presentation(title, title, lines=[region.describe()], facts=[Fact("poses", len(region.listed))])
     if region.draw is not None:
         function = getattr(region.draw[0], "__name__", "a function")
-        return Presentation(title, title, lines=[region.describe()], facts=[Fact("drawn by", function)])
+        return Presentation(title, title, lines=[region.describe()], facts=[Fact("sampled by", function)])
     joints = [(f"joint {joint + 1}", "") for joint in range(len(region.center))]
     parameters = {"box": _BOX_COLUMNS, "cone": _CONE_COLUMNS}.get(region.kind, joints)
     rows = []

@@ -12,24 +12,24 @@ from holdfast.control.simulation.runs import Runs
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.presentation import Fact
 
-REACHED_ERROR = 1e-5  # an error below it counts as none
+REACHED_ERROR = 1e-5  # smaller errors count as zero
 
 
 def format_errors(law: Law, position: float, angle: float) -> str:
-    """Return a position error, m, and an angle error, rad, in words, as far as the task prescribes them."""
+    """Format a position error (m) and an angle error (rad) in mm and degrees, as far as the task prescribes them."""
     parts = [f"{format_number(1000 * position)} mm"] if law.task.rows[:, :3].any() else []
     parts += [f"{format_number(np.rad2deg(angle))}°"] if law.task.angular else []
     return " and ".join(parts)
 
 
 def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, float], run_index: int = 0) -> list[Fact]:
-    """Return the errors of one run; ``smallest`` are the least errors that the failed arm can have, m and rad."""
+    """Return the errors of one run; ``smallest`` are the smallest errors found for the failed arm, m and rad."""
     law, unit = runs.law, runs.unit
     event = "after the lock" if np.isfinite(np.atleast_2d(runs.lock_time)[run_index]).any() else "after the start"
 
-    def make_fact(label: str, position: float, angle: float, phrase: str, note: str = "") -> Fact:
+    def make_fact(label: str, position: float, angle: float, phrase: str) -> Fact:
         is_error = max(position, angle) > REACHED_ERROR
-        return Fact(label, format_errors(law, position, angle) + note, phrase=phrase if is_error else "")
+        return Fact(label, format_errors(law, position, angle), phrase=phrase if is_error else "")
 
     facts = [make_fact("error at the end", history.end.position, history.end.angle, "off the target at the end")]
     distance, angle = history.largest_position, history.largest_angle
@@ -49,14 +49,14 @@ def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, f
         )
         for later_error in history.later
     ]
-    label = "least error that the failed arm can have"
-    facts.append(make_fact(label, *smallest, label, ", as far as was found"))
+    label = "smallest error found for the failed arm"
+    facts.append(make_fact(label, *smallest, label))
     closest = format_errors(law, history.least_position.position, history.least_angle.angle)
-    return [*facts, Fact("least error on the way" + ", each for itself" * (" and " in closest), closest)]
+    return [*facts, Fact("smallest error on the way" + ", position and angle separately" * (" and " in closest), closest)]
 
 
 def format_delay(error: ErrorAt, history: ErrorHistory) -> str:
-    """Return the time since the lock, in words."""
+    """Format the time since the lock."""
     return f"{error.time - history.lock_time:.6g}"
 
 

@@ -62,7 +62,7 @@ def _contact_data(runs: Runs, unit: str) -> dict[str, Any]:
 
 
 def present(runs: Runs, k: int | None = None) -> Presentation:
-    """Present the outcome of run k; for many runs without k the number of each outcome."""
+    """Present the outcome of run k, or the number of each outcome if there are many runs and no k is given."""
     if k is None and runs.code.ndim:
         return _present_outcomes(runs)
     from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
@@ -71,7 +71,7 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
     law, arm, unit, run_index = runs.law, drawing.arm, runs.unit, k or 0
     reason = Reason(int(drawing.get_run_array("reason")))
     about = f"Arm {arm.title}, {law.describe()}; locked: {', '.join(drawing.lock_texts) or 'no joint'}"
-    title = f"{arm.name} after a lock that its controller does not know of"
+    title = f"{arm.name} {'after an undetected lock' if drawing.lock_texts else 'without a lock'}"
     if reason == Reason.BAD_INPUT:
         return Presentation(title, f"The run was not simulated: {reason.sentence}.", about=about, arm=arm)
     path_length, time = (float(drawing.get_run_array(name)) for name in ("path_length", "time"))
@@ -87,9 +87,7 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
         notices=[Notice(sentence) for sentence, is_violation in checks if is_violation],
         facts=[
             *list_error_facts(runs, drawing.error_curve, drawing.smallest_errors, run_index),
-            Fact(
-                "path of the end effector", path_length, "m", phrase="path of the end effector" * (path_length > REACHED_ERROR)
-            ),
+            Fact("length of the tool path", path_length, "m", phrase="length of the tool path" * (path_length > REACHED_ERROR)),
             Fact("simulated time", time, unit, phrase="simulated time" * (time > REACHED_ERROR)),
             *[
                 Fact("", contact.time, unit, phrase=f"until {contact.link} touches {contact.object}")
@@ -114,7 +112,7 @@ def _present_outcomes(runs: Runs) -> Presentation:
     lines = []
     if passes_limit.any():
         converged_count = int((passes_limit & (runs.code == RunOutcome.CONVERGED)).sum())
-        lines.append(f"{passes_limit.sum()} of them pass a joint limit on the way, {converged_count} of these converge.")
+        lines.append(f"{passes_limit.sum()} of them pass a joint limit on the way; {converged_count} of these converge.")
     for reason in UNDECIDED_REASONS:
         if count := int((runs.reason == reason).sum()):
             limit_text = f", {runs._settings.time_limit:.6g} {runs.unit}" if reason == Reason.TIME_LIMIT else ""
@@ -123,7 +121,7 @@ def _present_outcomes(runs: Runs) -> Presentation:
         lines.append(f"{runs.contact_sentence().removesuffix('.')}.")
         rows.append(("touch something on the way", len({contact.run for contact in runs.contacts})))
     return Presentation(
-        f"{len(runs):,} runs of {runs.law.arm.name} that its controller takes for healthy",
+        f"{len(runs):,} runs of {runs.law.arm.name} without fault information in the controller",
         f"{len(runs):,} runs: {', '.join(f'{count:,} {name}' for name, count in counts.items())}.",
         about=f"Arm {runs.law.arm.title}, {runs.law.describe()}",
         lines=lines,
@@ -136,41 +134,41 @@ def _present_outcomes(runs: Runs) -> Presentation:
 
 
 def _compose_answer(drawing: RunDrawing) -> str:
-    """Compose the outcome of one run, and how close the failed arm could come."""
+    """Compose the outcome of one run, and the smallest error found for the failed arm."""
     runs, code, unit = drawing.runs, RunOutcome(int(drawing.get_run_array("code"))), drawing.time_unit
     end, smallest_errors = drawing.error_curve.end, drawing.smallest_errors
     error_phrase = f"{format_errors(runs.law, end.position, end.angle)} off its target"
     duration_text = f"{format_number(float(drawing.get_run_array('time')))} {unit}"
     names = " and ".join(lock_text.replace(f" at 0 {unit}", " at the start") for lock_text in drawing.lock_texts)
-    opening = (
-        f"With a lock of {names} that its controller does not know of, the arm" if names else "With no joint locked the arm"
-    )
+    opening = f"After an undetected lock of {names}, the arm" if names else "With no joint locked, the arm"
     reason = Reason(int(drawing.get_run_array("reason")))
     if code == RunOutcome.CONVERGED:
-        return f"{opening} reaches its target, after {duration_text} (simulated time)."
+        return f"{opening} reaches its target after {duration_text} (simulated time)."
     if code == RunOutcome.STUCK:
         answer = f"{opening} stops {error_phrase}"
     elif code == RunOutcome.MOVING:
-        answer = f"{opening} never stops: it repeats its motion, and after {duration_text} it is {error_phrase}"
+        answer = (
+            f"{opening} never stops, because it repeats its motion; after {duration_text} (simulated time) it is {error_phrase}"
+        )
     elif reason == Reason.TIME_LIMIT:
         answer = f"{opening} {runs.ending_sentence(drawing.run_index)}, {error_phrase}"
     else:
         answer = f"{opening} is {error_phrase} when the run ends, undecided: {reason.sentence}"
     if max(smallest_errors) > REACHED_ERROR:
         smallest_text = format_errors(runs.law, *smallest_errors)
-        return f"{answer}; with this lock it cannot come closer than {smallest_text}, as far as was found."
-    return f"{answer}; it could reach the target with this lock." if drawing.lock_texts else f"{answer}."
+        return f"{answer}; the smallest error found for the failed arm is {smallest_text}."
+    return f"{answer}, although it could reach the target with this lock." if drawing.lock_texts else f"{answer}."
 
 
 def _tabulate_joints(drawing: RunDrawing) -> TableSpec:
-    """Tabulate the positions of the joints at the start, at the end, and their range on the way."""
+    """Tabulate the joint positions at the start and at the end, and their range on the way."""
     factors, units = zip(*(joint.display_unit for joint in drawing.arm.joints), strict=True)
     values = [factors * drawing.get_run_array(name) for name in ("q0", "q_final", "q_low", "q_high")]
     notes = [
         ", ".join(["locked"] * bool(np.isfinite(lock_time)) + ["passes its limits"] * bool(is_passed))
         for lock_time, is_passed in zip(drawing.lock_time, drawing.get_run_array("limits_passed"), strict=True)
     ]
-    columns = [Header(key, key, units) for key in ("start", "end", "least", "greatest")]
+    columns = [Header(key, key, units) for key in ("start", "end", "smallest", "largest")]
     rows = list(zip(drawing.arm.joint_names, *values, notes, strict=True))
     return TableSpec("Joint positions", [Header("joint", "joint"), *columns, Header("note", "")], rows)
 

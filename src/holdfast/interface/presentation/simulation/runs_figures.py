@@ -1,4 +1,4 @@
-"""Figures of one closed-loop run, and the sections of its page with the moving arm."""
+"""Figures of one closed-loop run, and the sections of its report with the moving arm."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ if TYPE_CHECKING:
     from holdfast.interface.report.motions import TimePanel
     from holdfast.interface.report.page import Block, Picture, Section
 
-REPEATED_SPAN_GAINS = 200.0  # 1/Ke: the part of a motion that repeats itself which is drawn
+REPEATED_SPAN_GAINS = 200.0  # 1/Ke: duration that is drawn of a motion that repeats itself
 _MIN_SAMPLES = 1001
 _MAX_VIEW_FRAMES = 201
 _SAMPLE_DENSITY = 5  # samples of a whole run in 1/Ke, or in a cycle
 _MAX_SAMPLES = 20_001
-_STILL_DISTANCE = 1e-3  # rad (and m) from where a joint ends: nothing more to see
+_STILL_DISTANCE = 1e-3  # rad or m from the final position: smaller motion is not visible
 
 
 class RunDrawing:
     """One run and the part of it that is drawn: all but the end of a motion that has stopped or repeats itself.
 
     Args:
-        runs: A single run, or many.
-        run_index: Which of them, from 0.
+        runs: Results of one or more simulated runs.
+        run_index: Index of the run to draw, from 0.
     """
 
     def __init__(self, runs: Runs, run_index: int = 0) -> None:
@@ -51,7 +51,7 @@ class RunDrawing:
 
     @cached_property
     def smallest_errors(self) -> tuple[float, float]:
-        """Smallest position error, m, and angle error, rad, that the failed arm can have, as far as was found."""
+        """Smallest position error, m, and angle error, rad, found for the failed arm."""
         return least_errors(self.runs, self.run_index)
 
     @cached_property
@@ -88,7 +88,7 @@ class RunDrawing:
 
     @property
     def omission_note(self) -> str:
-        """Sentence about the part of the run that is not drawn; empty where all is drawn."""
+        """Sentence about the part of the run that is not drawn; empty if the whole run is drawn."""
         drawn_time, total_time = float(self.drawn_path.time[-1]), float(self.get_run_array("time"))
         if drawn_time >= 0.99 * total_time:
             return ""
@@ -98,8 +98,8 @@ class RunDrawing:
             else "no joint moves by more than 0.001 rad or m"
         )
         return (
-            f"Drawn are the first {format_number(drawn_time)} of {format_number(total_time)} {self.time_unit}; after "
-            f"them {reason_text}."
+            f"The figure ends after {format_number(drawn_time)} of {format_number(total_time)} {self.time_unit}, because then "
+            f"{reason_text}."
         )
 
     @property
@@ -138,7 +138,7 @@ class RunDrawing:
             np.rad2deg(drawn_path.angle_error),
             float(np.rad2deg(self.smallest_errors[1])),
         )
-        title = f"Ends {self.get_run_array('outcome')}" + ", past a joint limit" * bool(
+        title = f"Outcome: {self.get_run_array('outcome')}" + ", passes a joint limit" * bool(
             self.get_run_array("limits_passed").any()
         )
         panels = []
@@ -148,15 +148,15 @@ class RunDrawing:
                 for name, lock_instant in zip(self.arm.joint_names, self.lock_time, strict=True)
                 if lock_instant <= drawn_path.time[-1]
             )
-            level = (smallest, "least error of the failed arm") if smallest > 1e-3 else None
+            level = (smallest, "smallest error found") if smallest > 1e-3 else None
             panels.append(TimePanel(drawn_path.time, values, label, title, level, moments, log_scale=True))
         return panels
 
     @property
     def caption(self) -> str:
         """Description of the run for the figures."""
-        locked = ", ".join(self.lock_texts) or "none"
-        return f"{self.arm.name}, {self.runs.law.label}, locked: {locked}; the controller does not know; one run"
+        locks = f"undetected lock of {', '.join(self.lock_texts)}" if self.lock_texts else "no lock"
+        return f"{self.arm.name}, {self.runs.law.label}, {locks}; one run"
 
     def draw_figure(self) -> Figure:
         """Draw the arm at start and end, the path of its tool, and the error over time."""
@@ -176,14 +176,14 @@ class RunDrawing:
         return "cycle" if self.runs.cycles else "time, s"
 
     def build_sections(self) -> list[Section]:
-        """Build the sections of the page: the moving arm, and its errors, joints, and contacts over time."""
+        """Build the sections of the report: the moving arm, and its errors, joints, and contacts over time."""
         from holdfast.interface.report.page import Section
 
         return [
             self._animate_run(),
-            Section("The error of the end effector", [self._draw_errors()]),
+            Section("Error of the end effector", [self._draw_errors()]),
             Section("Joint positions", [self._draw_joints()]),
-            Section("What it touches", self._report_contacts()),
+            Section("Contacts", self._report_contacts()),
         ]
 
     def _animate_run(self) -> Section:
@@ -198,7 +198,7 @@ class RunDrawing:
                 self.runs.law, float(drawn_path.position_error[sample]), float(drawn_path.angle_error[sample])
             )
             readings.append(f"{drawn_path.time[sample]:.2f} {self.time_unit}, error {error}{lock_note}")
-        caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
+        caption = "The moving arm. Joints turn orange when they lock; the orange line is the straight path to the target."
         return build_view_section(
             "The motion",
             self.arm,
@@ -230,7 +230,7 @@ class RunDrawing:
             TimePanel(drawn_path.time, travelled_distance, "distance of the tool from its start, m", "Tool"),
         ]
         figure = motion_figure(panels, self.caption, self._time_label)
-        caption = f"Over time; the error on a log scale. {self.omission_note}".strip()
+        caption = f"Errors over time on a log scale, and the distance of the tool from its start. {self.omission_note}".strip()
         return Picture(svg(figure, "error", "Error of the end effector over time"), caption)
 
     def _draw_joints(self) -> Picture:
@@ -250,10 +250,12 @@ class RunDrawing:
             locked = " (locks)" if np.isfinite(self.lock_time[index]) else ""
             panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
         image = draw_small_multiples(self.drawn_path.time, panels, "Joint positions over time", self._time_label)
-        return Picture(image, f"Joint positions; dashed: a limit, where one is near. {self.omission_note}".strip())
+        return Picture(
+            image, f"Joint positions. Dashed lines are joint limits, where one is near. {self.omission_note}".strip()
+        )
 
     def _report_contacts(self) -> list[Block]:
-        """Draw the distance of the arm from everything that it may touch."""
+        """Draw the smallest distance of the arm from itself and from the objects of its cell."""
         from holdfast.interface.report.figures import svg
         from holdfast.interface.report.motions import TimePanel, motion_figure
         from holdfast.interface.report.page import Picture, Text
@@ -268,9 +270,9 @@ class RunDrawing:
             if contact.time <= drawn_path.time[-1]
         )
         panel = TimePanel(
-            drawn_path.time, clearance(drawn_path.q), label, "The arm and what it may touch", (0.0, "touches"), moments
+            drawn_path.time, clearance(drawn_path.q), label, "Smallest distance of the arm", (0.0, "contact"), moments
         )
         figure = motion_figure([panel], "", self._time_label)
         caption = f"Below 0 the arm touches something. {capitalise_first(describe_shape(clearance, 0.0))}."
-        image = svg(figure, "clearance", "Smallest distance of the arm from what it may touch over time")
-        return [Picture(image, caption), *([] if self.contacts else [Text("It touches nothing.")])]
+        image = svg(figure, "clearance", "Smallest distance of the arm from itself and from objects over time")
+        return [Picture(image, caption), *([] if self.contacts else [Text("The arm touches nothing.")])]

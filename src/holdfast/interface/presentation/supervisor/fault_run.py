@@ -22,16 +22,16 @@ if TYPE_CHECKING:
     from holdfast.response.supervisor.run import FaultRun
 
 _RESPONSE_PHRASES = {
-    "none": "nobody notices",
-    "stop": "everything stops at an alarm",
-    "chain": "the controller reacts to what the monitor names",
-    "known": "every fault is known at once",
+    "none": "no fault response",
+    "stop": "the arm stops at an alarm",
+    "chain": "the controller responds to the diagnosis of the monitor",
+    "known": "every fault is known immediately",
 }
 _TIMELINE_CAPTION = (
-    "What the tool still has to go, how far each joint is behind its reference, and where the joints are. Upright lines: a "
-    "fault begins; it is noticed; something is done."
+    "Distance of the tool from its target, tracking errors, and positions of the joints. Solid vertical lines: a fault begins. "
+    "Dashed lines: alarms and actions of the controller."
 )
-_MAX_POINTS = 1500  # of a line
+_MAX_POINTS = 1500  # points of a line
 _MIN_PLOTTED_ERROR = 1e-5  # rad or m
 
 
@@ -64,18 +64,18 @@ def present(run: FaultRun) -> Presentation:
     angle_text = f" and {np.rad2deg(run.orientation_error[-1]):.3g} deg" if run.law.task.angular else ""
     answer = (
         f"{capitalise_first(OUTCOME_PHRASES[run.outcome])} ({_RESPONSE_PHRASES[run.react]}), "
-        f"{1e3 * run.position_error[-1]:.3g} mm{angle_text} off after {run.time[-1]:.4g} s."
+        f"{1e3 * run.position_error[-1]:.3g} mm{angle_text} from the target after {run.time[-1]:.4g} s of simulated time."
     )
-    lines = [] if run.events else ["no fault in this episode"]
+    lines = [] if run.events else ["this episode has no fault"]
     if not run.actions and run.react != "none":
-        lines.append("nothing was noticed")
+        lines.append("no fault was detected")
     if run.contacts is not None:
-        lines += [contact.sentence() for contact in run.contacts] or ["it touched nothing"]
+        lines += [contact.sentence() for contact in run.contacts] or ["the arm touched nothing"]
     if run.false_alarm:
-        lines.append("the first alarm is false, nothing had failed: the bounds do not hold for this motion")
-    lines.append("everything here is simulated; the monitor and the reaction are no certified safety function")
+        lines.append("the first alarm is false, because no fault had begun; the thresholds do not hold for this motion")
+    lines.append("everything here is simulated; the monitor and the fault response are not a certified safety function")
     distance = Fact(
-        "tool to its target at the end",
+        "distance of the tool from its target at the end",
         1e3 * run.position_error[-1],
         "mm",
         phrase="from the tool to its target at the end",
@@ -83,14 +83,14 @@ def present(run: FaultRun) -> Presentation:
     )
     facts = [distance]
     if np.isfinite(run.delay) and run.delay >= 0:
-        facts.append(Fact("fault to alarm", 1e3 * run.delay, "ms", phrase="from the fault to the alarm", digits=3))
+        facts.append(Fact("time from fault to alarm", 1e3 * run.delay, "ms", phrase="from the fault to the alarm", digits=3))
     events = [(event.onset, event.sentence()) for event in run.events]
     events += [(action.time, action.sentence()) for action in run.actions]
     names = run.arm.joint_names
     rows = [
         [time, sentence if sentence.split(":")[0] in names else capitalise_first(sentence)] for time, sentence in sorted(events)
     ]
-    table = TableSpec("In order of time", [Header("time", "time, s", aligned=False), Header("event", "event")], rows)
+    table = TableSpec("Faults and actions", [Header("time", "time, s", aligned=False), Header("event", "event")], rows)
     return Presentation(
         f"{run.arm.name} with faults",
         answer,
@@ -102,7 +102,7 @@ def present(run: FaultRun) -> Presentation:
         sections=partial(_build_sections, run),
         method=[
             ("Simulated", f"{format_number(run.time[-1], 4)} s, MuJoCo, {run.servos.describe()}, body {run.body.seed}"),
-            ("Clearance", "not looked at" if run.clearance is None else describe_shape(run.clearance, 0.0)),
+            ("Clearance", "not checked" if run.clearance is None else describe_shape(run.clearance, 0.0)),
         ],
         arm=run.arm,
     )
@@ -117,7 +117,7 @@ def _build_sections(run: FaultRun) -> Sequence[Section]:
     brake_times = {
         action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
     }
-    caption = "The arm as it moved; joints that were braked are marked from then on."
+    caption = "Measured motion of the arm; a braked joint is marked from the time of its brake."
     motion_scene = scene(
         run.arm,
         run.q[frame_indices],
@@ -143,7 +143,7 @@ def _draw_run(run: FaultRun) -> Figure:
         figure = Figure(figsize=(1.25 * style.WIDTH_IN, 6.2))
         distance_axes, error_axes, joint_axes = figure.subplots(3, 1, sharex=True)
         distance_axes.plot(time, 1e3 * run.position_error[samples], color=style.BLUE)
-        distance_axes.set(ylabel="mm", title="Tool to its target", ylim=(0, None))
+        distance_axes.set(ylabel="mm", title="Distance of the tool from its target", ylim=(0, None))
         tracking_error = np.abs(run.reference - run.q_measured)
         for index, name in enumerate(run.arm.joint_names):
             is_faulty = name in faulty_joints
@@ -154,8 +154,8 @@ def _draw_run(run: FaultRun) -> Figure:
             }
             error_axes.plot(time, np.maximum(tracking_error[samples, index], _MIN_PLOTTED_ERROR), **line_style)
             joint_axes.plot(time, run.q[samples, index], label=name if is_faulty else None, **line_style)
-        error_axes.set(ylabel=unit, title="Joints behind their references", yscale="log")
-        joint_axes.set(ylabel=unit, title="Joints", xlabel="time, s", xlim=(0, max(float(time[-1]), 1e-3)))
+        error_axes.set(ylabel=unit, title="Tracking errors of the joints", yscale="log")
+        joint_axes.set(ylabel=unit, title="Joint positions", xlabel="time, s", xlim=(0, max(float(time[-1]), 1e-3)))
         if faulty_joints:
             joint_axes.legend(loc="best", fontsize=8)
         _mark_events(run, [distance_axes, error_axes, joint_axes])

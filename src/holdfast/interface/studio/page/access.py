@@ -94,7 +94,7 @@ class AccessFilter:
             finally:
                 sockets.serve = original_serve  # type: ignore[misc]
         if not self.was_consulted:
-            raise HoldfastError("this version of viser cannot be kept from pages of others; install viser 1.1")
+            raise HoldfastError("this version of viser cannot reject requests of other web pages; install viser 1.1")
 
     def _filter_response(self, request: Any) -> Any:
         """Return the page, a refusal, or None for a request that viser answers."""

@@ -54,34 +54,36 @@ class TourStep:
 
 def _explain_bars(context: GuideContext) -> str:
     if context.is_hopeless:
-        return f"No configuration makes up for every joint: when {context.worst} locks, a direction of motion is lost for ever."
-    return f"A bar is what is left of the manipulability of the tool if that joint locks. Here {context.worst} costs most."
+        return f"No configuration tolerates every lock: a lock of {context.worst} always removes a direction of motion."
+    text = "Each bar is the fraction of the tool's manipulability that remains if this joint locks."
+    return f"{text} Here, a lock of {context.worst} costs most."
 
 
 def _explain_lock(context: GuideContext) -> str:
     return (
-        f"{context.worst} is locked: {context.remaining} of the manipulability is left. The blue wire is how fast the tool "
-        "could go, the orange body how fast it still can. The orange line and ring are the motion that loses most."
+        f"{context.worst} is locked, and {context.remaining} of the manipulability remains. The blue wire frame shows how fast "
+        "the healthy arm can move the tool, the orange body how fast it still can. The orange line and ring mark the motion "
+        "that loses most speed."
     )
 
 
 def _explain_optimisation(context: GuideContext) -> str:
     if context.is_busy:
-        return "The same tool pose can be held in many configurations. Looking for the best and the worst ..."
-    return "Same tool pose, two other configurations: if its worst joint locks, the green ghost loses least, the orange most."
+        return "Many configurations hold the same tool pose. Searching for the best and the worst ..."
+    return "Two other configurations of this pose: if its worst joint locks, the green one loses least, the orange one most."
 
 
 def _explain_comparison(context: GuideContext) -> str:
     return (
-        f"The arm took the green configuration without moving the tool, and {context.worst} is locked again: "
-        f"{context.remaining} of the manipulability is left, where it was {context.remaining_before}."
+        f"The arm took the green configuration without moving the tool, and {context.worst} is locked again. Now "
+        f"{context.remaining} of the manipulability remains, compared with {context.remaining_before} before."
     )
 
 
 def _explain_motion(context: GuideContext) -> str:
     if context.is_busy:
-        return "Two controllers that know nothing of the lock bring the tool to the second handle. Compiling and simulating ..."
-    return "Two controllers that know nothing of the lock, side by side. The line on top says where each of them ends."
+        return "Two controllers that are not informed of the lock move to the second handle. Compiling and simulating ..."
+    return "Two controllers that are not informed of the lock, side by side. The line at the top gives the result of each."
 
 
 def _explain_next_steps(_: GuideContext) -> str:
@@ -89,13 +91,13 @@ def _explain_next_steps(_: GuideContext) -> str:
 
 
 TOUR_STEPS = (
-    TourStep("Which joint matters most", _explain_bars, (), "Next: lock it"),
+    TourStep("Find the critical joint", _explain_bars, (), "Next: lock it"),
     TourStep("A joint locks", _explain_lock, (("fail", ("worst", "locked")),), "Next"),
     TourStep(
         "Optimise before it fails", _explain_optimisation, (("heal", None), ("best-worst", None)), "Next: compare", always=False
     ),
     TourStep("Compare", _explain_comparison, (("take0", None), ("fail", ("worst", "locked"))), "Next: move", always=False),
-    TourStep("Move without knowing", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
+    TourStep("Move with an undetected lock", _explain_motion, (("target", None), ("laws", None)), "Next: your own arm"),
     TourStep("Your turn", _explain_next_steps, (("clear", None), ("heal", None), ("home", None)), "Done"),
 )
 LOST_MANIPULABILITY = 1e-6  # remaining fraction of the manipulability below which a direction is lost

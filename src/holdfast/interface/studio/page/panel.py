@@ -77,7 +77,7 @@ class ControlPanel:
             self._attach_action(slider.on_update, "joint", partial(_read_slider, index, factor))
             self.sliders.append(slider)
         self.slide = self.gui.add_slider(
-            "self-motion", -1.0, 1.0, 0.01, 0.0, hint="How fast the arm slides along the self-motion of this pose while held."
+            "self-motion", -1.0, 1.0, 0.01, 0.0, hint="Speed along the self-motion of this pose while the slider is held."
         )
         self.buttons["slide"] = [self.slide]
         self._attach_action(self.slide.on_update, "slide", lambda h: h.value)
@@ -86,13 +86,15 @@ class ControlPanel:
             "direction",
             tuple(str(index + 1) for index in range(direction_count)),
             visible=direction_count > 1,
-            hint="Which of several self-motions.",
+            hint="Number of the self-motion, if there are several.",
         )
         self._attach_action(self.direction.on_update, "way", lambda h: int(_read_choice(h)) - 1)
         self._add_button("Back to the start", "home")
 
     def _add_fail_tab(self, arm: Arm, state: State) -> None:
-        self.gui.add_html(_message_html("Locked: cannot move. Free: swings under gravity. Or click a joint in the scene."))
+        self.gui.add_html(
+            _message_html("A locked joint cannot move; a free joint swings. You can also click a joint in the scene.")
+        )
         self.conditions = []
         for index, joint in enumerate(arm.joints):
             group = self.gui.add_button_group(joint.name, _label_condition_buttons(state.conditions[index]))
@@ -132,7 +134,7 @@ class ControlPanel:
         self._add_button("Move under both laws", "laws")
         if state.file is not None:
             self._add_button(f"Open {Path(state.file).name}", "file")
-        self.gui.add_html(_message_html("A motion that follow, simulate or recover wrote (CSV) is opened in the tab File."))
+        self.gui.add_html(_message_html("Open the CSV file of a motion of follow, simulate or recover in the tab File."))
         self.time = self.gui.add_slider("time", 0.0, 1.0, 0.001, 0.0, disabled=True)
         self._attach_action(self.time.on_update, "time", lambda h: h.value)
         self._add_button("Play", "play")
@@ -142,12 +144,13 @@ class ControlPanel:
     def _add_monitor_tab(self, arm: Arm, state: State) -> None:
         self.gui.add_html(
             _message_html(
-                "A joint fails while the arm moves to the target: what does a monitor make of it? Time is in the tab Motion."
+                "A joint fails while the arm moves to the target, and a monitor diagnoses it. The time slider is in the tab "
+                "Motion."
             )
         )
         kind = self.gui.add_dropdown("fault", tuple(FAULT_PARAMETERS), initial_value=state.fault[0])
-        joint = self.gui.add_dropdown("of joint", arm.joint_names, initial_value=state.fault[1])
-        onset = self.gui.add_slider("begins after, s", 0.0, LATEST_ONSET_S, 0.1, state.fault[2])
+        joint = self.gui.add_dropdown("joint", arm.joint_names, initial_value=state.fault[1])
+        onset = self.gui.add_slider("onset, s", 0.0, LATEST_ONSET_S, 0.1, state.fault[2])
         for handle in (kind, joint, onset):
             self._attach_action(
                 handle.on_update, "fault", lambda _: (_read_choice(kind), _read_choice(joint), float(onset.value))
@@ -163,8 +166,8 @@ class ControlPanel:
             self._add_button(f"Open {Path(state.region).name}", "results")
         self.gui.add_html(
             _message_html(
-                "Poses around the tool, coloured by the index: click one to see the configuration behind it. "
-                "Results of holdfast assess: start the studio with --region FOLDER."
+                "Poses around the tool, coloured by the index. Click one to see its configuration. "
+                "To show results of holdfast assess, start the studio with --region FOLDER."
             )
         )
         self._add_button("Clear", "clear")
@@ -175,8 +178,8 @@ class ControlPanel:
         self._attach_action(self.upload.on_upload, "open", lambda h: (h.value.name, h.value.content))
         self.gui.add_html(
             _message_html(
-                "An arm as URDF or DH table, or a motion as CSV, of at most 4 MiB; or drop it anywhere on the page. "
-                "With meshes: holdfast studio FILE."
+                "An arm as URDF or DH table, or a motion as CSV, of at most 4 MiB. You can also drop the file on the page. "
+                "For an arm with meshes, use holdfast studio FILE."
             )
         )
         self._add_button("PNG of the scene", "png")
@@ -184,7 +187,7 @@ class ControlPanel:
         self._add_button("Save the cell", "cell-file", visible=self.machine.cell is not None)
         for label, action in (("ellipsoids and lost directions", "losses"), ("names of the joints", "labels")):
             self._attach_action(self.gui.add_checkbox(label, True).on_update, action, lambda h: h.value)
-        self.gui.add_html(_message_html("This command line brings the view back:"))
+        self.gui.add_html(_message_html("This command restores the view:"))
         self.command = self.gui.add_html(command_html(state))
 
     # ---- display ---------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
-// What holdfast adds to viser's page: the dark theme of the system, a legend, files that are dropped, buttons that are pressed.
+// Additions to viser's page: the dark theme of the system, a legend, dropped files, and pressed buttons.
 "use strict";
 (() => {
-  const LARGEST = 4 << 20; // bytes; the server refuses more as well
+  const LARGEST = 4 << 20; // bytes; the server also rejects larger files
   const STATES = ["healthy", "locked", "free"];
   const search = new URLSearchParams(location.search);
   if (matchMedia("(prefers-color-scheme: dark)").matches && !search.has("darkMode")) {
@@ -27,8 +27,8 @@
 
   function open(file, tries = 500) {
     if (input() === null && tries > 0) {
-      if (tries % 50 === 0) { // the page may not have come far enough to hear the first press
-        tab("File")?.click(); // on a phone; else tabs hear keys
+      if (tries % 50 === 0) { // the page may not be ready for the first press
+        tab("File")?.click(); // on a phone; elsewhere tabs react to keys
         tab("File")?.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
       }
       setTimeout(() => open(file, tries - 1), 30);
@@ -52,7 +52,7 @@
     if (event.dataTransfer.files.length === 1) open(event.dataTransfer.files[0]);
     else alarm("Drop one file at a time.");
   });
-  let sent = 0, before; // when a file was sent of which nothing bad was said yet, and what was said before it
+  let sent = 0, before; // time of an upload without an error so far, and the error message before it
   const bad = () => document.querySelector(".hf-line[data-bad]")?.textContent;
 
   addEventListener("change", (event) => {
@@ -67,10 +67,10 @@
     alarm(`'${file.name}' is too large; at most 4 MiB can be opened here.`);
   }, true);
 
-  function answer() { // viser says of every file that it came; whether it could be opened it does not know
+  function answer() { // viser reports every upload as successful, even if the file cannot be opened
     for (const part of document.querySelectorAll("[role=alert] *"))
       if (part.childElementCount === 0 && part.textContent === "File uploaded successfully.")
-        part.textContent = "Received; whether it can be opened is said above the controls.";
+        part.textContent = "File received. The line above the controls shows whether it could be opened.";
     const now = bad();
     if (now !== undefined && now !== before && Date.now() - sent < 20000) {
       sent = 0;
@@ -79,7 +79,7 @@
     before = now;
   }
 
-  // ---- what is pressed, and names for those who hear the page --------------------------------------------------------
+  // ---- pressed buttons, and names for screen readers --------------------------------------------------------
 
   function mark() {
     for (const button of document.querySelectorAll("button")) {
@@ -97,7 +97,7 @@
     }
   }
 
-  function fold() { // of the controls of a phone, which viser folds when their head is pressed, and does not say so
+  function fold() { // on a phone, viser folds the controls when their head is pressed, but does not mark the head as a button
     const head = document.querySelector(".mantine-Paper-root[style*='bottom: 0'] div[style*='cursor: pointer']");
     if (head === null) return;
     let button = head.querySelector(".hf-fold");

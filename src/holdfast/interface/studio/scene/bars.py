@@ -41,7 +41,7 @@ def bars_html(bars: JointBars | str, consequence: str, names: Sequence[str], con
     note = f" ({escape(bars.status)})" if bars.status else ""
     return (
         f'<div class="hf-bars" data-worst="{escape(name, quote=True)}"><strong>{escape(bars.title)}</strong>{common} '
-        f"{consequence}: "
+        f"{consequence}; "
         f"worst: <b>{escape(name)}</b>, {value}{note}<table>{''.join(rows)}</table></div>"
     )
 
@@ -56,15 +56,15 @@ def losses_html(arm: Arm, task: Task, reading: LiveReading, failed: Sequence[int
     heading = (
         f"{joints_html} {'has' if len(reading.failure_joints) == 1 else 'have'} failed" if failed else f"If {joints_html} locks"
     )
-    lines = [f"{heading}: {format_percent(remaining)} of the manipulability is left."]
+    lines = [f"{heading}: {format_percent(remaining)} of the manipulability remains."]
     for loss in reading.losses[:2]:
-        loss_text = "lost" if loss.lost else f"{format_percent(loss.kept)} of the speed is left"
-        lines.append(f"{describe_direction(task, loss)}: <strong>{loss_text}</strong>")
+        loss_text = "lost" if loss.lost else f"{format_percent(loss.kept)} of the speed remains"
+        lines.append(f"Motion {describe_direction(task, loss)}: <strong>{loss_text}</strong>")
     before, after = (
         " × ".join(format_value(r, 2) for r in shape.radii) for shape in (reading.healthy_ellipsoid, reading.failed_ellipsoid)
     )
     lines.append(
-        f'<span class="hf-soft">ellipsoid of the tool point, m/s at joint rates of norm 1: {before}, then {after}</span>'
+        f'<span class="hf-soft">ellipsoid of the tool, m/s at joint rates of norm 1: healthy {before}, failed {after}</span>'
     )
     return f'<div class="hf-bars">{"<br>".join(lines)}</div>'
 

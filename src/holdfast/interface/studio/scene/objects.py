@@ -113,6 +113,6 @@ class CellObjects:
         self._line.points = np.array([[gap.on_arm, gap.on_object]], dtype=np.float32)
         self._line.visible = not blocked
         if gap.distance < 0:
-            return f"In the way: {name}; what covers the arm is {-gap.distance:.3g} m inside.", True
-        margin = f", nearer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
-        return f"Nearest (red line): {name}, at least {gap.distance:.3g} m{margin}.", blocked
+            return f"In collision: {name}; the collision model of the arm is {-gap.distance:.3g} m inside.", True
+        margin = f", closer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
+        return f"Closest (red line): {name}, at least {gap.distance:.3g} m{margin}.", blocked
