@@ -1,0 +1,55 @@
+"""Figure of the measured fault responses, read from the tables that the measurements write."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from concepts import WIDTH_IN
+from matplotlib.figure import Figure
+
+from holdfast.interface.report import BLUE, INK, ORANGE, SKY, SOFT, settle_layout, style
+
+TABLES = Path(__file__).parents[2] / "measurements" / "faults"
+RESPONSES = {
+    "everything stops at an alarm": ("stop at an alarm", SOFT),
+    "nobody notices": ("no monitor", ORANGE),
+    "nobody notices, no null-space objective": ("no monitor, no null-space objective", "#e8a36b"),
+    "chain, without recover": ("monitor, without recover", SKY),
+    "chain": ("monitor and recover", BLUE),
+}
+
+
+def draw_finished_tasks() -> Figure:
+    """Draw the fraction of finished tasks after one fault for each response, with intervals, for two arms."""
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        for axes, (arm, title) in zip(
+            figure.subplots(1, 2, sharey=True), (("panda", "Panda"), ("iiwa14", "iiwa 14")), strict=True
+        ):
+            table = read_row(TABLES / f"CHAIN-{arm}.md")
+            for row, (column, (_, color)) in enumerate(RESPONSES.items()):
+                value, low, high = table[column]
+                axes.barh(row, value, height=0.6, color=color)
+                axes.plot([low, high], [row, row], color=INK, lw=1.4)
+            feasible = table["feasible"][0]
+            axes.axvline(feasible, color=INK, lw=0.9, linestyle=(0, (4, 2)), label="a motion exists (known fault)")
+            axes.set(xlim=(0, 100), xlabel="finished tasks, % (line: 95 % interval)", yticks=range(len(RESPONSES)))
+            axes.set_yticklabels([label for label, _ in RESPONSES.values()])
+            axes.set_title(f"{title}, one fault in each task")
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center")
+        return settle_layout(figure)
+
+
+def read_row(file: Path) -> dict[str, tuple[float, float, float]]:
+    """Read the value and the interval of each column from the row of all faults."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    header = next(number for number, line in enumerate(lines) if line.startswith("| | faults |"))
+    names = [cell.strip() for cell in lines[header].strip("|").split("|")]
+    cells = [cell.strip() for cell in lines[header + 2].strip("|").split("|")]
+    table = {}
+    for name, cell in zip(names, cells, strict=True):
+        if found := re.fullmatch(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)", cell):
+            value, low, high = map(float, found.groups())
+            table[name] = (value, low, high)
+    return table
