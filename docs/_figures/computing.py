@@ -31,12 +31,17 @@ def draw_growing_run() -> Figure:
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.1))
         axes = figure.subplots()
-        axes.fill_between(counts, [part.low for part in intervals], [part.high for part in intervals], color=SKY, linewidth=0, label="95 % interval")
+        low, high = [part.low for part in intervals], [part.high for part in intervals]
+        axes.fill_between(counts, low, high, color=SKY, linewidth=0, label="95 % interval")
         axes.plot(counts, kept / counts, color=BLUE, label="estimate")
         for chunk in (CHUNK_ROWS, 2 * CHUNK_ROWS):
             axes.axvline(chunk, color=SOFT, lw=0.8)
         axes.axvline(CHUNK_ROWS, color=ORANGE, linestyle=(0, (4, 2)), label="stopped and resumed")
-        axes.set(xlabel="stored poses", ylabel="fraction of poses\nwith an index of 0.3 or more", xlim=(0, POSES), ylim=(0.35, 0.6))
+        axes.set(
+            xlabel="stored poses",
+            ylabel="fraction of poses\nwith an index of 0.3 or more",
+        )
+        axes.set(xlim=(0, POSES), ylim=(0.35, 0.6))
         axes.set_title("Chunks of 8,192 poses; the result is the same with and without the stop")
         axes.legend(loc="upper right", ncols=3)
         return settle_layout(figure)
@@ -76,7 +81,7 @@ def draw_gradient_steps() -> Figure:
     second, third = np.meshgrid(angles, angles)
     q = np.column_stack([np.zeros(second.size), second.ravel(), third.ravel()])
     values = rho(q).reshape(second.shape)
-    steps = [np.radians([0.0, 130.0, -65.0])]
+    steps = [np.radians([0.0, 80.0, 10.0])]
     for _ in range(80):
         slope = rho.gradient(steps[-1])
         steps.append(steps[-1] + STEP_RAD * slope / max(1.0, float(np.linalg.norm(slope))))
@@ -93,7 +98,7 @@ def draw_gradient_steps() -> Figure:
         plane.set_title("Gradient steps on the index")
         draw_arm(arms, arm, way[0], color=SKY)
         draw_arm(arms, arm, way[-1], color=BLUE)
-        arms.set(xlim=(-1.2, 2.4), ylim=(-1.5, 2.1), aspect="equal", xlabel="x, m", ylabel="y, m")
+        arms.set(xlim=(-0.8, 2.0), ylim=(-0.5, 2.3), aspect="equal", xlabel="x, m", ylabel="y, m")
         arms.set_title(f"Before ({float(rho(way[0])):.2f}) and after ({float(rho(way[-1])):.2f})")
         return settle_layout(figure)
 
@@ -109,7 +114,8 @@ def draw_study() -> Figure:
             axes.text(-0.15, -row, name, ha="right", va="center")
             for chunk in range(4):
                 color = SOFT if row == 3 and chunk > 1 else workers[int(rng.integers(3))][0]
-                axes.add_patch(FancyBboxPatch((chunk * 0.75, -row - 0.3), 0.6, 0.6, boxstyle="round,pad=0.03", fc=color, ec="none"))
+                corner = (chunk * 0.75, -row - 0.3)
+                axes.add_patch(FancyBboxPatch(corner, 0.6, 0.6, boxstyle="round,pad=0.03", fc=color, ec="none"))
                 if color == SOFT:
                     axes.text(chunk * 0.75 + 0.3, -row, "missing", ha="center", va="center", color="white", fontsize=7.5)
         for place, (color, name) in enumerate(workers):

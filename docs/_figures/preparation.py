@@ -15,15 +15,16 @@ from holdfast.interface.report import BLUE, GREEN, INK, ORANGE, SKY, SOFT, settl
 PA10_Q = np.deg2rad([0, 30, 0, 90, 0, 18, 0, 36, 0])
 PANDA_Q = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
 BENCH_LENGTH_M = 1.9
-GANTRY = """<robot name="gantry"><link name="world"/><link name="carriage"/><link name="upper"/><link name="fore"/><link name="wrist"/>
-<link name="camera"/>
+GANTRY = """<robot name="gantry"><link name="world"/><link name="carriage"/><link name="upper"/><link name="fore"/>
+<link name="wrist"/><link name="camera"/>
 <joint name="rail" type="prismatic"><parent link="world"/><child link="carriage"/><axis xyz="0 1 0"/>
   <limit lower="0" upper="1.5" velocity="0.5" effort="400"/></joint>
 <joint name="base" type="revolute"><parent link="carriage"/><child link="upper"/><origin xyz="0 0 0.3"/><axis xyz="0 0 1"/>
   <limit lower="-3" upper="3" velocity="2" effort="80"/></joint>
 <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.4 0 0"/><axis xyz="0 0 1"/>
   <limit lower="-2.5" upper="2.5" velocity="2" effort="80"/></joint>
-<joint name="wrist" type="continuous"><parent link="fore"/><child link="wrist"/><origin xyz="0.35 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="wrist" type="continuous"><parent link="fore"/><child link="wrist"/><origin xyz="0.35 0 0"/>
+  <axis xyz="0 0 1"/></joint>
 <joint name="camera_mount" type="fixed"><parent link="wrist"/><child link="camera"/><origin xyz="0.1 0 0"/></joint></robot>"""
 
 
