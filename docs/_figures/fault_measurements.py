@@ -11,12 +11,13 @@ from matplotlib.figure import Figure
 from holdfast.interface.report import BLUE, INK, ORANGE, SKY, SOFT, settle_layout, style
 
 TABLES = Path(__file__).parents[2] / "measurements" / "faults"
-RESPONSES = {
-    "everything stops at an alarm": ("stop at an alarm", SOFT),
-    "nobody notices": ("no monitor", ORANGE),
-    "nobody notices, no null-space objective": ("no monitor, no null-space objective", "#e8a36b"),
-    "chain, without recover": ("monitor, without recover", SKY),
-    "chain": ("monitor and recover", BLUE),
+FEASIBLE_COLUMN = 2
+RESPONSES = {  # by column of the table
+    5: ("stop at an alarm", SOFT),
+    3: ("no monitor", ORANGE),
+    4: ("no monitor, no null-space objective", "#e8a36b"),
+    6: ("monitor, without recover", SKY),
+    7: ("monitor and recover", BLUE),
 }
 
 
@@ -32,7 +33,7 @@ def draw_finished_tasks() -> Figure:
                 value, low, high = table[column]
                 axes.barh(row, value, height=0.6, color=color)
                 axes.plot([low, high], [row, row], color=INK, lw=1.4)
-            feasible = table["feasible"][0]
+            feasible = table[FEASIBLE_COLUMN][0]
             axes.axvline(feasible, color=INK, lw=0.9, linestyle=(0, (4, 2)), label="a motion exists (known fault)")
             axes.set(xlim=(0, 100), xlabel="finished tasks, % (line: 95 % interval)", yticks=range(len(RESPONSES)))
             axes.set_yticklabels([label for label, _ in RESPONSES.values()])
@@ -41,15 +42,13 @@ def draw_finished_tasks() -> Figure:
         return settle_layout(figure)
 
 
-def read_row(file: Path) -> dict[str, tuple[float, float, float]]:
-    """Read the value and the interval of each column from the row of all faults."""
+def read_row(file: Path) -> dict[int, tuple[float, float, float]]:
+    """Read the value and the interval of each column from the first row, which contains all faults."""
     lines = file.read_text(encoding="utf-8").splitlines()
-    header = next(number for number, line in enumerate(lines) if line.startswith("| | faults |"))
-    names = [cell.strip() for cell in lines[header].strip("|").split("|")]
-    cells = [cell.strip() for cell in lines[header + 2].strip("|").split("|")]
+    cells = next(line for line in lines if line.startswith("| all |")).strip("|").split("|")
     table = {}
-    for name, cell in zip(names, cells, strict=True):
-        if found := re.fullmatch(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)", cell):
+    for column, cell in enumerate(cells):
+        if found := re.fullmatch(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)", cell.strip()):
             value, low, high = map(float, found.groups())
-            table[name] = (value, low, high)
+            table[column] = (value, low, high)
     return table
