@@ -34,7 +34,7 @@ def draw_finished_tasks() -> Figure:
                 axes.barh(row, value, height=0.6, color=color)
                 axes.plot([low, high], [row, row], color=INK, lw=1.4)
             feasible = table[FEASIBLE_COLUMN][0]
-            axes.axvline(feasible, color=INK, lw=0.9, linestyle=(0, (4, 2)), label="a motion exists (known fault)")
+            axes.axvline(feasible, color=INK, lw=0.9, linestyle=(0, (4, 2)), label="target within reach of the faulty arm")
             axes.set(xlim=(0, 100), xlabel="finished tasks, % (line: 95 % interval)", yticks=range(len(RESPONSES)))
             axes.set_yticklabels([label for label, _ in RESPONSES.values()])
             axes.set_title(f"{title}, one fault in each task")

@@ -79,10 +79,10 @@ def main() -> None:
         "Robots, tasks and control law are those of the fault response, with other seeds. One joint locks, swings freely or "
         f"has a frozen sensor, and is braked. Then a ball with a radius of {100 * RADIUS:g} cm and a margin of "
         f"{100 * MARGIN:g} cm is placed on the remaining path that the tool followed without the ball. It is at least "
-        f"{100 * AWAY:g} cm from the position of braking and from the target, and not in the way of the stopping arm. Each task "
-        "is therefore finished without the ball, and **without collision checks each would touch it**. *Touched* means that the mesh of a "
-        "link touches the ball. Whether a detour exists is unknown. Fractions are in per cent, with Clopper-Pearson intervals "
-        "of 95 %."
+        f"{100 * AWAY:g} cm from the position of braking and from the target, and not in the way of the stopping arm. Each "
+        "task is therefore finished without the ball, and **without collision checks each would touch it**. *Touched* means "
+        "that the mesh of a link touches the ball. Whether a detour exists is unknown. Fractions are in per cent, with "
+        "Clopper-Pearson intervals of 95 %."
     )
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults and balls)"
     write("cell", f"Recovery with an obstacle, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))
