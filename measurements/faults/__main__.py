@@ -40,16 +40,16 @@ def main() -> None:
     lines = [
         f"# Faults in simulated logs, {arm.title}",
         "",
-        f"Written by `python -m measurements.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; "
+        f"Written by `python -m measurements.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d} with "
         f"{made}. Everything "
         "is **simulated**.",
         "",
         "Each log is from its own robot, whose masses and friction differ from the model by up to 20 %. The joints move to and "
         f"fro at 0.25 to 0.5 rad/s for {records.LENGTH:g} s, with 1000 samples per second and tool poses at 100 Hz (0.5 mm, "
         f"1 mrad). The thresholds are {bounds.factor:g} times the largest residuals of {chosen.robots} other robots in "
-        f"{CALIBRATED:g} s each. Parentheses contain Clopper-Pearson intervals of 95 %. Seeds: calibration from 0, faults "
-        f"{records.DRAWS} (draws) and "
-        f"from {records.SEEDS} (robots), pushes from {pushes.SEEDS}, healthy motion from {healthy.SEEDS}.",
+        f"{CALIBRATED:g} s each. Parentheses contain Clopper-Pearson intervals of 95 %. The faults are drawn "
+        f"with seed {records.DRAWS}. Seeds of robots begin at 0 (calibration), {records.SEEDS} (faults), {pushes.SEEDS} "
+        f"(pushes) and {healthy.SEEDS} (healthy motion).",
         "",
         *records.table(store, bounds, chosen.robots, count=chosen.count, sensors=chosen.sensors),
         *pushes.table(store, bounds, chosen.robots, chosen.pushes),

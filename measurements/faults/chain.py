@@ -268,7 +268,8 @@ def write(program: str, title: str, chosen: argparse.Namespace, *, seeds: str, a
         "",
         f"Written by `python -m measurements.faults.{program} --arm {chosen.arm} --tasks {chosen.tasks} --robots "
         f"{chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {seeds}, {CALIBRATION} (calibration). Everything is **simulated**.",
+        f"{datetime.now():%Y-%m-%d} with {made_with()}. The seeds are {seeds}, {CALIBRATION} (calibration). Everything is "
+        "**simulated**.",
         "",
         about,
         "",

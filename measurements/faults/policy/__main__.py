@@ -75,7 +75,7 @@ def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy])
         [
             "# A learned policy on Pusher-v5 when a joint fails",
             "",
-            f"Written by `python -m measurements.faults.policy --count {count}` on {datetime.now():%Y-%m-%d}; {made}. "
+            f"Written by `python -m measurements.faults.policy --count {count}` on {datetime.now():%Y-%m-%d} with {made}. "
             f"Everything is "
             "**simulated**.",
             "",
