@@ -38,17 +38,18 @@ def main() -> None:
     made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco"))
     options = " ".join(f"--{name} {getattr(chosen, name):g}" for name in SIZES)
     lines = [
-        f"# Faults in simulated records, {arm.title}",
+        f"# Faults in simulated logs, {arm.title}",
         "",
-        f"Written by `python -m measurements.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d}; "
+        f"Written by `python -m measurements.faults --arm {chosen.arm} {options}` on {datetime.now():%Y-%m-%d} with "
         f"{made}. Everything "
         "is **simulated**.",
         "",
-        "Each record is of a robot of its own, whose masses and friction are up to 20 % off the model; joints swing to and fro "
-        f"at 0.25 to 0.5 rad/s, {records.LENGTH:g} s, 1000 samples a second, the tool's pose at 100 Hz (0.5 mm, 1 mrad). "
-        f"Bounds: the largest residuals of {chosen.robots} other robots, {CALIBRATED:g} s each, times {bounds.factor:g}. In "
-        f"brackets: exact 95 % intervals (Clopper and Pearson). Seeds: calibration from 0, faults {records.DRAWS} (draws) and "
-        f"from {records.SEEDS} (robots), pushes from {pushes.SEEDS}, healthy motion from {healthy.SEEDS}.",
+        "Each log is from its own robot, whose masses and friction differ from the model by up to 20 %. The joints move to and "
+        f"fro at 0.25 to 0.5 rad/s for {records.LENGTH:g} s, with 1000 samples per second and tool poses at 100 Hz (0.5 mm, "
+        f"1 mrad). The thresholds are {bounds.factor:g} times the largest residuals of {chosen.robots} other robots in "
+        f"{CALIBRATED:g} s each. Parentheses contain Clopper-Pearson intervals of 95 %. The faults are drawn "
+        f"with seed {records.DRAWS}. Seeds of robots begin at 0 (calibration), {records.SEEDS} (faults), {pushes.SEEDS} "
+        f"(pushes) and {healthy.SEEDS} (healthy motion).",
         "",
         *records.table(store, bounds, chosen.robots, count=chosen.count, sensors=chosen.sensors),
         *pushes.table(store, bounds, chosen.robots, chosen.pushes),

@@ -102,19 +102,19 @@ def table(store: Store, count: int) -> list[str]:
     lines = [
         "## Files of logs",
         "",
-        f"{count} logs of {RATE:g} Hz in {', '.join(FORMATS)} files, each of another robot, through `holdfast diagnose` alone; "
-        "every seventh healthy, the others with a fault of any kind of the table above; bounds by `holdfast calibrate` from "
-        f"{CALIBRATION} robots, {SECONDS:g} s each. In every second log the tool's pose is {LATE / RATE * 1e3:g} ms late, and "
-        f"`--latency` says so.",
+        f"`holdfast diagnose` evaluates {count} logs of {RATE:g} Hz in {', '.join(FORMATS)} files, each from another robot. "
+        "Every seventh log is healthy, and the others have a fault of any kind in the table above. `holdfast calibrate` sets "
+        f"the thresholds from {CALIBRATION} robots with {SECONDS:g} s each. In every second log the tool pose is "
+        f"{LATE / RATE * 1e3:g} ms late, and `--latency` states this.",
         "",
-        f"Of the {len(faulty)} faults: the right joint is named in {of(len(right), len(faulty))}, no alarm in "
+        f"Results for the {len(faulty)} faults: the correct joint is named in {of(len(right), len(faulty))}, no alarm in "
         f"{of(len(silent), len(faulty))} ({unheard or '-'}), a wrong joint or an alarm before the fault in "
         f"{of(len(wrong), len(faulty))}. False alarms in the healthy logs: {of(len(false), len(healthy))}.",
     ]
     lines += [f"* {one['kind']} of {one['joint']}, called {one['named']} of {one['said']}" for one in wrong]
     lines += [
         "",
-        f"A latency that is not declared: {UNDECLARED} other healthy logs whose poses are {LATE / RATE * 1e3:g} ms late, "
-        f"without `--latency`. Alarms in {of(len(alarmed), UNDECLARED)}, called {', '.join(sorted(set(alarmed))) or '-'}.",
+        f"In {UNDECLARED} other healthy logs the poses are {LATE / RATE * 1e3:g} ms late, and `--latency` is not given. "
+        f"Alarms in {of(len(alarmed), UNDECLARED)}, classified as {', '.join(sorted(set(alarmed))) or '-'}.",
     ]
     return [*lines, ""]

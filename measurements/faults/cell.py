@@ -76,15 +76,16 @@ def main() -> None:
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
     about = (
-        "Robots, tasks and law are those of the chain, other seeds. One joint locks, swings freely or has a frozen sensor, and "
-        f"is braked. Then there is a ball, {100 * RADIUS:g} cm in radius, from which {100 * MARGIN:g} cm are kept, where the "
-        f"tool passed on the rest of its way when there was none, at least {100 * AWAY:g} cm from where it was braked and from "
-        "the target, and not in the way of an arm that is stopping. So each task is finished without the ball, and "
-        "**each would touch it if nobody looked out**. Touched: a link's mesh touches the ball. "
-        "Whether there is a way round is not known. Fractions are in per cent, with exact 95 % intervals (Clopper and Pearson)."
+        "Robots, tasks and control law are those of the fault response, with other seeds. One joint locks, swings freely or "
+        f"has a frozen sensor, and is braked. Then a ball with a radius of {100 * RADIUS:g} cm and a margin of "
+        f"{100 * MARGIN:g} cm is placed on the remaining path that the tool followed without the ball. It is at least "
+        f"{100 * AWAY:g} cm from the position of braking and from the target, and not in the way of the stopping arm. Each "
+        "task is therefore finished without the ball, and **without collision checks each would touch it**. *Touched* means "
+        "that the mesh of a link touches the ball. Whether a detour exists is unknown. Fractions are in per cent, with "
+        "Clopper-Pearson intervals of 95 %."
     )
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults and balls)"
-    write("cell", f"A ball in the way, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))
+    write("cell", f"Recovery with an obstacle, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))
 
 
 if __name__ == "__main__":

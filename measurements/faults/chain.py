@@ -71,7 +71,7 @@ def trials(arm: hf.Arm, *, seed: int) -> Iterator[Trial]:
         k += 1
 
 
-REACTIONS = {
+REACTIONS = {  # by the key of a stored row
     "nobody notices": {"react": "none", "centring": CENTRING},
     "nobody notices, no null-space objective": {"react": "none", "centring": 0.0},
     "everything stops at an alarm": {"react": "stop", "centring": CENTRING},
@@ -80,6 +80,20 @@ REACTIONS = {
     "known at once, without recover": {"react": "known", "centring": CENTRING, "plan": False},
 }
 LIMIT, PLANNED_LIMIT = 12.0, 24.0  # s
+LABELS = {  # of columns in tables, by the key of a stored row
+    "nobody notices": "no monitor",
+    "nobody notices, no null-space objective": "no monitor, no null-space objective",
+    "everything stops at an alarm": "stop at an alarm",
+    "chain, without recover": "monitor, without recover",
+    "chain": "monitor and recover",
+    "known at once, without recover": "known fault, without recover",
+    "known at once": "known fault",
+    "noticed": "detected",
+    "its joint named": "joint isolated",
+    "an alarm between": "alarm between the faults",
+    "by a posture": "by an intermediate configuration",
+    "by a route": "by a planned route",
+}
 
 
 def bounds_of(arm: hf.Arm, robots: int, file: Path | None = None) -> Bounds:
@@ -164,7 +178,10 @@ def percent(rows: Sequence[Mapping[str, Any]], name: str) -> str:
 
 def grouped(groups: Mapping[str, Sequence[Mapping[str, Any]]], columns: Sequence[str], *, counted: str) -> list[str]:
     """A table of these groups of rows: of how many rows of each which column holds."""
-    lines = [f"| | {counted} | {' | '.join(columns)} |", "|" + "---|" * (len(columns) + 2)]
+    lines = [
+        f"| | {counted} | {' | '.join(LABELS.get(column, column) for column in columns)} |",
+        "|" + "---|" * (len(columns) + 2),
+    ]
     for name, some in groups.items():
         lines.append(f"| {name} | {len(some)} | {' | '.join(percent(some, column) for column in columns)} |")
     return lines
@@ -184,13 +201,15 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
     late = [row for row in rows if row["delay"] is not None and row["delay"] >= 0]
     early = sum(row["delay"] is not None and row["delay"] < 0 for row in rows)
     lines = [
-        f"{len(late)} of {len(rows)} were noticed, {early} alarms came before the fault; the joint was right in "
-        f"{sum(row['joint right'] for row in late)}; {sum(row['wrong brake'] for row in rows)} times a joint that had no fault "
-        f"was braked. {sum(row['detour'] for row in rows)} times the chain went by another posture, "
-        f"{sum(row['planned'] for row in rows)} times it planned a route; in "
-        f"{sum(row['alarms'] > 1 for row in rows)} of {len(rows)} runs something else alarmed after the first alarm.",
-        f"False alarms in the same runs without a fault: {sum(row['false alarm'] for row in rows)} in "
-        f"{sum(row['hours'] for row in rows):.3g} h. Bounds are those of {robots} other robots, a healthy run each, times 1.5.",
+        f"{len(late)} of {len(rows)} faults were detected, and the joint was correct in "
+        f"{sum(row['joint right'] for row in late)} of these. {early} alarms came before the fault, and a joint without a "
+        f"fault was braked in {sum(row['wrong brake'] for row in rows)} runs. The response used an intermediate configuration "
+        f"in {sum(row['detour'] for row in rows)} runs and a planned route in {sum(row['planned'] for row in rows)} runs. "
+        f"{sum(row['alarms'] > 1 for row in rows)} of {len(rows)} runs had another alarm after the first one.",
+        f"The same runs without a fault had {sum(row['false alarm'] for row in rows)} false alarms in "
+        f"{sum(row['hours'] for row in rows):.3g} h. The thresholds are 1.5 times the largest residuals of {robots} other "
+        "robots, with one healthy run each.",
+        "",
     ]
     for kind in ("locked", "limp"):
         some = [row for row in late if row["kind"] == kind]
@@ -198,9 +217,9 @@ def sentences(rows: Sequence[Mapping[str, Any]], robots: int) -> list[str]:
             delay, far = (np.array([row[name] for row in some if name in row]) for name in ("delay", "distance"))
             brake = np.array([row["braked after"] for row in some if row["braked after"] is not None])
             lines.append(
-                f"{kind}: noticed {len(some)} of {sum(row['kind'] == kind for row in rows)}, joint right "
-                f"{sum(row['joint right'] for row in some)}; delay {1e3 * np.median(delay):.0f} / "
-                f"{1e3 * np.quantile(delay, 0.9):.0f} ms (median / 90 %), reference to tool {np.median(far):.2g} / "
+                f"- {kind}: {len(some)} of {sum(row['kind'] == kind for row in rows)} detected, joint correct in "
+                f"{sum(row['joint right'] for row in some)}, delay {1e3 * np.median(delay):.0f} / "
+                f"{1e3 * np.quantile(delay, 0.9):.0f} ms (median / 90 %), tool off its reference by {np.median(far):.2g} / "
                 f"{np.quantile(far, 0.9):.2g} mm, braked after {1e3 * np.median(brake):.0f} / "
                 f"{1e3 * np.quantile(brake, 0.9):.0f} ms"
             )
@@ -249,7 +268,8 @@ def write(program: str, title: str, chosen: argparse.Namespace, *, seeds: str, a
         "",
         f"Written by `python -m measurements.faults.{program} --arm {chosen.arm} --tasks {chosen.tasks} --robots "
         f"{chosen.robots}` on "
-        f"{datetime.now():%Y-%m-%d}; {made_with()}; seeds {seeds}, {CALIBRATION} (calibration). Everything is **simulated**.",
+        f"{datetime.now():%Y-%m-%d} with {made_with()}. The seeds are {seeds}, {CALIBRATION} (calibration). Everything is "
+        "**simulated**.",
         "",
         about,
         "",
@@ -266,16 +286,16 @@ def main() -> None:
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
     about = (
-        "Each task is of a robot of its own (masses and friction up to 20 % off the model), half of them positions, half "
-        f"poses, {AWAY[0]:g} to {AWAY[1]:g} m away; the healthy robot reaches it within {LIMIT:g} s. One fault begins after "
-        f"{ONSET[0]:g} to {ONSET[1]:g} s. Law: damped inverse, {SPEED:g} m/s, joints drawn to their middle at {CENTRING:g}/s "
-        "but in one column, and kept at their limits. Finished: the true tool within 5 mm and 1 deg for 0.2 s, after "
-        f"{LIMIT:g} s at most ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with exact 95 % intervals "
-        "(Clopper and Pearson)."
+        "Each task has its own robot, whose masses and friction differ from the model by up to 20 %. Half of the tasks are "
+        f"positions and half are poses, {AWAY[0]:g} to {AWAY[1]:g} m away, and the healthy robot reaches each within "
+        f"{LIMIT:g} s. One fault begins after {ONSET[0]:g} to {ONSET[1]:g} s. The control law is the damped inverse at "
+        f"{SPEED:g} m/s, which enforces joint limits. Except in one column, it moves the joints towards the middle of their "
+        f"ranges at {CENTRING:g}/s. A task is finished if the true tool is within 5 mm and 1 deg for 0.2 s, after at most "
+        f"{LIMIT:g} s ({PLANNED_LIMIT:g} s with a plan). Fractions are in per cent, with Clopper-Pearson intervals of 95 %."
     )
     lines = [*table(rows), "", *sentences(rows, chosen.robots)]
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
-    write("chain", f"The chain on {arm.title}", chosen, seeds=seeds, about=about, lines=lines)
+    write("chain", f"Fault response, {arm.title}", chosen, seeds=seeds, about=about, lines=lines)
 
 
 if __name__ == "__main__":

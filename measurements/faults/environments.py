@@ -23,7 +23,7 @@ KINDS: dict[str, Callable[[str], FaultEvent]] = {
     "weak": lambda joint: FaultEvent("weak", joint, ONSET, parameters={"gain": 0.3}),
 }
 PACKAGES = ("holdfast", "numpy", "mujoco", "gymnasium", "gymnasium-robotics", "robosuite")
-HEAD = ["environment", "joints", "kind", "off at most, mrad", "after 100 steps, mrad", "largest torque, N m", "restored"]
+HEAD = ["environment", "joints", "kind", "largest deviation, mrad", "after 100 steps, mrad", "largest torque, N m", "restored"]
 
 
 def made(name: str) -> Any:
@@ -116,12 +116,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     file.write_text(known + "\n" + "\n".join(lines) + "\n", encoding="utf-8")
 
 
-ABOUT = f"""Written by `python -m measurements.faults.environments NAMES`, which adds a table; everything is **simulated**. A
-joint fails after 0.1 s, then {STEPS} steps at random actions over their whole range; the worst of up to eight joints: how far
-it is
-off where it locked, what its motors give at most, and whether every number of the model is as before. Robosuite pins an older
-MuJoCo, so it has an environment of its own. Kitchen of Gymnasium-Robotics 1.4.2 does not run on MuJoCo 4. Joints of
-its Fetch have no motors: the hand is dragged to where it is told to go.
+ABOUT = f"""Written by `python -m measurements.faults.environments NAMES`, which adds a table. Everything is **simulated**. A
+joint fails after 0.1 s, and {STEPS} steps with random actions over their whole range follow. Each row is the worst of up to
+eight joints. It contains the largest deviation from the locked value, the largest torque of the motors, and whether every
+number of the model is restored afterwards. Robosuite requires an older MuJoCo, so it ran in a separate installation. Kitchen of
+Gymnasium-Robotics 1.4.2 does not run on MuJoCo 4. The joints of its Fetch have no motors, because the hand is dragged to the
+commanded position.
 """
 
 if __name__ == "__main__":

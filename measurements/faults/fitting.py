@@ -56,12 +56,12 @@ def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) ->
     lines = [
         "## Masses fitted to each robot",
         "",
-        f"Weak joints of {count} other robots, judged with the bounds above and with bounds whose masses and friction "
-        f"`calibrate --fit` found in {HEALTHY_S:g} s of healthy motion of the same robot. An alarm before the fault is counted "
-        "as too early. The simulated robots differ from the model only in friction and in one factor on the mass of each link, "
-        "which is what the fit changes; a fit to a real robot explains less.",
+        f"Weak joints of {count} other robots are diagnosed with the thresholds above, and with thresholds whose masses and "
+        f"friction `calibrate --fit` found in {HEALTHY_S:g} s of healthy motion of the same robot. An alarm before the fault "
+        "counts as too early. The simulated robots differ from the model only in friction and in one factor on the mass of "
+        "each link. The fit changes exactly these, so a fit to a real robot explains less.",
         "",
-        "| bounds | joint right | too early | loss stated | error, median / 90 % / largest | truth within the uncertainty |",
+        "| thresholds | joint correct | alarm too early | loss stated | error, median / 90 % / largest | true loss within it |",
         "|---|---|---|---|---|---|",
     ]
     both = [one for one in found if all("error" in one[name] for name in NAMES)]
@@ -70,5 +70,5 @@ def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) ->
         lines.append(row(title, [one[name] for one in found]))
     for name, title in NAMES.items():
         lines.append(row(f"{title}, where both state a loss", [one[name] for one in both]))
-    lines.append(row("fitted, called weak", [one["fitted"] for one in weak]))
+    lines.append(row("fitted, classified as weak", [one["fitted"] for one in weak]))
     return [*lines, ""]

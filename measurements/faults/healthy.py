@@ -41,9 +41,9 @@ def section(store: Store, bounds: hf.diagnosis.Bounds, robots: int, *, plants: i
     return [
         "## False alarms",
         "",
-        f"{false} in {hours:.4g} h of healthy motion ({some} robots with one): {plants} robots that were not calibrated on, "
-        f"{records} motions of {RECORD:g} s each. With 95 % confidence fewer than "
-        f"{chi2.ppf(0.95, 2 * false + 2) / (2 * hours):.3g} an hour, for this motion. The largest residuals were {most[0]:.2f} "
-        f"(torques), {most[1]:.2f} (tracking) and {most[2]:.2f} (tool) of their bounds.",
+        f"There were {false} false alarms in {hours:.4g} h of healthy motion, on {some} of {plants} robots that were not used "
+        f"for the calibration, with {records} motions of {RECORD:g} s each. With 95 % confidence there are fewer than "
+        f"{chi2.ppf(0.95, 2 * false + 2) / (2 * hours):.3g} per hour for this motion. The largest residuals were {most[0]:.2f} "
+        f"(torques), {most[1]:.2f} (tracking) and {most[2]:.2f} (tool) of their thresholds.",
         "",
     ]

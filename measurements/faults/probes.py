@@ -11,7 +11,8 @@ from holdfast.core.probability import Interval
 from measurements.faults.store import Store
 
 HEAD = [
-    "| task, arm, configurations | testable | found | wrong joint | tool, mm, median / 95 % | s, likewise | nothing locked |",
+    "| task, arm, configurations | testable | found | wrong joint | displacement of the tool, mm, median / 95 % "
+    "| time, s, median / 95 % | no lock |",
     "|---|---|---|---|---|---|---|",
 ]
 CASES = (  # arm, task, joints at 0, how many times the asked count of configurations
@@ -57,7 +58,7 @@ def row(name: str, task: str, zero: tuple[int, ...], count: int, seed: int) -> s
         f"{found} ({100 * of.low:.4g} to {100 * of.high:.4g} %)",
         str(wrong),
         *both,
-        f"{clear} of {count} told so, {falsely} falsely a lock",
+        f"{clear} of {count} reported as such, {falsely} false locks",
     ]
     return f"| {' | '.join(cells)} |"
 
@@ -71,9 +72,9 @@ def table(store: Store, count: int) -> list[str]:
     return [
         "## Self-motions that find the locked joint",
         "",
-        "From the tool's measured pose alone, 100 Hz, 0.5 mm, 1 mrad; the lock is there before the motion begins. Testable: "
-        "told from every other by the plan, before anything moves. How far the tool is from its rest at the decision is true: "
-        "as the joint sensors tell it, which are right to 0.02 mrad here.",
+        "Only the measured tool pose is used (100 Hz, 0.5 mm, 1 mrad), and the joint is locked before the motion begins. A "
+        "lock is testable if the plan can distinguish it from all other locks. The displacement of the tool at the decision is "
+        "the true one, from joint sensors that are accurate to 0.02 mrad.",
         "",
         *HEAD,
         *rows,

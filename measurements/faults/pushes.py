@@ -59,11 +59,11 @@ def table(store: Store, bounds: hf.diagnosis.Bounds, robots: int, count: int) ->
     lines = [
         "## Pushes on every link",
         "",
-        f"A force of {FORCE[0]:g} to {FORCE[1]:g} N in any direction, anywhere between a joint and the next, for "
-        f"{LASTS[0]:g} to {LASTS[1]:g} s; else as above. A force on the first link can load no row but the first, as a fault "
-        "of that joint does.",
+        f"A force of {FORCE[0]:g} to {FORCE[1]:g} N acts in any direction, anywhere between a joint and the next one, for "
+        f"{LASTS[0]:g} to {LASTS[1]:g} s. All other settings are as above. A force on the first link can load only the first "
+        "joint, like a fault of that joint.",
         "",
-        "| link | noticed | not blamed on a joint | delay, ms, median / 90 % | said |",
+        "| link | detected | not attributed to a joint | delay, ms, median / 90 % | classified as |",
         "|---|---|---|---|---|",
     ]
     for link in (*range(1, store.arm.n + 1), None):

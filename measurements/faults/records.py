@@ -28,7 +28,8 @@ KINDS = {
 }
 POSED = ("sensor_bias", "sensor_drift", "sensor_freeze", "slipping_clutch")  # the tool's pose tells them
 HEAD = [
-    "| fault | noticed | joint right, of those | too early | delay, ms, median / 90 % | reference to tool, mm | named |",
+    "| fault | detected | joint correct, of those | alarm too early | delay, ms, median / 90 % | tool off its reference, mm "
+    "| classified as |",
     "|---|---|---|---|---|---|---|",
 ]
 
@@ -76,12 +77,12 @@ def row(kind: str, found: Sequence[Mapping[str, Any]]) -> str:
 def losses(found: Sequence[Mapping[str, Any]]) -> list[str]:
     """How well the loss of weak joints is told, by what they are called and by joint."""
     told = [one for one in found if one.get("off") is not None and one["right"] and one["delay"] >= 0]
-    groups = {"called weak": [one for one in told if one["kind"] == "weak"], "whatever they are called": told}
+    groups = {"classified as weak": [one for one in told if one["kind"] == "weak"], "all": told}
     groups |= {f"joint {k}": [one for one in told if one["joint"] == k] for k in sorted({one["joint"] for one in told})}
     lines = [
-        "Loss of weak joints, told after 120 ms, against the true one:",
+        "Torque loss of weak joints, estimated after 120 ms, compared with the true loss:",
         "",
-        "| joints | told | error, median / 90 % / largest | stated uncertainty, median / 90 % | truth within it |",
+        "| joints | estimates | error, median / 90 % / largest | stated uncertainty, median / 90 % | true loss within it |",
         "|---|---|---|---|---|",
     ]
     for name, some in groups.items():
@@ -101,9 +102,9 @@ def predictions(locked: Sequence[Mapping[str, Any]]) -> list[str]:
         return []
     near = int(((ratios >= 0.5) & (ratios <= 2)).sum())
     return [
-        f"Delays of locks, as `expected_delays` predicts them from the motion and the servos: measured / predicted is "
-        f"{np.median(ratios):.2f} in the median and {ratios.min():.2f} to {ratios.max():.2f}; within a factor of 2 in "
-        f"{of(near, ratios.size)}.",
+        "`expected_delays` predicts the delays of locks from the motion and the servos. The ratio of measured to predicted "
+        f"delay is {np.median(ratios):.2f} in the median and {ratios.min():.2f} to {ratios.max():.2f} in total. It is within a "
+        f"factor of 2 in {of(near, ratios.size)}.",
         "",
     ]
 

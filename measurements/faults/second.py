@@ -68,7 +68,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     groups |= {f"second: {kind}": [row for row in told if row["kind"] == kind] for kind in KINDS}
     delay = [1e3 * row["delay"] for row in told if row["delay"] is not None]
     late = f"{np.median(delay):.0f} / {np.quantile(delay, 0.9):.0f} ms (median / 90 %)" if delay else "-"
-    return [*grouped(groups, COLUMNS, counted="tasks"), "", f"From the second fault to an alarm: {late}."]
+    return [*grouped(groups, COLUMNS, counted="tasks"), "", f"Delay of the alarm after the second fault: {late}."]
 
 
 def main() -> None:
@@ -77,11 +77,11 @@ def main() -> None:
     arm = hf.arms.load(chosen.arm)
     rows = entries(arm, judged, chosen, seed=TASKS)
     about = (
-        "Robots, tasks and law are those of the chain, other seeds. Two joints, drawn evenly, fail one after "
-        f"the other, each locked, free-swinging or with a frozen sensor: the first after {ONSET[0]:g} to {ONSET[1]:g} s, the "
-        f"second {AFTER:g} s after the first was braked; tasks that are over before are left out. Feasible: a motion to the "
-        "target exists, from where the arm is when the second fault begins, with both joints locked there. Fractions are in "
-        "per cent, with exact 95 % intervals (Clopper and Pearson)."
+        "Robots, tasks and control law are those of the fault response, with other seeds. Two joints, sampled uniformly, fail "
+        "one after the other. Each is locked, swings freely or has a frozen sensor. The first fault begins after "
+        f"{ONSET[0]:g} to {ONSET[1]:g} s, and the second one {AFTER:g} s after the first joint was braked. Tasks that end "
+        "before are omitted. A task is feasible if a motion to the target exists from the configuration at the second fault, "
+        "with both joints locked there. Fractions are in per cent, with Clopper-Pearson intervals of 95 %."
     )
     seeds = f"{TASKS} (tasks and robots), {DRAWS} (faults)"
     write("second", f"A second fault, {arm.title}", chosen, seeds=seeds, about=about, lines=table(rows))

@@ -67,7 +67,7 @@ def percent(some: int, count: int) -> str:
 def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy]) -> str:
     """POLICY.md."""
     made = ", ".join(f"{name} {version(name)}" for name in ("holdfast", "numpy", "mujoco", "gymnasium"))
-    head = ["fault", "can be finished", "known at once"]
+    head = ["fault", "can be finished", "known fault"]
     for what in POLICIES.values():
         head += [what, "of those that can be finished"]
     about = [f"- {POLICIES[k]}: " + ", ".join(f"{key} {value}" for key, value in p.about.items()) for k, p in policies.items()]
@@ -75,7 +75,7 @@ def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy])
         [
             "# A learned policy on Pusher-v5 when a joint fails",
             "",
-            f"Written by `python -m measurements.faults.policy --count {count}` on {datetime.now():%Y-%m-%d}; {made}. "
+            f"Written by `python -m measurements.faults.policy --count {count}` on {datetime.now():%Y-%m-%d} with {made}. "
             f"Everything is "
             "**simulated**.",
             "",
@@ -83,7 +83,7 @@ def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy])
             "",
             *about,
             "",
-            f"{count} episodes of each kind, in %, with exact 95 % intervals:",
+            f"{count} episodes of each kind, in per cent, with Clopper-Pearson intervals of 95 %.",
             "",
             f"| {' | '.join(head)} |",
             "|" + "---|" * len(head),
@@ -93,19 +93,21 @@ def text(rows: Sequence[Sequence[str]], count: int, policies: dict[str, Policy])
     )
 
 
-ABOUT = f"""Done: at the end of the episode the object's centre is within {100 * NEAR:g} cm of the goal's, on the table. An
-episode has {STEPS} steps of 0.05 s, twice the environment's own: its object is so light, and its damping so heavy, that one
-contact moves it at some 4 cm/s however hard it is pushed, and it begins 17 to 40 cm away. One joint fails {ONSET[0]:g} to
-{ONSET[1]:g} s after the start and stays so: kinds and amounts in `task.py`. No policy is told. A slipping clutch is no line of
-its own: the environment has no reference that a sensor could follow, so it is a lock.
+ABOUT = f"""An episode counts as finished if the object's centre is within {100 * NEAR:g} cm of the goal's at the end, on
+the table. It has {STEPS} steps of 0.05 s, twice as many as in the environment. The object is so light and its damping so high
+that one contact moves it at about 4 cm/s however hard it is pushed, and it begins 17 to 40 cm away. One joint fails
+{ONSET[0]:g} to {ONSET[1]:g} s after the start and does not recover (kinds and amounts in `task.py`). The policies are not
+informed. A slipping clutch has no row, because the environment has no reference that a sensor could follow, so it equals a
+lock.
 
-A policy sees what the environment shows, 23 numbers with no memory, and gives 7 torques. It learned to do as a controller
-does that knows the true state (`teacher.py`; data aggregation, Ross, Gordon and Bagnell, 2011), once from healthy episodes
-alone, once with a fault in 12 of 13, where that controller knows the fault and the policy does not.
+A policy observes the 23 numbers of the environment, without memory, and returns 7 torques. It learned to imitate a
+controller that knows the true state (`teacher.py`, data aggregation, Ross, Gordon and Bagnell, 2011). One policy learned from
+healthy episodes only, and the other one with a fault in 12 of 13 episodes. There the controller knows the fault, but the
+policy does not.
 
-*Can be finished*: by one of the policies, or by the controller that knows the fault from its onset, in one of seven ways to
-push. That is a lower bound of what is feasible, by construction and not by a proof: a better controller may finish more, and
-of those that can be finished the policies would then finish less."""
+*Can be finished* means that one of the policies finishes the episode, or the controller that knows the fault from its onset, in
+one of seven ways to push. This is a lower bound of the feasible episodes by construction and not by a proof. A better
+controller may finish more episodes, and the policies would then finish a smaller fraction of those that can be finished."""
 
 
 def main() -> None:
