@@ -101,7 +101,7 @@ def test_what_makes_no_claim(mixed5, tmp_path):
     panda = hf.arms.load("panda")
     with pytest.raises(InputError, match="is the first or last joint"):
         structural_zero_claim(panda, 0)
-    with pytest.raises(InputError, match="slides"):
+    with pytest.raises(InputError, match="is prismatic"):
         structural_zero_claim(mixed5, 2)
     with pytest.raises(InputError, match="tolerance"):
         structural_zero_claim(panda, 3, tolerance=1.0)

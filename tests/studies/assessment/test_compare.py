@@ -80,7 +80,7 @@ def test_the_best(comparison, runs):
         comparison.best("planar")
     with pytest.raises(hf.InputError, match="not optimised"):
         comparison.best(optimised=True)
-    with pytest.raises(hf.InputError, match="no candidate 'x'"):
+    with pytest.raises(hf.InputError, match="candidate 'x' is not known"):
         comparison.upgrades("x")
 
 
