@@ -559,7 +559,7 @@ def test_an_index_of_ones_own_stays_in_memory(three, tmp_path):
     np.testing.assert_allclose(columns(run)["by_failure"], expected, rtol=1e-9)
     assert run.distribution.highest < 0
     for refused in (lambda: assess(three, THREE, mine, poses=10, store=tmp_path / "run"), lambda: run.save(tmp_path / "run")):
-        with pytest.raises(InputError, match="user-defined"):
+        with pytest.raises(InputError, match="your own"):
             refused()
     assert not (tmp_path / "run").exists()
 
