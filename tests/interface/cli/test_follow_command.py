@@ -114,7 +114,7 @@ def test_a_hand_off_its_path_is_said_first(cli, tmp_path):
         ((*WISH, "--samples", "1"), "samples is 1"),
         ((*WISH, "--q", "0,0"), "it must have 3"),
         ((*WISH, "--q", "0,0,0"), "from the first pose of the path"),
-        ((*WISH, "--wanted", "1"), "augmented Jacobian keeps"),
+        ((*WISH, "--wanted", "1"), "for the augmented Jacobian"),
         ((*WISH, "--task", "pose"), "no self-motion to use"),
         ((*WISH, "--csv", "/nowhere/t.csv", "--samples", "5"), "cannot write motion"),
         ((*WISH, "--out", "/dev/null/x", "--samples", "5"), "cannot write to"),

@@ -227,7 +227,7 @@ def test_bad_input_is_answered_in_a_sentence(planar, torque, wave, across):
         ({"minimise": torque, "rate_cap": 0}, "rate_cap is 0"),
         ({"minimise": torque, "rate_cap": np.nan}, "rate_cap is nan"),
         ({"minimise": torque, "gain": -1}, "gain is -1"),
-        ({"minimise": torque, "wanted": 1.0}, "augmented Jacobian keeps"),
+        ({"minimise": torque, "wanted": 1.0}, "for the augmented Jacobian"),
     ):
         with pytest.raises(hf.InputError, match=what):
             hf.follow(planar, wave, task="planar", **options)

@@ -196,10 +196,10 @@ def test_surfaces_without_an_inside():
         Mesh("jig", (broken, shape.faces))
     with pytest.raises(hf.InputError, match="flat"):
         Mesh("jig", ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), solid="hull")
-    with pytest.raises(hf.InputError, match="not there"):
+    with pytest.raises(hf.InputError, match="does not exist"):
         Mesh("jig", (shape.vertices[:5], shape.faces))
     for strange in (-1, 0.5, 1e308, np.nan):
-        with pytest.raises(hf.InputError, match="not there"):
+        with pytest.raises(hf.InputError, match="does not exist"):
             Mesh("jig", (shape.vertices, np.vstack([shape.faces, [0, 1, strange]])))
 
 
