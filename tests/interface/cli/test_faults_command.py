@@ -44,7 +44,7 @@ def test_the_whole_chain_by_one_command(ask, refused, tmp_path, monkeypatch):
     )
     assert (clear["ok"], clear["contacts"]) == (True, [])
     page = (tmp_path / "cell" / "report.html").read_text(encoding="utf-8")
-    assert "clear of the cell" in page
+    assert "or touch the cell" in page
     assert "lamp" in page
     assert {a["what"] for a in clear["actions"]} & {"detour", "plan"}
     page = (tmp_path / "chain" / "report.html").read_text(encoding="utf-8")
