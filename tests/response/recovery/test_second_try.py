@@ -62,7 +62,7 @@ def test_a_narrow_gap_is_passed_by_exact_distances_and_said_so(arm, slim, librar
     np.testing.assert_allclose(found.q[[0, -1]], ENDS, atol=1e-9)
     assert not cells.touches(arm, slim.capsules, cell, cells.finely(found.q)).any()
     by = {"coal": "coal", "fcl": "python-fcl"}[library]
-    assert any(f"exact distances ({by}" in line for line in found.describe())
+    assert any(f"Exact distances ({by}" in line for line in found.describe())
     check = found.check()
     assert check.ok
     assert -1e-9 <= check.least_room <= 0.0025 + 1e-9
