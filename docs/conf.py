@@ -138,6 +138,7 @@ moved |= {
     "reference": "reference/index",
     "explanation": "theory/index",
     "what-is-here": "which-command",
+    "api/converge": "api/convergence",
 }
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},

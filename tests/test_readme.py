@@ -1,5 +1,6 @@
 """The first page says what is true: its links lead somewhere, its commands exist, its Python runs."""
 
+import html
 import re
 import shlex
 import shutil
@@ -28,8 +29,12 @@ def test_links_lead_somewhere(link: str):
 
 
 def test_its_commands_exist():
-    called = [shlex.split(line, comments=True) for line in blocks("sh").splitlines() if line.startswith("holdfast ")]
-    assert len(called) == 3
+    called = [
+        shlex.split(line, comments=True)
+        for line in blocks("sh").replace("\\\n", " ").splitlines()
+        if line.startswith("holdfast ")
+    ]
+    assert len(called) == 4
     assert {words[1] for words in called} <= set(COMMAND_MODULES)
     targets = re.findall(r"^make (\w+)", blocks("sh"), re.MULTILINE)
     assert targets == ["demo", "test"]
@@ -43,3 +48,11 @@ def test_its_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
     exec(compile(code, "README.md", "exec"), {})
     assert "95%" in capsys.readouterr().out
     assert (tmp_path / "report.html").stat().st_size > 10_000
+
+
+def test_its_report_is_small_and_names_the_command_that_made_it():
+    link = re.search(r"\]\((docs/_static/reports/\S+\.html)\)", TEXT).group(1)
+    report = (ROOT / link).read_text(encoding="utf-8")
+    assert len(report) <= 300_000
+    command = re.search(r"^holdfast recover .*?(?<!\\)\n", TEXT, re.MULTILINE | re.DOTALL).group(0)
+    assert shlex.join(shlex.split(command.replace("\\\n", " "))) in html.unescape(report)

@@ -1,6 +1,7 @@
 """One page a class: ``class-page`` takes the name and options of ``autoclass`` and leaves a line that links to the page.
 
-The pages, in ``docs/api/classes``, are written before the others are read, and are not kept in git.
+The pages, in ``docs/api/classes``, are written before the others are read, and are not kept in git. ``api-summary`` is a table
+of everything that its page describes, with the first sentence of each docstring.
 """
 
 from __future__ import annotations
@@ -19,6 +20,10 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
+DESCRIBED = re.compile(
+    r"^\.\. (class-page|autofunction|autoclass|autoexception|automodule):: (\S+)\n(?:   :members: (.+)\n)?", re.M
+)
+ROLE = re.compile(r":(?:py:)?(?:func|class|meth|attr|obj|data|mod):`~?(?:[\w.]+\.)?(\w+)`")
 ASKED = re.compile(r"^\.\. class-page:: (\S+)\n((?:   :.*\n)*)", re.M)
 
 
@@ -47,6 +52,34 @@ class ClassPage(SphinxDirective):
         return shown
 
 
+def described_names(text: str) -> list[str]:
+    """Return the names that the directives of a page describe, in their order."""
+    names = []
+    for directive, name, members in DESCRIBED.findall(text):
+        if directive != "automodule":
+            names.append(name)
+        else:
+            names += [f"{name}.{member.strip()}" for member in members.split(",") if member.strip()]
+    return list(dict.fromkeys(names))
+
+
+def first_sentence(text: str) -> str:
+    """Return the first sentence of a docstring's summary, with plain names in place of links."""
+    sentence = re.split(r"(?<=[.])\s+(?=[A-Z`])", text)[0]
+    return ROLE.sub(r"``\1``", sentence)
+
+
+class ApiSummary(SphinxDirective):
+    """Table of the names that the page describes."""
+
+    def run(self) -> list[nodes.Node]:
+        source = Path(self.env.doc2path(self.env.docname)).read_text(encoding="utf-8")
+        rows = []
+        for name in described_names(source):
+            rows += [f"   * - :py:obj:`~{name}`", f"     - {first_sentence(summary(name))}"]
+        return self.parse_text_to_nodes("\n".join([".. list-table::", "   :widths: 35 65", "", *rows]))
+
+
 def write(app: Sphinx) -> None:
     folder = Path(app.srcdir) / "api"
     pages = {}
@@ -59,5 +92,6 @@ def write(app: Sphinx) -> None:
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("class-page", ClassPage)
+    app.add_directive("api-summary", ApiSummary)
     app.connect("builder-inited", write)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""A space arm with a locked joint: can it still berth a vehicle, walk to its next fixture, and reach, and at which angles?
+"""A space arm with a locked joint: whether it can still berth a vehicle, step onto a fixture, and reach, and at which angles.
 
 Change the arm, the work and the angles to your own: python docs/dossiers/space_arm.py --out FOLDER
 """
@@ -12,7 +12,7 @@ from holdfast.core.probability import Interval
 from holdfast.interface import report
 from holdfast.model.arm import Joint
 
-# Of the station's arm (SSRMS, Canadarm2): axis of each joint, and where it sits from the one before it, m, all joints at 0.
+# Axis of each joint of the station's arm (SSRMS, Canadarm2), and its position from the previous joint, m, with all joints at 0.
 X, Y, Z = np.eye(3)
 JOINTS = {
     "shoulder roll": (X, (1.3589, 0, 0)),
@@ -25,7 +25,7 @@ JOINTS = {
 }
 TOOL, LIMIT = (1.3589, 0, 0), np.radians(270)  # m from the last joint to the end effector; rad, of every joint either way
 BACK = np.array([0, np.pi, 0])  # the end effector looks back at the wall (x = 0) that carries the arm, at the origin
-WORK = {  # what is asked of it: rows of the pose that count, and where: m, rad
+WORK = {  # task and region of each kind of work, m and rad
     "berth a vehicle": ("pose", hf.Region.box([3, 6, 0], [2, 3, 3], BACK, np.radians(40))),
     "step onto a fixture": ("pose", hf.Region.box([0, 4, 0], 0.0, BACK, [2 * np.pi, 0, 0])),
     "reach": ("position", hf.Region.box([6, 0, 0], [12, 24, 24])),
@@ -48,13 +48,13 @@ def still_done(arm, task, region, count):
 
 
 def deg(done, joint):
-    """The angles at which most of a work is still done, in words."""
+    """Return the angles at which most of a kind of work remains possible, in words."""
     good = ANGLES[done[:, joint].mean(axis=0) > 0.5]
-    return f"{', '.join(f'{a}' for a in good)} degrees" if good.size else "no angle that was tried"
+    return f"{', '.join(f'{a}' for a in good)} degrees" if good.size else "none of the angles tried"
 
 
 def maps(done):
-    """The share of each work that is left, by joint and angle."""
+    """Draw the fraction of each kind of work that remains, by joint and angle."""
     with report.style():
         figure = Figure(figsize=(7.2, 2.6), layout="constrained")
         for axes, (name, left) in zip(figure.subplots(1, len(done), sharey=True), done.items(), strict=True):
@@ -63,7 +63,7 @@ def maps(done):
             axes.set(title=name, xlabel="locked at, deg", xticks=(-180, -90, 0, 90), yticks=range(len(JOINTS)))
             axes.set_yticklabels(JOINTS)
             axes.grid(False)
-        figure.colorbar(image, label="still done, %")
+        figure.colorbar(image, label="remaining, %")
     return figure
 
 
@@ -78,28 +78,28 @@ def main(out, count=300):
     others, by_angle = np.delete(mean[berth], k), done[berth][:, k].mean(axis=0)
     best, none = ANGLES[by_angle.argmax()], ANGLES[by_angle == 0]
     answer = (
-        f"The joint to protect is the {names[k]}: locked at an angle drawn evenly from a turn it leaves "
-        f"{span(Interval.of_fractions(done[berth][:, k].mean(axis=1)))} of the berthing poses; any other leaves at least "
-        f"{100 * others.min():.0f} %. Its angle decides: at {best} degrees {by_angle.max():.0%} stay, at {none.size} of the "
-        f"{ANGLES.size} angles tried none does. To step onto a fixture: "
+        f"Protect the {names[k]}. Locked at a uniformly random angle, it leaves "
+        f"{span(Interval.of_fractions(done[berth][:, k].mean(axis=1)))} of the berthing poses, and any other joint leaves at "
+        f"least {100 * others.min():.0f} %. The result depends on the angle. At {best} degrees {by_angle.max():.0%} remain. "
+        f"At {none.size} of the {ANGLES.size} angles tried none does. The arm can step onto a fixture at "
         f"{deg(done['step onto a fixture'], k)}."
     )
     rows = [(n, *(f"{share[j]:.0%}" for share in mean.values())) for j, n in enumerate(names)]
     rows += [("no lock", *(f"{share:.0%}" for share in healthy.values()))]
     method = (
-        f"{count} poses of each work, every joint locked at each of {ANGLES.size} angles, each angle counted alike; inverse "
-        "kinematics from 20 random starts, joint limits ±270 degrees. Not found counts as not done: the shares are lower "
-        "bounds. The interval is over the poses. 'No lock': found with any of the locks. The model is our own, from dimensions "
-        "of Nguyen and Hughes 1994 as a URDF file of TraceableRobotModels quotes them; the chapter itself was not read. What "
-        "carries the arm, where it works and how far off it may turn are ours. Not modelled: the station, collisions, "
-        "flexible links, the way from pose to pose. A joint that swings free does not fall: in free fall nothing pulls at it, "
-        "so that its drift from rest is nil, and what remains is that it cannot be driven."
+        f"{count} poses of each kind of work, with each joint locked at each of {ANGLES.size} angles of equal weight. Inverse "
+        "kinematics starts from 20 random configurations, and the joint limits are ±270 degrees. A pose not found counts as "
+        "lost, so the fractions are lower bounds. The interval is over the poses. 'No lock' means found with any of the "
+        "locks. The model is our own, from dimensions of Nguyen and Hughes 1994 as a URDF file of TraceableRobotModels quotes "
+        "them. We did not read the chapter itself. The base, the work and the permitted rotation are our choice. The station, "
+        "collisions, flexible links, and the motion between poses are not modelled. A free-swinging joint does not fall in "
+        "free fall, because no weight acts on it, so its drift from rest is zero. It can no longer be driven, however."
     )
     figure = maps(done)
     evidence = {
-        "Joint by joint": report.Table(rows, ("locked", *WORK), wide=True),
-        "At which angle": report.Picture(
-            report.svg(figure, "angles", "Three maps"), "The share of the work that is still done."
+        "Results by joint": report.Table(rows, ("locked", *WORK), wide=True),
+        "Results by angle": report.Picture(
+            report.svg(figure, "angles", "Three maps"), "Fraction of the work that remains possible."
         ),
     }
     write(out, "space_arm", "A space arm with a locked joint", answer, evidence, figure=figure, method=method, count=count)

@@ -30,7 +30,7 @@ RETIRED_NAMES = {
     "stand": r"(^|_)stands(_|$)",
 }
 STUDY = r"\bstud(y|ies)\b"  # of people: an experiment
-GUIDES = {"run-your-own-experiment.md", "experiment.md"}
+GUIDES = {"run-your-own-experiment.md", "serve-an-experiment.md", "experiment.md"}
 # A pattern is tried where one of these is in the text: most texts have none.
 STEMS = {
     "stand": ("stand", "stood"),
