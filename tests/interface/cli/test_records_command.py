@@ -97,7 +97,7 @@ def test_ceilings_on_the_command_line(cli):
     assert len(json.loads(cli("upper-bound", "--table", "--task", "planar", "--json")[1])["ceilings"]) == 13
     for words, said in (
         (("7", "7"), "there is no redundancy"),
-        (("9", "6", "4"), "relative manipulability is at most 0"),
+        (("9", "6", "4"), "the ceiling is 0"),
         (("9", "seven"), "neither a number of rows nor a task"),
         ((), "give the joints and the rows"),
         (("--table", "--task", "7"), "nothing is stored"),
