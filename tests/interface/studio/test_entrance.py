@@ -96,7 +96,7 @@ def test_pages_of_others_are_refused_and_its_own_are_not():
 
 def test_a_server_that_does_not_ask_is_not_served():
     with (
-        pytest.raises(hf.HoldfastError, match="cannot be kept from pages of others"),
+        pytest.raises(hf.HoldfastError, match="cannot reject requests of other web pages"),
         AccessFilter("127.0.0.1").filter_requests(),
     ):
         pass
