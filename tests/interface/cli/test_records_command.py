@@ -97,15 +97,9 @@ def test_ceilings_on_the_command_line(cli):
     assert len(json.loads(cli("upper-bound", "--table", "--task", "planar", "--json")[1])["ceilings"]) == 13
     for words, said in (
         (("7", "7"), "there is no redundancy"),
-<<<<<<< HEAD
         (("9", "6", "4"), "the bound is 0"),
         (("9", "seven"), "neither a number of task components nor a task"),
         ((), "give the number of joints and of task components"),
-=======
-        (("9", "6", "4"), "the ceiling is 0"),
-        (("9", "seven"), "neither a number of rows nor a task"),
-        ((), "give the joints and the rows"),
->>>>>>> s22b-p2
         (("--table", "--task", "7"), "nothing is stored"),
     ):
         code, _, err = cli("upper-bound", *words)
