@@ -170,7 +170,7 @@ def test_a_folder_that_is_not_converted_is_refused_with_the_way_to_convert_it(ve
         with pytest.raises(hf.StoreError, match=r"holdfast\.studies\.convert_folder") as caught:
             read(tmp_path / name)
         assert "\n" not in str(caught.value)
-    with pytest.raises(hf.StoreError, match="is of the law 'pseudoinverse, task planar"):
+    with pytest.raises(hf.StoreError, match="contains the law 'pseudoinverse, task planar"):
         convert_folder(tmp_path / "workspace")
     with pytest.raises(hf.StoreError, match="contains no study, run, or search"):
         convert_folder(tmp_path)

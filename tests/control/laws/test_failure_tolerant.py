@@ -242,7 +242,7 @@ def test_trade_off(planar):
     assert (median <= high).all()
     assert (q05 <= low).all()
     assert (high <= q95).all()
-    assert "allowed while the arm is healthy, takes" in curve.describe()[0]
+    assert "% smaller than that of the pseudoinverse" in curve.describe()[0]
     again = trade_off(planar.arm, "planar", samples=300, allowed=[0.2], seed=3)
     np.testing.assert_array_equal(again.peak_error[:, 0], curve.peak_error[:, 1])
     assert len(curve.figures()["trade-off"].axes) == 2

@@ -110,7 +110,7 @@ def test_what_is_said_of_the_tool_is_what_mujoco_has(native, run):
     assert run.outcome == "moving", "a tenth of the weight is not compensated, and the servos are soft"
     assert not run.ok
     assert f"{np.rad2deg(tilt):.4g} deg, beyond 17.19 deg" in run.faults()[2]
-    with pytest.raises(HoldfastError, match=r"still moving at the end; the tool is .* off the goal; the tool was turned away"):
+    with pytest.raises(HoldfastError, match=r"still moving at the end; the tool is .* off the goal; the tool was rotated away"):
         run.require_ok()
 
 

@@ -210,5 +210,5 @@ def test_damaged_motions_are_refused(tmp_path, text, sentence):
     (tmp_path / "x.csv").write_text(text.replace("HEAD", head))
     with pytest.raises(hf.InputError, match=sentence):
         read_motion(arm, tmp_path / "x.csv")
-    with pytest.raises(hf.InputError, match="holds no motion"):
+    with pytest.raises(hf.InputError, match="contains no motion"):
         read_motion(arm, tmp_path)

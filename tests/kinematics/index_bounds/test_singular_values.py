@@ -31,7 +31,7 @@ def least(j, k):
 def test_values_of_the_theorems(size, said, by):
     c = hf.index_bounds.bound_singular_value(**size)
     assert (c.bound, c.bound_by) == (pytest.approx(said, abs=1e-6), by)
-    assert c.describe()[0].startswith(f"{c.n} joints")
+    assert c.describe()[0].startswith(f"With {c.n} joints")
 
 
 @pytest.mark.parametrize(("n", "m", "k"), [(3, 2, 1), (7, 3, 1), (6, 3, 2), (7, 2, 3), (6, 5, 1)])

@@ -200,7 +200,7 @@ def test_a_list_in_a_folder_is_complete(arm, rng, tmp_path):
     rows = hf.assess(arm, again.region, task="planar").dataset
     np.testing.assert_array_equal(rows["q"].values, first.dataset["q"].values)
     html = again.report(tmp_path / "report.html").read_text()
-    assert "Effective sample size" in html
+    assert "effective sample size" in html
     assert "each pose of the list once" in html
     with pytest.raises(StoreError, match="another run"):
         hf.assess(arm, Region.from_poses(random_poses(rng, 400)), task="planar", store=tmp_path / "run")

@@ -72,7 +72,7 @@ def test_detours_regain_the_path_where_closed_forms_have_every_pose(four):
     machine, path, best = four
     wide = hf.plan_motion(machine, path, task="planar", mode="detour", samples=9, spacing=0.2, seed=1)
     assert wide.kind == "lower bound"
-    assert "inverse kinematics found" in wide.describe()[1]
+    assert "inverse kinematics reached" in wide.describe()[1]
     points = path.pose(wide.time)[:, :2, 3]
     every = np.array(
         [

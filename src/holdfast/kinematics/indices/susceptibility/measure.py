@@ -136,7 +136,7 @@ class Susceptibility(Labelled, Objective):
         return ca.densify(ca.gradient(self.expression(q), q))
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return ``-f' W f`` and its slopes; ``q``, ``j``, ``qr``, ``directions`` as in :meth:`Objective.parts`."""
+        """Return ``-f' W f`` and its slopes; ``q``, ``j``, ``qr``, ``directions`` as in ``Objective.parts``."""
         value = self.expression(q)
         derivative = ca.densify(ca.gradient(value, q))
         return [ObjectivePart(1.0, [-value], [[-ca.dot(derivative, v) for v in directions]])]
