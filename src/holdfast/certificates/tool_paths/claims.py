@@ -87,9 +87,9 @@ def path_claim(
         TaskError: The arm has no redundancy, or a failure does not have exactly one joint.
     """
     if task not in TASK_ROWS:
-        raise InputError(f"task is {task!r}; for a path it must be {', '.join(TASK_ROWS)}")
+        raise InputError(f"task is '{task}'; for a path it must be {', '.join(TASK_ROWS)}")
     if task == "pointing" and np.any(tube):
-        raise InputError(f"tube is {tube}; it must be 0 for a pointing path")
+        raise InputError(f"tube is {np.asarray(tube).tolist()}; it must be 0 for a pointing path")
     if task == "planar-pose":
         require_planar(arm, "a planar pose is")
     locks = tuple(sorted(single_joints(arm, failures)))

@@ -168,7 +168,9 @@ def self_motion(
     cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> SelfMotion:
-    """Find all configurations of a target, within the joint limits; :func:`holdfast.kinematics.solvers.fibres` takes many poses.
+    """Find all configurations of a target within the joint limits.
+
+    :func:`holdfast.kinematics.solvers.fibres` takes many poses.
 
     Args:
         arm: Arm model.
