@@ -11,14 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.convergence.healthy_motion import compiled_healthy_paths
 from holdfast.control.convergence.late_convergence import is_near_attracting_solution
-from holdfast.control.convergence.measures import (
-    MEASURE_NAMES,
-    Arcs,
-    Measures,
-    is_in_arcs,
-    mean_by_row,
-    select_spaced,
-)
+from holdfast.control.convergence.measures import MEASURE_NAMES, Arcs, Measures, is_in_arcs, mean_by_row, select_spaced
 from holdfast.control.convergence.places import Places, configurations_at, is_planar_position, pick_configurations, read_places
 from holdfast.control.equilibria.search import stationary_points
 from holdfast.control.laws.law import Law

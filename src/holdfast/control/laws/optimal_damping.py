@@ -172,8 +172,7 @@ def failure_tolerant(
     arm: Arm,
     task: TaskSpec = "pose",
     pre_failure_error: Annotated[
-        float,
-        Parameter("1", "allowed velocity error of the healthy arm, a fraction of the speed", low=0, high=1, example=0.5),
+        float, Parameter("1", "allowed velocity error of the healthy arm, a fraction of the speed", low=0, high=1, example=0.5)
     ] = 0.5,
     *,
     gain: float = 1.0,

@@ -16,12 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from holdfast.core.formatting import Probability, format_interval, format_number, format_percent
-from holdfast.interface.presentation.printing import (
-    TextTable,
-    format_column,
-    format_position,
-    format_positions,
-)
+from holdfast.interface.presentation.printing import TextTable, format_column, format_position, format_positions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

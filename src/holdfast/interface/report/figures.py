@@ -287,12 +287,7 @@ def distribution_figure(
 
 
 def compare_cdf_figure(
-    panels: Sequence[tuple[str, Sequence[Curve]]],
-    marks: Sequence[Mark],
-    xlabel: str,
-    *,
-    ylabel: str,
-    log: bool = False,
+    panels: Sequence[tuple[str, Sequence[Curve]]], marks: Sequence[Mark], xlabel: str, *, ylabel: str, log: bool = False
 ) -> Figure:
     """Plot many cumulative distributions without bands, one panel for each title; equal labels have the same line style."""
     labels = list(dict.fromkeys(curve.label for _, curves in panels for curve in curves))

@@ -327,8 +327,7 @@ class Manipulability(RelativeManipulability):
 
 
 @constructor(
-    formula="ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
-    properties=("Abdi 2012", "base-free"),
+    formula="ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )", properties=("Abdi 2012", "base-free")
 )
 def relative_manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None

@@ -278,10 +278,7 @@ class SpectralIndex(Index):
         return self._jacobian_pullback_kernel.rows(q, seed)
 
 
-@constructor(
-    formula="(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m",
-    properties=("Abdi 2012", "base-free"),
-)
+@constructor(formula="(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m", properties=("Abdi 2012", "base-free"))
 def mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
@@ -293,8 +290,7 @@ def mean_singular_value(
 
 
 @constructor(
-    formula="(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
-    properties=("Abdi 2012", "base-free"),
+    formula="(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>", properties=("Abdi 2012", "base-free")
 )
 def geometric_mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None

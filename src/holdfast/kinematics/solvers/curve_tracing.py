@@ -182,12 +182,7 @@ class ManifoldTracer:
     # ---- curves ----------------------------------------------------------------------------------------------------
 
     def trace_curves(
-        self,
-        poses: FloatArray,
-        pose_of_seed: IndexArray,
-        q: FloatArray,
-        spacing: float,
-        curves_by_pose: list[list[Component]],
+        self, poses: FloatArray, pose_of_seed: IndexArray, q: FloatArray, spacing: float, curves_by_pose: list[list[Component]]
     ) -> list[list[Component]]:
         """Add to ``curves_by_pose`` every other curve through a seed q (S, n) of pose ``pose_of_seed`` (S,)."""
         pending = np.ones(pose_of_seed.size, dtype=bool)
@@ -212,13 +207,7 @@ class ManifoldTracer:
         return curves_by_pose
 
     def _drop_seeds(
-        self,
-        pending: BoolArray,
-        component: Component,
-        pose: np.intp,
-        pose_of_seed: IndexArray,
-        q: FloatArray,
-        spacing: float,
+        self, pending: BoolArray, component: Component, pose: np.intp, pose_of_seed: IndexArray, q: FloatArray, spacing: float
     ) -> None:
         """Remove the pending seeds of a pose that lie on a component."""
         own_seeds = np.flatnonzero((pose_of_seed == pose) & pending)

@@ -399,11 +399,7 @@ def largest_per_group(owner: IndexArray, value: FloatArray, count: int) -> Index
 
 
 def get_cached_ascent(
-    objective: Objective,
-    task: Task | None = None,
-    clearance: Clearance | None = None,
-    margin: float = 0.0,
-    free: bool = False,
+    objective: Objective, task: Task | None = None, clearance: Clearance | None = None, margin: float = 0.0, free: bool = False
 ) -> Ascent:
     """Return the compiled ascent of an objective, made once for each task, clearance and margin; ``free``: without a pose.
 

@@ -193,11 +193,7 @@ def recover(
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
         timing_limits = None if max_accelerations is None else (max_accelerations, period)
         attempt = RecoveryAttempt(
-            recovery=request,
-            search=PoseSearch(solver, space, length),
-            search_count=tries,
-            rng=rng,
-            timing_limits=timing_limits,
+            recovery=request, search=PoseSearch(solver, space, length), search_count=tries, rng=rng, timing_limits=timing_limits
         )
         return attempt.run(standing, target, path)
 

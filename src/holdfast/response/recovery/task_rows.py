@@ -250,12 +250,7 @@ class RowSolver:
 
 @lru_cache(maxsize=16)
 def _compile_kernels(
-    arm: Arm,
-    matrix: tuple[tuple[float, ...], ...],
-    names: tuple[str, ...],
-    linear: Frame,
-    angular: Frame,
-    within: float | None,
+    arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame, within: float | None
 ) -> _TaskRowKernels:
     return _TaskRowKernels(arm, TaskRows(names, np.array(matrix), linear, angular, within))
 

@@ -77,12 +77,7 @@ def evaluate_block(plan: AssessmentPlan, samples: FloatArray, number: int) -> Ro
         optimised = np.flatnonzero(best.success)
         if optimised.size:
             best_worst[optimised] = _find_worst_failures(plan.index.evaluate(best.q[optimised]))
-        rows |= {
-            "optimised_q": best.q,
-            "optimised_index": best.value,
-            "optimised_worst": best_worst,
-            "agreeing": best.agreeing,
-        }
+        rows |= {"optimised_q": best.q, "optimised_index": best.value, "optimised_worst": best_worst, "agreeing": best.agreeing}
         if plan.clearance is not None:
             rows |= {"optimised_status": best.status, "blocked": best.blocked.astype(np.int8)}
         if plan.cell is not None:

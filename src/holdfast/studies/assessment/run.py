@@ -27,13 +27,7 @@ from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.bins import merge_chunk_counts
 from holdfast.studies.assessment.block import compile_plan
 from holdfast.studies.assessment.plan import AssessmentPlan, make_plan
-from holdfast.studies.assessment.rows import (
-    AssessmentTally,
-    Progress,
-    compute_blocks,
-    compute_chunks,
-    describe_provenance,
-)
+from holdfast.studies.assessment.rows import AssessmentTally, Progress, compute_blocks, compute_chunks, describe_provenance
 
 _MAX_ROWS_IN_MEMORY = 2_000_000  # default limit of rows kept in memory
 _MAX_NAMED_CELLS = 4  # cells of a study that a message names

@@ -357,11 +357,7 @@ class _DesignSearch:
         poses, weights = sample_poses(self.region, count, seed, "random")
         evaluator = Evaluator(self.family, poses, seed)
         evaluated = Evaluated.concatenate([evaluator(design_values[None]) for design_values in values])
-        return {
-            "value": evaluated.value,
-            "reached": evaluated.reached,
-            "weights": np.empty(0) if weights is None else weights,
-        }
+        return {"value": evaluated.value, "reached": evaluated.reached, "weights": np.empty(0) if weights is None else weights}
 
     def describe_method(self, designs: int, local_searches: int, check_poses: int) -> list[tuple[str, str]]:
         """Return the description of the method for reports, as pairs of titles and texts."""

@@ -16,10 +16,7 @@ if TYPE_CHECKING:
 
 
 def analyse_records(
-    records: Records,
-    missing: Missing = "refuse",
-    groups: int = 3,
-    difficulty: Literal["operators", "computer"] = "operators",
+    records: Records, missing: Missing = "refuse", groups: int = 3, difficulty: Literal["operators", "computer"] = "operators"
 ) -> Analysis:
     """Analyse the recorded trials, compared with the computer operator in the same tasks.
 

@@ -233,10 +233,7 @@ def _orthonormal_contrasts(levels: int) -> FloatArray:
 
 
 def _check_values(
-    y: FloatArray,
-    factors: tuple[str, str],
-    levels: tuple[Sequence[str], Sequence[str]] | None,
-    subjects: Sequence[str] | None,
+    y: FloatArray, factors: tuple[str, str], levels: tuple[Sequence[str], Sequence[str]] | None, subjects: Sequence[str] | None
 ) -> None:
     if y.ndim != 3 or y.shape[0] < 2 or min(y.shape[1:]) < 2:
         raise InputError(

@@ -72,10 +72,7 @@ def present(
     return Presentation(
         f"Fault tolerance of {assessment.arm.name}",
         answer.headline,
-        lines=[
-            f"{assessment.arm.title}: {index.describe()}.",
-            f"{assessment.region.name}: {assessment.region.describe()}.",
-        ],
+        lines=[f"{assessment.arm.title}: {index.describe()}.", f"{assessment.region.name}: {assessment.region.describe()}."],
         notices=notices,
         facts=_list_facts(answer, rates) if distribution.samples else (),
         tables=partial(build_tables, answer, _choose_thresholds(assessment, thresholds)) if distribution.samples else (),

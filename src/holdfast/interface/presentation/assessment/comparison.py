@@ -7,13 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.core.formatting import (
-    format_as_given,
-    format_count,
-    format_interval,
-    format_percent,
-    indefinite_article,
-)
+from holdfast.core.formatting import format_as_given, format_count, format_interval, format_percent, indefinite_article
 from holdfast.core.probability.intervals import Interval
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.assessment import Thresholds, collect_numbers

@@ -80,10 +80,7 @@ def present(check: CellCheck) -> Presentation:
         else [],
         tables=[TableSpec("Objects", columns, [_list_cells(checked, bool(check.arm)) for checked in check.objects])],
         method=[
-            (
-                "Distances",
-                "lower bounds between objects and the spheres that cover the arm, from formulas and distance grids",
-            ),
+            ("Distances", "lower bounds between objects and the spheres that cover the arm, from formulas and distance grids"),
             ("SHA-256 of the cell", Markup("<code>{}</code>").format(check.digest)),
         ],
     )

@@ -41,10 +41,7 @@ def draw_law_outcomes(comparison: LawComparison) -> Figure:
             )
         )
     return stack_figure(
-        stacks,
-        OUTCOME_NAMES,
-        f"fraction of the {len(comparison):,} motions",
-        level="targets still within reach",
+        stacks, OUTCOME_NAMES, f"fraction of the {len(comparison):,} motions", level="targets still within reach"
     )
 
 
@@ -72,10 +69,7 @@ def draw_law_gains(comparison: LawComparison) -> Figure:
         )
         for kind in error_kinds(comparison.laws[0])
     ]
-    return gain_figure(
-        failures,
-        [("fraction that converges", converged_gains), *error_panels],
-    )
+    return gain_figure(failures, [("fraction that converges", converged_gains), *error_panels])
 
 
 def draw_law_errors(comparison: LawComparison) -> Figure:

@@ -90,10 +90,7 @@ def present(analysis: Workspace | TargetMeasures) -> Presentation:
             figures=_list_maps(analysis, "targets"),
             method=[
                 ("Law", law_text),
-                (
-                    "Motions",
-                    f"to {target_count} from the same {start_count}; {int(analysis.configurations.sum()):,} motions",
-                ),
+                ("Motions", f"to {target_count} from the same {start_count}; {int(analysis.configurations.sum()):,} motions"),
                 ("Measures", _MEASURE_DEFINITIONS),
                 (
                     "Source",
@@ -128,10 +125,7 @@ def present(analysis: Workspace | TargetMeasures) -> Presentation:
             ("Source", "Goel, Maciejewski, Balakrishnan 2005"),
         ],
         arm=arm,
-        exports={
-            "workspace.csv": partial(_write_starts, analysis),
-            "workspace.json": partial(renderers.write_json, analysis),
-        },
+        exports={"workspace.csv": partial(_write_starts, analysis), "workspace.json": partial(renderers.write_json, analysis)},
     )
 
 

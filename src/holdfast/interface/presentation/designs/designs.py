@@ -13,18 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.files.output import open_replacement, replace_file
-from holdfast.core.formatting import (
-    format_count,
-    format_number,
-    format_percent,
-    indefinite_article,
-    list_alternatives,
-)
-from holdfast.interface.presentation.designs.parameters import (
-    ARM_FILE,
-    list_bound_notices,
-    tabulate_parameters,
-)
+from holdfast.core.formatting import format_count, format_number, format_percent, indefinite_article, list_alternatives
+from holdfast.interface.presentation.designs.parameters import ARM_FILE, list_bound_notices, tabulate_parameters
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.designs import (
     SAME_VALUE_TOLERANCE,

@@ -35,10 +35,7 @@ def build_sections(designs: Designs) -> list[Section]:
         "The file has no link masses, because those of links with other lengths are not known.",
         [Code(assess_command, "Command that assesses this arm over the same region:")],
     )
-    return [
-        arm_section,
-        Section("Distribution of the index", _build_distribution_blocks(designs)),
-    ]
+    return [arm_section, Section("Distribution of the index", _build_distribution_blocks(designs))]
 
 
 def _build_distribution_blocks(designs: Designs) -> list[Block]:

@@ -88,9 +88,7 @@ def present(survival: LockSurvival) -> Presentation:
     arm, worst_time, worst_survival = survival.arm, *survival.worst
     verb, prefix = "may be" if survival.kind == "upper bound" else "is", _KIND_PREFIXES[survival.kind]
     bound = "" if survival.kind == "exact" else f" ({survival.kind})"
-    facts = [
-        Fact("locks survived", survival.survival, phrase=f"of the locks on the way are survived{bound}", style="percent"),
-    ]
+    facts = [Fact("locks survived", survival.survival, phrase=f"of the locks on the way are survived{bound}", style="percent")]
     if survival.survival_bound is not None:
         phrase = "is the most that any motion can survive, up to the grid"
         facts.append(Fact("no motion survives more than", survival.survival_bound, phrase=phrase, style="percent"))

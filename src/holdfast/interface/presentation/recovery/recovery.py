@@ -135,10 +135,7 @@ def present(recovery: Recovery) -> Presentation:
             *([] if recovery.timed is None else [("Timing", _describe_timing(recovery.timed))]),
             *(("Path constraint", str(constraint)) for constraint in recovery.keep),
             ("Verified", "no motion to verify" if recovery.verified is None else str(recovery.verified)),
-            (
-                "Clearance",
-                "not checked" if recovery.clearance is None else describe_shape(recovery.clearance, recovery.margin),
-            ),
+            ("Clearance", "not checked" if recovery.clearance is None else describe_shape(recovery.clearance, recovery.margin)),
         ],
         arm=arm,
         exports=exports | ({"waypoints.csv": recovery.to_csv} if len(recovery.q) else {}),

@@ -173,10 +173,7 @@ def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[s
             f"{len(cells):,}, {sum(cell.chunks_done for cell in cells):,} of {sum(cell.chunks for cell in cells):,} chunks",
         ),
         ("Samples", f"{samples:,} rows (poses, motions, starts)"),
-        (
-            "Time",
-            f"{format_duration(processor_time)} of processor time; completed runs took {format_duration(wall_time)}",
-        ),
+        ("Time", f"{format_duration(processor_time)} of processor time; completed runs took {format_duration(wall_time)}"),
         ("Size on disk", f"{size / 1e6:.3g} MB"),
     ]
     for position, run in enumerate(study.runs[-5:]):

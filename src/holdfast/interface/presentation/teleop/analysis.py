@@ -63,10 +63,7 @@ def save(
 
 
 def present(
-    analysis: Analysis,
-    protocol: Protocol | None = None,
-    paths: Paths | None = None,
-    shown_tasks: Sequence[int] | None = None,
+    analysis: Analysis, protocol: Protocol | None = None, paths: Paths | None = None, shown_tasks: Sequence[int] | None = None
 ) -> Presentation:
     """Present the effect of the control law on operators with the failed arm, and its statistical tests.
 
@@ -108,10 +105,7 @@ def present(
                 f"sum of {len(observed.normalisers)} measures, each divided by its largest value over all compared trials "
                 f"(eq. 11). The measures are a reconstruction, because the table of the paper is lost",
             ),
-            (
-                "Tests",
-                "The ANOVA, the sphericity corrections and the effect sizes are computed by holdfast",
-            ),
+            ("Tests", "The ANOVA, the sphericity corrections and the effect sizes are computed by holdfast"),
             ("Trials", "without training trials"),
             ("Tables", "each table is a CSV file next to this report; data_dictionary.csv explains every column"),
         ],

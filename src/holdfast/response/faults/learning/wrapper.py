@@ -199,12 +199,7 @@ class FaultWrapper(Wrapper):  # type: ignore[misc]
             return
         events, feasibility = self.injector.events, self._evaluate_feasibility().answer
         self._recorder.finish_episode(
-            seed=self._seed,
-            episode=self._episode,
-            events=events,
-            feasible=feasibility,
-            outcome=outcome,
-            success=self._success,
+            seed=self._seed, episode=self._episode, events=events, feasible=feasibility, outcome=outcome, success=self._success
         )
 
     def _prepare_episode(self) -> None:

@@ -25,7 +25,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         Text(
             f"After: the best configuration found of each pose, subject to the pose{_describe_constraints(facts)}. "
             "A local search from several starts found it, so its index is a lower bound on the best possible value."
-        ),
+        )
     ]
     if facts.has_finite_values:
         figure = draw_gain(facts, optimised)
@@ -102,10 +102,7 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
     ]
     lower = min(0.0, *extremes) if not facts.is_logarithmic else min(extremes)
     axis_values = (np.geomspace if facts.is_logarithmic else np.linspace)(lower, max(extremes) * 1.02, 400)
-    samples = (
-        (best, "after: best configurations", False),
-        (facts.distribution, "before: found by inverse kinematics", True),
-    )
+    samples = ((best, "after: best configurations", False), (facts.distribution, "before: found by inverse kinematics", True))
     return [
         Curve(
             axis_values,
