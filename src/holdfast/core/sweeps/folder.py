@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.core.errors import StoreError
+from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files.output import guard_writing
+from holdfast.core.files.sealed import read_sealed
 
 RESUME_ADVICE = "what was committed is safe: make room and run the same command again"
 STUDY_FILE = "study.json"
@@ -36,6 +37,27 @@ def is_valid_folder_name(name: object) -> bool:
         and not set(name) & set("/\\\0")
         and len(name.encode(errors="replace")) < 256
     )
+
+
+def read_run_file(file: Path, format_name: str, version: int, *, whole: str, again: str) -> dict[str, Any]:
+    """Read the file that identifies ``whole`` ("a study"), and check its digest, format and version.
+
+    Raises:
+        StoreError: The file cannot be read, or it has another format or version; ``again`` is the advice.
+    """
+    convert = "convert a folder of an early version with holdfast.studies.convert_folder"
+    try:
+        data = read_sealed(file)
+    except (OSError, ValueError, InputError) as error:
+        raise StoreError(f"'{file}' cannot be read ({error}); {again}, or {convert}") from error
+    if not isinstance(data, dict) or data.get("format") != format_name:
+        raise StoreError(f"'{file}' was not written by holdfast; give the folder of {whole}")
+    if data.get("version") != version:
+        raise StoreError(
+            f"'{file.parent}' was written in format {data.get('version')}; this holdfast reads format {version}, and "
+            "holdfast.studies.convert_folder converts earlier formats"
+        )
+    return data
 
 
 def own_study_folder(cell_folder: Path) -> Path | None:

@@ -17,11 +17,10 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
-from holdfast.core.errors import InputError, StoreError
+from holdfast.core.errors import StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, make_folder, replace_file
-from holdfast.core.files.sealed import read_sealed
 from holdfast.core.sweeps.folder import (
     RESUME_ADVICE,
     describe_difference,
@@ -29,6 +28,7 @@ from holdfast.core.sweeps.folder import (
     has_too_many_rows,
     lock_folder,
     own_study_folder,
+    read_run_file,
     relocate_stored_plan,
 )
 from holdfast.core.sweeps.job import DamagedChunk
@@ -119,25 +119,11 @@ class Store:
         file = folder / RUN_FILE
         if not reading.path_exists(file):
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {RUN_FILE}; give the folder that --out named")
-        try:
-            run = read_sealed(file)
-        except (OSError, ValueError, InputError) as error:
-            raise StoreError(
-                f"'{file}' cannot be read ({error}); start the run again in a new folder, or convert a folder of an early "
-                "version with holdfast.studies.convert_folder"
-            ) from error
-        if not isinstance(run, dict) or run.get("format") != _FORMAT_NAME:
-            raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
-        if run.get("version") != FORMAT_VERSION:
-            raise StoreError(
-                f"'{folder}' was written in format {run.get('version')}; this holdfast reads format {FORMAT_VERSION}, and "
-                "holdfast.studies.convert_folder converts earlier formats"
-            )
+        again = "start the run again in a new folder"
+        run = read_run_file(file, _FORMAT_NAME, FORMAT_VERSION, whole="a holdfast run", again=again)
         invalid_entry = _find_invalid_entry(run)
         if invalid_entry:
-            raise StoreError(
-                f"'{file}' is damaged: its {invalid_entry} is missing or wrong; start the run again in a new folder"
-            )
+            raise StoreError(f"'{file}' is damaged: its {invalid_entry} is missing or wrong; {again}")
         return cls(folder, run)
 
     @contextmanager

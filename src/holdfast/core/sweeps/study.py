@@ -9,14 +9,13 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from holdfast.core.errors import HoldfastError, InputError, StoreError
+from holdfast.core.errors import HoldfastError, StoreError
 from holdfast.core.files import reading
 from holdfast.core.files.digest import seal_document
 from holdfast.core.files.output import guard_writing, is_occupied, replace_file
-from holdfast.core.files.sealed import read_sealed
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
-from holdfast.core.sweeps.folder import STUDY_FILE, has_too_many_rows, is_valid_folder_name, lock_folder
+from holdfast.core.sweeps.folder import STUDY_FILE, has_too_many_rows, is_valid_folder_name, lock_folder, read_run_file
 from holdfast.core.sweeps.job import CellStatus, DamagedChunk, SweepCell
 from holdfast.core.sweeps.journal import Journal, JournalEntry
 from holdfast.core.sweeps.run_log import RunLog
@@ -98,26 +97,13 @@ class Study(Result):
             raise StoreError(
                 f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
-        try:
-            data = read_sealed(file)
-        except (OSError, ValueError, InputError) as error:
-            raise StoreError(
-                f"'{file}' cannot be read ({error}); run the study file again with a new folder, or convert a folder of an "
-                "early version with holdfast.studies.convert_folder"
-            ) from error
-        if not isinstance(data, dict) or data.get("format") != _STUDY_FORMAT:
-            raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
-        if data.get("version") != _STUDY_VERSION:
-            raise StoreError(
-                f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_STUDY_VERSION}"
-            )
+        again = "run the study file again with a new folder"
+        data = read_run_file(file, _STUDY_FORMAT, _STUDY_VERSION, whole="a study", again=again)
         wrong = next((k for k, kind in _KINDS_BY_KEY.items() if not isinstance(data.get(k), kind)), None)
         wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
         wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
         if wrong:
-            raise StoreError(
-                f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
-            )
+            raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; {again}")
         return cls(folder, data)
 
     def copy(self, path: str | Path) -> Study:
