@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 REJECTED_EXIT_CODE = 1
 REFUTED_EXIT_CODE = 4
 
-LimitOption = Annotated[list[str] | None, "Joint range JOINT=LOW..HIGH in rad or m. Repeatable. Default: the joint limits."]
+LimitOption = Annotated[list[str] | None, "Working range JOINT=LOW..HIGH in rad or m. Repeatable. Default: the joint limits."]
 AnglesOption = Annotated[bool, "Read joint values in degrees (prismatic joints: m)."]
 HalvingsOption = Annotated[int, "Largest number of bisections of each axis of the target box."]
 JointHalvingsOption = Annotated[int, "Largest number of bisections of each joint interval."]

@@ -20,7 +20,7 @@ TargetOption = Annotated[str, TARGET_HELP]
 OptionalTargetOption = Annotated[str | None, TARGET_HELP]
 TargetsOption = Annotated[str, f"{TARGET_HELP} Several targets: a lattice (grid:12) or random positions (random:200)."]
 LAW_HELP = "Control law: " + LAW_REGISTRY.usage.replace("; ", ";\n\n")  # a law per line
-LawsOption = Annotated[list[str] | None, f"{LAW_HELP}. Repeatable.", "pseudoinverse and failure-tolerant"]
+LawsOption = Annotated[list[str] | None, f"{LAW_HELP}.\n\nRepeatable.", "pseudoinverse and failure-tolerant"]
 LockDegreesOption = Annotated[bool, "Read --lock in degrees (prismatic joints: m)."]
 
 

@@ -27,13 +27,13 @@ _STUDY_TEXT = """\
 #
 #   holdfast study run {file} --dry-run   list the cells with their estimated time and size
 #   holdfast study run {file} --out DIR   compute the study; after Ctrl-C, the same command resumes it
-#   holdfast study status DIR             show the progress (also: study verify DIR, study report DIR)
+#   holdfast study status DIR   show the progress; 'verify DIR' checks every chunk, 'report DIR' writes an HTML report
 #
 # A different seed needs a different folder. The results depend on every entry except name and thresholds.
 
 name: {name}
 
-# Seed of all random numbers. Results are bit-identical with threads or a Dask cluster, interrupted or not.
+# The same seed gives bit-identical results with threads or a Dask cluster, with or without an interruption.
 seed: {seed}
 
 # Number of samples per cell, and number of samples per chunk. A chunk is computed and stored as a whole, so a crash
@@ -41,15 +41,15 @@ seed: {seed}
 poses: {poses}
 chunk: {chunk}
 
-# Each arm is a built-in name (see 'holdfast arms'), a file {{file: my_arm.urdf, base: base_link, tip: tool0}} with a path
-# relative to this file, or a set of variants of one arm {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}.
+# Built-in names (see 'holdfast arms'), files relative to this one {{file: my_arm.urdf, base: base_link, tip: tool0}}, or
+# designs of one arm, each evaluated at its best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
 arms: {arms}
 
-# How likely is each arm to keep its dexterity when a joint locks? See 'holdfast assess --help'.
+# How likely is each arm to keep its dexterity in a region when a joint fails? See 'holdfast assess --help'.
 assess:
 {known_indices}
   indices: {indices}
-  tasks: [default]          # {known_tasks}, or components such as "tool:vx,vy"; default: the arm's task
+  tasks: [default]          # {known_tasks}, or components ("tool:vx,vy"); default: the arm's
   regions: [default]        # region files, with paths relative to this file; default: a box around the arm's home
   failures: [single]        # {known_failures}
   optimise: {optimise}           # true: also find the best configuration of each pose

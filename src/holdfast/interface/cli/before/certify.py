@@ -83,11 +83,11 @@ def out_of_reach(
 def tolerant(
     arm: ArmArgument,
     targets: TargetBoxOptions,
-    ranges: Annotated[Path | None, "YAML file with the ranges: JOINT: [LOW, HIGH] in rad or m."] = None,
+    ranges: Annotated[Path | None, "YAML file with the working ranges: JOINT: [LOW, HIGH] in rad or m."] = None,
     range_: LimitOption = None,
     degrees: AnglesOption = False,
     find_ranges: Annotated[
-        bool, "Search for wide joint ranges by sampling, within the given ones, and prove the claim with them."
+        bool, "Search for wide working ranges by sampling, within the given ones, and prove the claim with them."
     ] = False,
     failures: FailuresOption = "single",
     halvings: HalvingsOption = 8,
@@ -160,7 +160,7 @@ def path(
     arm: ArmArgument,
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with a column JOINT_rad or JOINT_m per joint.")],
     failures: FailuresOption = "single",
-    during: Annotated[str, "Two fractions 0-1 of the motion between which a joint may lock: '0.2 0.8'."] = "0 1",
+    during: Annotated[str, "Two fractions of the motion (0 to 1) between which a joint may lock: '0.2 0.8'."] = "0 1",
     tube: Annotated[str, "Allowed deviation from the path in m and rad: 'M RAD', or one number for both."] = "0",
     task: Annotated[str, "Tool components that follow the path: pose, position, pointing, planar or planar-pose."] = "pose",
     segments: Annotated[int | None, "Number of equal segments of MOTION, up to 256. Default: one per step."] = None,

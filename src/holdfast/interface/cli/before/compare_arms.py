@@ -28,7 +28,7 @@ def command(
     poses: Annotated[int, "Number of poses sampled from the region."] = 100,
     samples: Annotated[int, "Number of configurations sampled per arm."] = 20_000,
     points: Annotated[int, "Number of points of a tolerant workspace, if it must be sampled."] = 300,
-    best_limits: Annotated[bool, "Search for the joint ranges with the largest tolerant workspace."] = False,
+    best_limits: Annotated[bool, "Search for the artificial joint limits with the largest tolerant workspace."] = False,
     seed: SeedOption = 0,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
     out: OutOption = None,

@@ -20,9 +20,9 @@ def command(
     arm: ArmArgument,
     task: Annotated[str | None, f"{TASK_NAMES_HELP} Default: planar for an arm that moves in a plane, else position."] = None,
     limit: Annotated[
-        list[str] | None, "Healthy range JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable. Default: the joint limits."
+        list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable. Default: the joint limits."
     ] = None,
-    optimise: Annotated[bool, "Search for the --limit ranges that maximise the area or volume."] = False,
+    optimise: Annotated[bool, "Search for the artificial limits that maximise the area or volume of the region."] = False,
     rotation: Annotated[str | None, "Tool orientation, if the task has one: roll,pitch,yaw in degrees. Default: 0,0,0."] = None,
     points: Annotated[int, "Number of sampled points (planar arms of three joints need none)."] = 1000,
     angles: Annotated[int, "Number of locked values that are tried per joint."] = 24,
