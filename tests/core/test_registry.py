@@ -92,7 +92,7 @@ def test_help_and_errors_need_nothing_that_computes():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     told, heavy = json.loads(done.stdout)
     assert heavy == []
-    assert "damped:DAMPING (the damping, m for linear components, above 0)" in told[1]
+    assert "damped:DAMPING (damping factor, m for linear components, above 0)" in told[1]
     assert "directional-velocity:DIRECTION" in told[0]
 
 

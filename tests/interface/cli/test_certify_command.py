@@ -123,6 +123,9 @@ def test_a_structural_zero(cli, tmp_path):
     code, out, _ = cli(*words, "iiwa14", "lbr_iiwa_joint_4")
     assert code == 0
     assert "a lock of lbr_iiwa_joint_4 is 0" in " ".join(out.split())
+    code, out, _ = cli(*words, "iiwa14", 4)
+    assert code == 0
+    assert "a lock of lbr_iiwa_joint_4 is 0" in " ".join(out.split())
     code, out, _ = cli(*words, "panda", "panda_joint4", "--json")
     assert code == 3
     assert json.loads(out)["proved"] is False
@@ -164,7 +167,7 @@ def test_a_floor(cli, tmp_path):
         ("floor panda --around '1 1 1 1 1 1 1' --within -1 --above 0.1", "--within is -1; a half width must be 0 or larger"),
         ("floor ur5-rail --limit rail=0..0.1 --above 0.1", "rail is prismatic; bounds are for arms with revolute joints only"),
         ("structural-zero ur5-rail rail", "structural zeros are for arms with revolute joints only"),
-        ("path planar-3r motion.csv --during 1", "--during has 1 numbers; give two fractions"),
+        ("path planar-3r motion.csv --during 1", "--during has 1 number; give two fractions"),
     ],
 )
 def test_what_makes_no_claim_is_said_before_the_search(refused, tmp_path, monkeypatch, words, said):

@@ -77,7 +77,7 @@ def test_laws_with_their_settings():
         (["--failures", "elbow"], "elbow"),
         (["--failures", "joint1; 7"], "joints 1 to 3"),
         (["--reachable-after", "joint1+joint2"], "failure 'joint1+joint2' locks several joints at once"),
-        (["--distance", "1"], "--distance has 1 numbers"),
+        (["--distance", "1"], "--distance has 1 number"),
         (["--motions", "0"], "count is 0"),
     ],
 )

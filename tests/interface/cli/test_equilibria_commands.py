@@ -54,7 +54,7 @@ def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
         ([*CURVES, "--lock", "1"], "locked gives no value for 'joint2' and 'joint1'"),
         ([*BASINS, "--lock", "1"], "--lock '1' is not joint=number; write for example --lock joint1=0.3"),
         ([*BASINS, "--grid", "1"], "2 or more cells"),
-        (["stationary-points", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 numbers"),
+        (["stationary-points", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 number"),
     ],
 )
 def test_wrong_input_is_one_sentence(refused, arguments, words):

@@ -19,7 +19,7 @@ def test_a_submission_is_held_against_the_current_record(tmp_path, cli):
     file.write_text(text.replace("0.24742", "0.26742"), encoding="utf-8")
     code, out, _ = cli("record-designs", "check", str(file))
     assert code == 3
-    assert "the value beats a proven bound: one of both is wrong" in out
+    assert "the value beats a proven bound: one of them is wrong" in out
     for wrong, said in ((text.replace("licence:", "license:"), "license"), (text.replace("a: 0.", "b: 0."), "rows")):
         file.write_text(wrong, encoding="utf-8")
         code, _, err = cli("record-designs", "check", str(file))

@@ -89,7 +89,7 @@ def test_the_region_of_a_spatial_arm_is_sampled(cli, tmp_path):
         (["self-motion", "planar-3r", "--target", "1,1,1"], "--target has 3 numbers; task 'planar' needs 2, in m"),
         (["self-motion", "planar-2r", "--target", "1,1"], "without redundancy"),
         (["self-motion", "panda", "--pose", "0.4,0.1,0.5"], "--pose has 3 numbers; task 'pose' needs 6"),
-        (["tolerant-workspace", "planar-3r", "--limit", "1=5"], "has 1 numbers after =; give the lower and the upper limit"),
+        (["tolerant-workspace", "planar-3r", "--limit", "1=5"], "has 1 number after =; give both limits"),
         (["tolerant-workspace", "planar-3r", "--limit", "1=-5,5", "--optimise"], "not both"),
         (["tolerant-workspace", "panda", "--rotation", "1,2"], "--rotation has 2 numbers"),
         (["tolerant-workspace", "planar-2r"], "no region survives"),

@@ -137,7 +137,7 @@ def test_cycles_and_a_lock_on_the_way(cli):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--target", "1"], "--target has 1 numbers; task 'planar' needs 2"),
+        (["--target", "1"], "--target has 1 number; task 'planar' needs 2"),
         (["--target", "1,1", "--lock", "2@x"], "'x' is not a number"),
         (["--target", "1,1", "--lock", "7"], "joints 1 to 2"),
         (["--target", "1,1", "--law", "magic"], "control law 'magic' is not known"),

@@ -87,7 +87,7 @@ def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
 def test_laws_are_made_once_and_misspelt_ones_refused(machine):
     assert machine.get_law("damped:0.2") is machine.get_law("damped:0.2")
     assert "damping 0.2" in machine.get_law("damped:0.2").describe()
-    with pytest.raises(hf.InputError, match="'much' is not a number; give one: the damping"):
+    with pytest.raises(hf.InputError, match="'much' is not a number; give one: damping factor"):
         machine.get_law("damped:much")
     with pytest.raises(hf.InputError, match="takes no setting; write pseudoinverse alone"):
         machine.get_law("pseudoinverse:2")

@@ -120,7 +120,7 @@ def test_a_ceiling_of_an_index(pa10):
     assert (two.bound, two.best_known, two.is_attained) == (c.bound, c.best_known, False)
     assert c.bound == pytest.approx(sqrt(1 / 15))
     assert c.best_known == pytest.approx(sqrt(3) / 7)
-    assert c.compare_value(0.1717) == "69.4 % of the best known 0.2474; no arm can beat 0.2582"
+    assert c.compare_value(0.1717) == "69.4 % of the best known 0.2474; no arm can exceed 0.2582"
     mixed = hf.indices.relative_manipulability(pa10, "pose", [*([i] for i in range(9)), *combinations(range(9), 2)])
     assert hf.index_bounds.bound_of_index(mixed).bound == c.bound
     assert hf.index_bounds.bound_of_index(hf.indices.relative_manipulability(pa10, "pose", [0, 1])) is None

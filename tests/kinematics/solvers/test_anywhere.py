@@ -56,7 +56,7 @@ def test_clear_and_limited_and_no_value_at_all(rng):
     assert found.value >= index(many).max()
     assert found.value_before == index(given)
     clearance = hf.Clearance(arm)
-    with pytest.raises(hf.HoldfastError, match=r"none of 1000 random configurations has a value .* and is clear"):
+    with pytest.raises(hf.HoldfastError, match=r"none of 1000 random configurations has a value .* without collision: the arm"):
         hf.optimise(arm, None, index, starts=50, clearance=clearance, margin=99.0)
     with pytest.raises(hf.InputError, match=r"no poses are given; give one configuration"):
         hf.optimise(arm, None, index, initial=np.zeros((2, 3)))

@@ -188,7 +188,7 @@ def weighted(
 @constructor()
 def damped(
     arm: Arm,
-    damping: Annotated[float, Parameter("m for linear components", "the damping", low=0, example=0.1)],
+    damping: Annotated[float, Parameter("m for linear components", "damping factor", low=0, example=0.1)],
     task: TaskSpec = "pose",
     *,
     gain: float = 1.0,

@@ -25,8 +25,8 @@ REFUTED_EXIT_CODE = 4
 
 LimitOption = Annotated[list[str] | None, "Working range JOINT=LOW..HIGH in rad or m. Repeatable. Default: the joint limits."]
 AnglesOption = Annotated[bool, "Read joint values in degrees (prismatic joints: m)."]
-HalvingsOption = Annotated[int, "Maximum bisection depth of each axis of the target box."]
-JointHalvingsOption = Annotated[int, "Maximum bisection depth of each joint interval."]
+HalvingsOption = Annotated[int, "Largest number of bisections of each axis of the target box."]
+JointHalvingsOption = Annotated[int, "Largest number of bisections of each joint interval."]
 CheckOption = Annotated[bool, typer.Option("--check/--no-check", help="Verify the certificate (needs holdfast-arms[certify]).")]
 CertificateOption = Annotated[Path, "File for the certificate."]
 
@@ -105,7 +105,7 @@ class ConfigurationBoxOptions:
             half_widths = read_numbers("--within", self.within, f"one number, or {arm.n},")
             if len(center) != arm.n or len(half_widths) not in (1, arm.n):
                 raise InputError(
-                    f"--around has {len(center)} numbers and --within {len(half_widths)}; give {arm.n}, and one or {arm.n}"
+                    f"--around and --within have {len(center)} and {len(half_widths)} numbers; give {arm.n}, and one or {arm.n}"
                 )
             if (half_widths < 0).any():
                 raise InputError(f"--within is {half_widths.min():g}; a half width must be 0 or larger")
@@ -120,11 +120,11 @@ class ConfigurationBoxOptions:
 class SearchOptions:
     """Options for the resources of the search, and for the folder from which it resumes."""
 
-    time_limit: Annotated[float | None, "Time limit in s, half of it for the check. Boxes still open then stay undecided."] = (
-        None
-    )
+    time_limit: Annotated[
+        float | None, "Time limit in s, half of it for the check. Parameter boxes still open then are undecided. Default: none."
+    ] = None
     workers: Annotated[int, "Number of worker processes; does not change the certificate."] = 1
-    store: Annotated[Path | None, "Folder from which the same command resumes a search that was stopped or killed."] = None
+    store: Annotated[Path | None, "Folder for the search, from which the same command resumes. Default: none."] = None
     check: CheckOption = True
 
 
@@ -134,7 +134,7 @@ class CertificateOutput:
 
     out: CertificateOption = Path()
     plot: PlotOption = None
-    report: Annotated[Path | None, "HTML file for a report of the proof."] = None
+    report: Annotated[Path | None, "HTML file for a report of the proof. Default: not written."] = None
     json_: JsonOption = False
 
 

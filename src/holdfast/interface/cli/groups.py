@@ -21,7 +21,7 @@ from holdfast.interface.cli.options import (
     PlotOption,
     TaskOption,
 )
-from holdfast.interface.cli.values import check_path_units, read_numbers, read_task
+from holdfast.interface.cli.values import check_path_units, format_count, read_numbers, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
 from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
 
@@ -44,11 +44,9 @@ class ArmSourceOptions:
     """Options that select the kinematic chain of an arm file."""
 
     base: Annotated[str | None, "Base link or body (URDF, MJCF). Default: the root."] = None
-    tip: Annotated[str | None, "Tip link, body or site (URDF, MJCF). Default: the only end that is not a gripper finger."] = (
-        None
-    )
+    tip: Annotated[str | None, "Tip link, body or site (URDF, MJCF). Default: the only end that is not a finger."] = None
     hold: Annotated[
-        list[str] | None, "Fixed gripper joint or external axis (URDF, MJCF): JOINT=VALUE in rad or m. Repeatable."
+        list[str] | None, "Joint to fix, such as a gripper's (URDF, MJCF): JOINT=VALUE in rad or m. Repeatable."
     ] = None
 
     def resolve_arm(self, spec: str) -> Arm:
@@ -63,9 +61,9 @@ class ArmSourcesOptions:
     """Options that select the kinematic chains of several arms, and their names."""
 
     base: Annotated[list[str] | None, f"Base link or body (URDF, MJCF). {_PER_ARM} Default: the root."] = None
-    tip: Annotated[list[str] | None, f"Tip link, body or site (URDF, MJCF). {_PER_ARM} Default: the only end."] = None
-    hold: Annotated[list[str] | None, f"Fixed joints (URDF, MJCF): JOINT=VALUE in rad or m, comma-separated. {_PER_ARM}"] = None
-    name: Annotated[list[str] | None, "Name of an arm in the results, once per arm in order ('-' keeps its own name)."] = None
+    tip: Annotated[list[str] | None, f"Tip link, body or site. {_PER_ARM} Default: the only end that is not a finger."] = None
+    hold: Annotated[list[str] | None, f"Joints to fix (URDF, MJCF): JOINT=VALUE in rad or m, commas between. {_PER_ARM}"] = None
+    name: Annotated[list[str] | None, "Name of an arm in the results, once per arm in order ('-': its own)."] = None
 
     def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
         """Return the arms that ``specs`` and these options describe; see
@@ -157,16 +155,18 @@ class MountingOptions:
         if self.payload is not None:
             numbers = read_numbers("--payload", self.payload, "1 or 4 numbers")
             if numbers.size not in (1, 4):
-                raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
+                raise InputError(
+                    f"--payload has {format_count(numbers.size, 'number')}; give the mass, kg, or the mass and x, y, z, m"
+                )
             center_of_mass = numbers[1:] if numbers.size == 4 else np.zeros(3)
             arm = arm.with_payload(Link(float(numbers[0]), center_of_mass, np.zeros((3, 3)), name="payload"))
         return arm
 
 
-CapsulesOption = Annotated[Path | None, "Capsule file (YAML): collision model of the links."]
-RadiusOption = Annotated[float | None, "Radius of the links in m. Default: the collision shapes, else an assumed radius."]
+CapsulesOption = Annotated[Path | None, "Capsule file (YAML) with the collision model of the links. Default: see --radius."]
+RadiusOption = Annotated[float | None, "Radius of the links in m. Default: collision shapes, or 1/20 of total link length."]
 MeshesOption = Annotated[Path | None, "Folder that is searched first for the mesh files of the arm."]
-CellOption = Annotated[Path | None, "Environment file (YAML): objects that the arm must not touch."]
+CellOption = Annotated[Path | None, "Environment file (YAML): objects that the arm must not touch. Default: none."]
 
 
 @dataclass(frozen=True)
@@ -177,14 +177,14 @@ class ClearanceOptions:
         bool | None,
         typer.Option(
             "--clearance/--no-clearance",
-            help="Avoid self-collisions, or allow them. Default: avoid them when configurations are chosen, except for an arm "
-            "that moves in a plane.",
+            help="Avoid self-collisions, or allow them. Default: avoid with --capsules or --radius; unless the arm is planar, "
+            "also with --cell or --margin, and always in optimise, recover and assess --optimise.",
         ),
     ] = None
     capsules: CapsulesOption = None
     radius: RadiusOption = None
     meshes: MeshesOption = None
-    margin: Annotated[float | None, "Smallest clearance in m, added to the margins of the environment file. Default: 0."] = None
+    margin: Annotated[float | None, "Smallest clearance in m; from objects, on top of their margins. Default: 0."] = None
     cell: CellOption = None
 
     def check_consistency(self) -> None:
@@ -244,7 +244,7 @@ class ClearanceOptions:
 class ContactOptions:
     """Options for objects that the arm may touch, for commands that report the contacts."""
 
-    cell: Annotated[Path | None, "Environment file (YAML): objects around the arm; contacts with them are reported."] = None
+    cell: Annotated[Path | None, "Environment file (YAML): objects; contacts with them are reported. Default: none."] = None
     capsules: CapsulesOption = None
     radius: RadiusOption = None
     meshes: MeshesOption = None

@@ -19,9 +19,8 @@ if TYPE_CHECKING:
 TargetOption = Annotated[str, TARGET_HELP]
 OptionalTargetOption = Annotated[str | None, TARGET_HELP]
 TargetsOption = Annotated[str, f"{TARGET_HELP} Several targets: a lattice (grid:12) or random positions (random:200)."]
-LawsOption = Annotated[
-    list[str] | None, f"Control law: {LAW_REGISTRY.usage}. Repeatable.", "pseudoinverse and failure-tolerant"
-]
+LAW_HELP = "Control law: " + LAW_REGISTRY.usage.replace("; ", ";\n\n")  # a law per line
+LawsOption = Annotated[list[str] | None, f"{LAW_HELP}.\n\nRepeatable.", "pseudoinverse and failure-tolerant"]
 LockDegreesOption = Annotated[bool, "Read --lock in degrees (prismatic joints: m)."]
 
 
@@ -29,7 +28,7 @@ LockDegreesOption = Annotated[bool, "Read --lock in degrees (prismatic joints: m
 class LawOptions(ArmSourceOptions):
     """Options for the control law of an arm, and its task."""
 
-    law: Annotated[str, f"Control law: {LAW_REGISTRY.usage}."] = "pseudoinverse"
+    law: Annotated[str, f"{LAW_HELP}."] = "pseudoinverse"
     task: TaskOption = None
 
     def read_law(self, arm: str, **settings: Any) -> Law:
@@ -50,7 +49,7 @@ class ClosedLoopOptions:
     """Options for the simulation of a control law."""
 
     gain: Annotated[float, "Feedback gain Ke in 1/s, or per cycle with --cycles."] = 1.0
-    speed_limit: Annotated[float | None, "Speed limit of the end effector in m/s, or m per cycle. Default: none."] = None
+    speed_limit: Annotated[float | None, "Speed limit of the end effector in m/s (--cycles: m/cycle). Default: none."] = None
     cycles: Annotated[bool, "Simulate discrete control cycles instead of continuous time."] = False
     time_limit: Annotated[float | None, "Time limit in s, or in cycles with --cycles.", "3000/gain s, or 1000 cycles"] = None
 

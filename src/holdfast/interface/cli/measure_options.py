@@ -6,7 +6,7 @@ from typing import Annotated
 
 from holdfast.core.registry import INDEX_REGISTRY, OWN_INDEX, SUSCEPTIBILITY_REGISTRY
 
-IndexOption = Annotated[str, f"Index: {INDEX_REGISTRY.usage}; {OWN_INDEX}."]
+IndexOption = Annotated[str, f"Index: {INDEX_REGISTRY.usage}; {OWN_INDEX}. ceiling-fraction: share of the best known value."]
 OBJECTIVES_HELP = (
     f"{', '.join(SUSCEPTIBILITY_REGISTRY)} (with optional weights: torque:effort, torque:worst-case, torque:0,1,0, or "
     f"torque:joint2 for a single joint); or an index: {', '.join(e.usage for e in INDEX_REGISTRY.values())}; {OWN_INDEX}"

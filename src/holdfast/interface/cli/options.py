@@ -13,30 +13,30 @@ NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the
 
 ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table (YAML).")]
 ArmOption = Annotated[str, "Arm: built-in name, URDF or MJCF file, or DH table (YAML)."]
-FailureOption = Annotated[Path | None, "Failure file (YAML): locked, range-limited or slowed joints. Use instead of --lock."]
+FailureOption = Annotated[Path | None, "Failure file (YAML) with locked, range-limited or slowed joints; replaces --lock."]
 JsonOption = Annotated[bool, "Print the result as JSON."]
-TASK_NAMES_HELP = f"Task: {', '.join(TASK_SIZES)}, or components such as vx,vy,wz or tool:vz."
+TASK_NAMES_HELP = f"Task: {', '.join(TASK_SIZES)}, or components such as vx,vy,wz (world axes) or tool:vz (tool axes)."
 TASK_HELP = f"{TASK_NAMES_HELP} Default: the task of a built-in arm, planar for an arm that moves in a plane, else pose."
 TaskOption = Annotated[str | None, TASK_HELP]
 TARGET_HELP = (
-    "Target of the tool: one number in m per task component, or, for a task with orientation, x,y,z,roll,pitch,yaw (m and "
-    "degrees, URDF convention) or x,y,z and a quaternion x,y,z,w."
+    "Target of the tool in the world frame: one number in m per task component, or, for a task with orientation, "
+    "x,y,z,roll,pitch,yaw (m and degrees, URDF convention) or x,y,z (m) and a quaternion x,y,z,w."
 )
-LengthOption = Annotated[float, "Characteristic length in m; divides the linear components of the task."]
+LengthOption = Annotated[float, "Characteristic length in m, by which the linear components of the task are divided."]
 QOption = Annotated[list[str], "Joint values in rad and m, separated by commas or spaces. Repeatable."]
-AtOption = Annotated[str | None, "Current joint values in rad and m, separated by commas or spaces."]
+AT_HELP = "Current joint values in rad and m, separated by commas or spaces."
 AtDegreesOption = Annotated[bool, "Read --at in degrees (prismatic joints: m)."]
 DegreesOption = Annotated[bool, "Read --q in degrees (prismatic joints: m)."]
 StartDegreesOption = Annotated[bool, "Read --start in degrees (prismatic joints: m)."]
 KeepOption = Annotated[
     list[str] | None,
-    "Constraint along the whole motion: upright:10deg, rail:0,0,1 or plane:0,0,1. Numbers are in rad and m, or have a unit "
-    "(deg, rad, mm, m). Repeatable.",
+    "Constraint along the whole motion: upright:10deg (tool z axis within 10 deg of straight down), rail:0,0,1 (tool moves "
+    "along this axis) or plane:0,0,1 (tool point stays in the plane with this normal). Default units: rad, m. Repeatable.",
 ]
 MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
 PlotOption = Annotated[Path | None, "PNG file for the figure."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]
-RegionOption = Annotated[Path | None, "Region file (YAML). Default: a region around the home of the (first) arm."]
+RegionOption = Annotated[Path | None, "Region file (YAML). Default: a box around the first arm's home, 1/4 of its reach wide."]
 ThreadsOption = Annotated[int | None, "Number of threads. Default: all processors."]
 SeedOption = Annotated[int, "Seed of all random numbers."]
-FailuresOption = Annotated[str, f"Failures that may occur: {FAILURES_HELP} or '2; 1+4'."]
+FailuresOption = Annotated[str, f"Failures that may occur: {FAILURES_HELP} or, by number from 1, '2; 1+4'."]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
+from holdfast.core.formatting import format_count as format_count
 from holdfast.core.labels import is_number
 from holdfast.model.arms.spec import default_task as default_task
 from holdfast.model.arms.spec import read_task as read_task
@@ -229,7 +230,7 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
 
     numbers = read_numbers(option, text, "x,y,z,roll,pitch,yaw (m and degrees)")
     if numbers.size not in (3, 6):
-        raise InputError(f"{option} has {numbers.size} numbers; give x,y,z,roll,pitch,yaw (m and degrees), or x,y,z alone")
+        raise InputError(f"{option} has {format_count(numbers.size, 'number')}; give x,y,z,roll,pitch,yaw (m, deg) or x,y,z")
     if not np.isfinite(numbers).all():
         raise InputError(f"{option} contains NaN or infinity; give finite numbers")
     check_position_units(arm, numbers[:3], option)
@@ -257,10 +258,10 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
         return pose_from_quaternion(values[:3], values[3:])
     if task.angular or task.frame != "base":
         raise InputError(
-            f"--target has {values.size} numbers; task '{task.name}' needs x,y,z,roll,pitch,yaw in m and degrees, or "
-            "x,y,z in m and a quaternion x,y,z,w"
+            f"--target has {format_count(values.size, 'number')}; task '{task.name}' needs x,y,z,roll,pitch,yaw in m and "
+            "degrees, or x,y,z in m and a quaternion x,y,z,w"
         )
     if values.size != task.m:
-        raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
+        raise InputError(f"--target has {format_count(values.size, 'number')}; task '{task.name}' needs {task.m}, in m")
     check_position_units(arm, values @ task.rows[:, :3], "--target")
     return values

@@ -112,11 +112,11 @@ class UpperBound(Result):
         return f"an upper bound; the best known is {self.best_known:.4f}"
 
     def compare_value(self, value: float) -> str:
-        """Compare ``value``, 0 to 1, with the bound, as ``69 % of the best known 0.2474; no arm can beat 0.2582``."""
+        """Compare ``value``, 0 to 1, with the bound, as ``69 % of the best known 0.2474; no arm can exceed 0.2582``."""
         if self.is_attained or self.best_known is None:
-            return f"{format_percent(value / self.bound)} of {self.bound:.4g}, which no arm can beat"
+            return f"{format_percent(value / self.bound)} of {self.bound:.4g}, which no arm can exceed"
         return (
-            f"{format_percent(value / self.best_known)} of the best known {self.best_known:.4g}; no arm can beat "
+            f"{format_percent(value / self.best_known)} of the best known {self.best_known:.4g}; no arm can exceed "
             f"{self.bound:.4g}"
         )
 

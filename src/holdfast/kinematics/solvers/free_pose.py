@@ -47,7 +47,7 @@ def optimise_without_pose(ascent: Ascent, seed: np.random.SeedSequence, starts: 
     if not ranking.size:
         raise HoldfastError(
             f"none of {len(q)} random configurations has a value of {ascent.objective.name}"
-            + ("" if ascent.clearance is None else f" and is clear: the arm {ascent.clearance.too_close(ascent.margin)} in all")
+            + ("" if ascent.clearance is None else f" without collision: the arm {ascent.clearance.too_close(ascent.margin)}")
         )
     start_q, start_value = q[ranking[0]], values[ranking[0]]
     end_q, end_values = q[ranking], values[ranking]

@@ -151,7 +151,7 @@ class FaultClassifier:
         if drag_disadvantage < 0:
             return make_answer("friction", ("friction",))
         if follows and is_driven and loss > MORE:
-            evidence.append("it follows its reference against its motor, so something pushed it")
+            evidence.append("it follows its reference against its motor, so an external force moved it")
             return make_answer("contact", ("contact",))
         if loss > ALL or (loss > FRICTION_LOSS_RANGE[0] and self._tracking_error > AWAY * self._bounds[1]):
             return make_answer("limp", ("limp",) if loss > ALL else ("limp", "weak"), loss)

@@ -1,4 +1,4 @@
-"""Template of a study file, with an explanation of every line."""
+"""Template of a study file, with an explanation of each entry."""
 
 from __future__ import annotations
 
@@ -23,53 +23,53 @@ _MAX_CHUNKS = 1000
 _BLOCK_POSES = 1024  # poses of a block of a box region, which share one seed
 
 _STUDY_TEXT = """\
-# A study of holdfast computes every combination of the lists below.
+# This study computes every combination of the lists below. Each combination is a cell.
 #
-#   holdfast study run {file} --dry-run        list the cells, with the estimated duration and size
-#   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command resumes
-#   holdfast study status|verify|report DIR    show the progress; check every chunk; write an HTML report
+#   holdfast study run {file} --dry-run   list the cells with their estimated time and size
+#   holdfast study run {file} --out DIR   compute the study; after Ctrl-C, the same command resumes it
+#   holdfast study status DIR   show the progress; 'verify DIR' checks every chunk, 'report DIR' writes an HTML report
 #
-# Folders with different seeds are different studies. Everything except name and thresholds defines the results.
+# A different seed needs a different folder. The results depend on every entry except name and thresholds.
 
 name: {name}
 
-# The same seed gives the same bits with threads or a Dask cluster, with or without an interruption.
+# The same seed gives bit-identical results with threads or a Dask cluster, with or without an interruption.
 seed: {seed}
 
-# Samples of each cell, and samples that are computed and committed together; a chunk should take a second to a minute.
-# A crash loses at most the unfinished chunks.
+# Number of samples per cell, and number of samples per chunk. A chunk is computed and stored as a whole, so a crash
+# loses only unfinished chunks. It should take between a second and a minute.
 poses: {poses}
 chunk: {chunk}
 
-# Built-in names (see 'holdfast arms') or files, relative to this one: {{file: my_arm.urdf, base: base_link, tip: tool0}}
-# or designs of one arm, each evaluated at the best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
+# Built-in names (see 'holdfast arms'), files relative to this one {{file: my_arm.urdf, base: base_link, tip: tool0}}, or
+# designs of one arm, each evaluated at its best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
 arms: {arms}
 
-# Probability over a region that an arm keeps its dexterity when a joint fails; see 'holdfast assess --help'.
+# How likely is each arm to keep its dexterity in a region when a joint fails? See 'holdfast assess --help'.
 assess:
 {known_indices}
   indices: {indices}
-  tasks: [default]          # {known_tasks}, or rows as "tool:vx,vy"; default: the arm's
-  regions: [default]        # region files, relative to this one; default: around the arm's home
+  tasks: [default]          # {known_tasks}, or components ("tool:vx,vy"); default: the arm's
+  regions: [default]        # region files, with paths relative to this file; default: a box around the arm's home
   failures: [single]        # {known_failures}
-  optimise: {optimise}           # also find the best configuration of each pose
-  after_lock: false         # also find the poses that can be reached after each joint has locked
-  sampling: random          # or sobol
-  restarts: 100             # random starts after which a pose counts as not reached
-  keep: rows                # store every pose; counts stores only distributions, for very many samples
-  # thresholds: {{relative-manipulability: 0.3}}    # threshold in the report; default: half of the bound, or the median
+  optimise: {optimise}           # true: also find the best configuration of each pose
+  after_lock: false         # true: also find the poses that stay reachable after each joint has locked
+  sampling: random          # random or sobol (low-discrepancy points)
+  restarts: 100             # number of random starts per pose before it counts as not reached
+  keep: rows                # rows stores every pose; counts stores only distributions (for very many samples)
+  # thresholds: {{relative-manipulability: 0.3}}  # thresholds of the report; default: half of the bound, or the median
 
-# Fraction of targets that an arm with an undetected locked joint still reaches; see 'holdfast convergence-map --help'.
+# How often does each arm still reach its target after an undetected lock? See 'holdfast convergence-map --help'.
 {convergence}
-# Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
-# "From laptop to cluster".
+# Other blocks are workspace (keys laws, targets, starts, configurations, points) and bank (laws, sets, distance). The guide
+# "Sweep on a laptop or a cluster" explains all blocks.
 """
 
 _LAWS_TEXT = """\
 convergence:
 {known_laws}
   laws: {laws}
-  motions: {motions}              # random motions of each cell; default: poses
+  motions: {motions}              # number of random motions per cell; default: poses
   chunk: {motions_chunk}
 """
 

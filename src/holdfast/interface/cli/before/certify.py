@@ -27,7 +27,7 @@ from holdfast.interface.cli.certify_options import (
 from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
 from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption
-from holdfast.interface.cli.values import read_numbers
+from holdfast.interface.cli.values import format_count, read_joint, read_numbers
 from holdfast.interface.presentation.results import print_result
 from holdfast.model.failure_modes.sets import read_failures
 
@@ -50,8 +50,8 @@ def reach(
 ) -> None:
     """Prove that every target in a box is reachable, with or without a locked joint.
 
-    Exit code: 0 if everything is proved, 3 if a part is undecided, 1 if the check rejects a part. Ctrl-C writes the part that
-    is proved; with --store, the same command resumes the search.
+    Exit code: 0 if everything is proved, 3 if a part is undecided, 1 if the check rejects a part. Ctrl-C stops and writes
+    the proved part; with --store, the same command resumes the search.
 
     Example: holdfast certify reach planar-3r --box "1.5 0.5" --size 0.4 --lock joint2=0.9..1.1
     """
@@ -64,13 +64,13 @@ def reach(
 def out_of_reach(
     arm: ArmArgument,
     targets: LockedTargetBoxOptions,
-    halvings: Annotated[int, "Maximum bisection depth of each joint interval and each axis of the target box."] = 16,
+    halvings: Annotated[int, "Largest number of bisections of each joint interval and each axis of the target box."] = 16,
     options: ProofOptions = ProofOptions(out=Path("out-of-reach.certificate")),
 ) -> None:
     """Prove that no target in a box is reachable, with or without a locked joint.
 
     Exit code: 0 if everything is proved, 3 if a part is undecided, 4 if a configuration is found whose tool is in the box, 1 if
-    the check rejects a part. Ctrl-C writes the part that is proved; with --store, the same command resumes the search.
+    the check rejects a part. Ctrl-C stops and writes the proved part; with --store, the same command resumes the search.
 
     Example: holdfast certify out-of-reach planar-3r --box "2.5 1" --size 0.2 --lock joint2=1.5..1.7
     """
@@ -83,7 +83,7 @@ def out_of_reach(
 def tolerant(
     arm: ArmArgument,
     targets: TargetBoxOptions,
-    ranges: Annotated[Path | None, "File of working ranges (YAML): JOINT: [LOW, HIGH] in rad or m."] = None,
+    ranges: Annotated[Path | None, "YAML file with the working ranges: JOINT: [LOW, HIGH] in rad or m."] = None,
     range_: LimitOption = None,
     degrees: AnglesOption = False,
     find_ranges: Annotated[
@@ -96,7 +96,7 @@ def tolerant(
     """Prove that every target in a box stays reachable after any single lock.
 
     Exit code: 0 if everything is proved, 3 if a part is undecided or no ranges are found, 1 if the check rejects a part.
-    Ctrl-C writes the part that is proved; with --store, the same command resumes the search.
+    Ctrl-C stops and writes the proved part; with --store, the same command resumes the search.
 
     Example: holdfast certify tolerant planar-3r --box "1.5 0.5" --size 0.1 --range 1=-1..0.5 --range 2=0..1.4 --range 3=0..1.4
     """
@@ -124,8 +124,8 @@ def ceiling(
     """Prove an upper bound on relative manipulability over a box of configurations.
 
     The command also prints the best configuration that it finds in the box. Exit code: 0 if everything is proved, 3 if a part
-    is undecided, 4 if that configuration is above the bound, 1 if the check rejects a part. Ctrl-C writes the part that is
-    proved; with --store, the same command resumes the search.
+    is undecided, 4 if that configuration is above the bound, 1 if the check rejects a part. Ctrl-C stops and writes the
+    proved part; with --store, the same command resumes the search.
 
     Example: holdfast certify ceiling panda --around "-35 -45 51 -111 -46 84 -3" --within 5 --degrees --below 0.0735
     """
@@ -145,8 +145,8 @@ def floor(
     """Prove a lower bound on relative manipulability over a box of configurations.
 
     The command also prints the worst configuration that it finds in the box. Exit code: 0 if everything is proved, 3 if a part
-    is undecided, 4 if that configuration is below the bound, 1 if the check rejects a part. Ctrl-C writes the part that is
-    proved; with --store, the same command resumes the search.
+    is undecided, 4 if that configuration is below the bound, 1 if the check rejects a part. Ctrl-C stops and writes the
+    proved part; with --store, the same command resumes the search.
 
     Example: holdfast certify floor panda --around "40 20 -30 -90 30 120 0" --within 2 --degrees --above 0.02
     """
@@ -158,20 +158,20 @@ def floor(
 @command.command()
 def path(
     arm: ArmArgument,
-    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with one column per joint.")],
+    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="CSV file with a column JOINT_rad or JOINT_m per joint.")],
     failures: FailuresOption = "single",
-    during: Annotated[str, "Interval in which a joint may lock: two fractions of the motion."] = "0 1",
-    tube: Annotated[str, "Allowed deviation from the path: m, and rad for a task with orientation; or one for both."] = "0",
-    task: Annotated[str, "Tool motion that follows the path: pose, position, pointing, planar or planar-pose."] = "pose",
-    segments: Annotated[int | None, "Number of motion segments to use. Default: all, at most 256."] = None,
-    halvings: Annotated[int, "Maximum bisection depth of lock-time intervals."] = 6,
+    during: Annotated[str, "Two fractions of the motion (0 to 1) between which a joint may lock: '0.2 0.8'."] = "0 1",
+    tube: Annotated[str, "Allowed deviation from the path in m and rad: 'M RAD', or one number for both."] = "0",
+    task: Annotated[str, "Tool components that follow the path: pose, position, pointing, planar or planar-pose."] = "pose",
+    segments: Annotated[int | None, "Number of equal segments of MOTION, up to 256. Default: one per step."] = None,
+    halvings: Annotated[int, "Largest number of bisections of each lock-time interval."] = 6,
     options: UnseededProofOptions = UnseededProofOptions(out=Path("path.certificate")),
 ) -> None:
     """Prove that a tool path can be completed after any single lock at any time.
 
     MOTION is a table of configurations of the healthy arm, such as 'holdfast follow' writes. Between them, joints move along
     straight lines. Exit code: 0 if everything is proved, 3 if a part is undecided, 4 if a part is refuted, 1 if the check
-    rejects a part. Ctrl-C writes the parts that are decided; with --store, the same command resumes the search.
+    rejects a part. Ctrl-C stops and writes the decided parts; with --store, the same command resumes the search.
 
     Example: holdfast certify path planar-3r motion.csv --task planar --tube 0.0005
     """
@@ -179,7 +179,7 @@ def path(
 
     model, failure_times = options.resolve_arm(arm), read_numbers("--during", during, "two numbers from 0 to 1").tolist()
     if len(failure_times) != 2:
-        raise InputError(f"--during has {len(failure_times)} numbers; give two fractions of the motion, for example '0 0.5'")
+        raise InputError(f"--during has {format_count(len(failure_times), 'number')}; give two fractions, such as '0 0.5'")
     claim = hf.certificates.path_claim(
         model,
         read_joint_table(model, motion, "motion", "time_s").select_columns(joint_columns(model)),
@@ -195,7 +195,7 @@ def path(
 @command.command("structural-zero")
 def structural_zero(
     arm: ArmArgument,
-    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Name of a joint between the shoulder and the wrist.")],
+    joint: Annotated[str, typer.Argument(metavar="JOINT", help="Joint except the first and last, by name or number from 1.")],
     check: CheckOption = True,
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: CertificateOption = Path("structural-zero.certificate"),
@@ -213,7 +213,7 @@ def structural_zero(
     model = chain.resolve_arm(arm)
     if check:
         require_flint()
-    proof = hf.certify(hf.certificates.structural_zero_claim(model, joint))
+    proof = hf.certify(hf.certificates.structural_zero_claim(model, read_joint(model, joint)))
     if not proof.ok:
         print_result(proof, json_)
         raise typer.Exit(NOT_MET_EXIT_CODE)

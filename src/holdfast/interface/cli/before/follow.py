@@ -28,15 +28,15 @@ def command(
     degrees: DegreesOption = False,
     gain: Annotated[
         float | None,
-        "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: enough to hardly lag.",
+        "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: keeps the lag negligible.",
     ] = None,
     wanted: Annotated[float | None, "Value of the objective that augmented-jacobian keeps. Default: that of the start."] = None,
     rate_cap: Annotated[float | None, "Largest norm of the joint rates in rad/s; slows only the self-motion."] = None,
     samples: Annotated[int, "Number of samples over the duration."] = 501,
-    best: Annotated[bool, "Find also the best configuration of each pose (one or two degrees of redundancy)."] = False,
+    best: Annotated[bool, "Also find the best configuration of each pose (one or two degrees of redundancy)."] = False,
     torque_bound: Annotated[
         float | None,
-        "Allowed difference of torques from gravity torques in N m; the result states how slow the motion must then be.",
+        "Allowed difference of torques from gravity torques in N m; the result then states how slow the motion must be.",
     ] = None,
     apart: ClearanceOptions = ClearanceOptions(),
     no_limits: Annotated[bool, "Ignore joint limits during the motion."] = False,

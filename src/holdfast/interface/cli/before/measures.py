@@ -71,7 +71,7 @@ def trade_off(
     arm: ArmArgument,
     task: TaskOption = None,
     samples: Annotated[int, "Number of random configurations and directions."] = 2000,
-    allowed: Annotated[str, "Allowed pre-failure errors: increasing fractions from 0 to below 1."] = ALLOWED_ERRORS,
+    allowed: Annotated[str, "Allowed errors of the healthy arm: fractions of the speed from 0 to below 1."] = ALLOWED_ERRORS,
     seed: Annotated[int, typer.Option("--seed", help="Seed of the samples.", min=0)] = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),

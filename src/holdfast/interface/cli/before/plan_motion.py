@@ -29,7 +29,7 @@ def command(
         f"Motion to compare with: least-norm, or by gradient projection for an objective: {OBJECTIVES_HELP}. Repeatable.",
     ] = None,
     test_locks: Annotated[
-        int, typer.Option("--test-locks", min=0, help="Number of random locks for a test of the motion.")
+        int, typer.Option("--test-locks", min=0, help="Number of random locks that test the motion; 0 skips it.")
     ] = 0,
     keep: KeepOption = None,
     apart: ClearanceOptions = ClearanceOptions(),

@@ -10,19 +10,19 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, AtDegreesOption, AtOption, SeedOption, TaskOption
+from holdfast.interface.cli.options import AT_HELP, NOT_MET_EXIT_CODE, ArmArgument, AtDegreesOption, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_configuration, read_joint, read_task
 from holdfast.interface.presentation.results import print_result
 
 
 def command(
     arm: ArmArgument,
-    at: AtOption = None,
+    at: Annotated[str | None, f"{AT_HELP} Required without --record."] = None,
     degrees: AtDegreesOption = False,
-    suspects: Annotated[str | None, "Candidate joints, comma-separated. Default: all."] = None,
-    record: Annotated[Path | None, "Log of the motion with the tool pose (.npz, .csv), to be evaluated."] = None,
+    suspects: Annotated[str | None, "Candidate joints, by name or number, comma-separated. Default: all."] = None,
+    record: Annotated[Path | None, "Log (.npz, .csv) of the executed motion with the tool pose, to evaluate."] = None,
     task: TaskOption = None,
-    duration: Annotated[float, "Longest duration of each leg of the motion in s."] = 5.0,
+    duration: Annotated[float, "Longest duration in s of each of the up to three parts of the motion."] = 5.0,
     speed: Annotated[float, "Norm of the joint rates in rad/s and m/s."] = 0.25,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),

@@ -13,10 +13,10 @@ from holdfast.core.errors import InputError
 from holdfast.core.labels import is_number, parse_quantities
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions
 from holdfast.interface.cli.options import (
+    AT_HELP,
     NOT_MET_EXIT_CODE,
     TASK_NAMES_HELP,
     ArmArgument,
-    AtOption,
     FailureOption,
     JsonOption,
     KeepOption,
@@ -40,25 +40,25 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     lock: Annotated[
-        list[str] | None, "Locked joint: JOINT=VALUE, rad or m, or JOINT for its value in --at. Repeatable."
+        list[str] | None, "Locked joint, by name or number: JOINT=VALUE in rad or m, or JOINT for its --at value. Repeatable."
     ] = None,
     failure: FailureOption = None,
-    at: AtOption = None,
+    at: Annotated[str | None, f"{AT_HELP} Required without --check."] = None,
     goal: Annotated[
         str | None,
-        "Goal: home, 'q:' and joint values, or 'pose:' and x,y,z,roll,pitch,yaw (m and degrees) or x,y,z; several poses "
-        "separated by ';'. Default: home; with --path, the end of the path.",
+        "Goal: home, 'q:' and joint values (rad, m), or 'pose:' and x,y,z,roll,pitch,yaw (m, degrees) or x,y,z; one of "
+        "several poses separated by ';'. Default: home; with --path, the end of the path.",
     ] = None,
     within: Annotated[
         str | None,
-        "Largest angle between the z axes of tool and goal, for example 30deg or 0.5rad; the rotation about the axis is free.",
+        "Largest angle between the z axes of tool and goal, such as 30deg; rotation about the axis is free. Default: none.",
     ] = None,
     task: Annotated[
         str | None,
-        f"{TASK_NAMES_HELP} The goals home and q: then mean their tool pose. Default: pose, or position if there is no "
-        "orientation.",
+        f"{TASK_NAMES_HELP} With --task, the goals home and q: are tool poses, not joint values. Default: pose; "
+        "position for a goal without orientation; planar for an arm that moves in a plane.",
     ] = None,
-    path: Annotated[Path | None, "Path file (YAML) with the rest of the path, which is finished first."] = None,
+    path: Annotated[Path | None, "Path file (YAML): rest of the tool path, finished before moving to --goal."] = None,
     keep: KeepOption = None,
     degrees: Annotated[bool, "Read --at, --lock and q: in degrees (prismatic joints: m)."] = False,
     metric: Annotated[str, "Quantity to minimise: travel (length in joint space) or time (at the velocity limits)."] = "travel",
@@ -69,10 +69,10 @@ def command(
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for goal configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Number of route searches if straight lines are blocked.")] = 4,
     time_limit: Annotated[float | None, "Time limit of all searches in s. Default: none."] = None,
-    tolerance: Annotated[str | None, "Allowed error of goal and path in infeasibility proofs, for example 1mm,0.5deg."] = None,
+    tolerance: Annotated[str | None, "Allowed error of goal and path in infeasibility proofs: 1mm,0.5deg. Default: 0."] = None,
     accelerations: Annotated[
         str | None,
-        "Acceleration limits for timing the motion in rad/s^2 and m/s^2: one number, one per joint, or JOINT=NUMBER,...",
+        "Acceleration limits of the motion in rad/s^2 and m/s^2: one number, one per joint, or JOINT=NUMBER,... Default: none.",
     ] = None,
     period: Annotated[float, "Sampling period in s of a motion that is timed with --accelerations."] = 0.01,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random numbers.")] = 0,
@@ -80,7 +80,7 @@ def command(
     check: Annotated[Path | None, "CSV file of waypoints to check by a replay, instead of planning."] = None,
     out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and figures."] = None,
     certificate: Annotated[
-        Path | None, "File for the proof that no configuration meets the goal, for 'holdfast certificate check'."
+        Path | None, "File for the proof that no configuration meets the goal. Default: not written."
     ] = None,
     csv: Annotated[Path | None, "CSV file for the waypoints."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -88,7 +88,7 @@ def command(
 ) -> None:
     """Plan a motion that finishes the task after a known failure, or prove that none exists.
 
-    Exit code: 0 if the whole request is met, 3 if a task component, a lock, a limit or the goal had to be dropped.
+    Exit code: 0 if the whole request is met, else 3, for example if the goal needs another value of a locked joint.
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """

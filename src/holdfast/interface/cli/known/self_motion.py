@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
 
-PoseOption = Annotated[str | None, "Target pose of the tool: x,y,z,roll,pitch,yaw in m and degrees. Use instead of --target."]
+PoseOption = Annotated[str | None, "Target pose of the tool: x,y,z,roll,pitch,yaw in m and degrees; replaces --target."]
 
 
 def command(
@@ -28,13 +28,13 @@ def command(
     target: OptionalTargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[bool, "Find also the values at which each joint may lock without losing the target."] = False,
+    bounds: Annotated[bool, "Also find the values at which each joint may lock without losing the target."] = False,
     degrees: Annotated[bool, "Write --csv in degrees (prismatic joints: m)."] = False,
-    spacing: Annotated[float, "Distance between neighbouring points in rad."] = 0.05,
+    spacing: Annotated[float, "Distance between neighbouring configurations in rad."] = 0.05,
     seed: SeedOption = 0,
     apart: ClearanceOptions = ClearanceOptions(),
     chain: ArmSourceOptions = ArmSourceOptions(),
-    csv: Annotated[Path | None, "CSV file for all points."] = None,
+    csv: Annotated[Path | None, "CSV file for all configurations."] = None,
     output: OutputOptions = OutputOptions(),
 ) -> None:
     """Trace all configurations of a tool pose and the joint values at which a lock is harmless.

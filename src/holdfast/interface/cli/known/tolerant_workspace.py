@@ -10,7 +10,7 @@ import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
 from holdfast.interface.cli.options import TASK_NAMES_HELP, ArmArgument, SeedOption
-from holdfast.interface.cli.values import read_joint, read_numbers, read_task
+from holdfast.interface.cli.values import format_count, read_joint, read_numbers, read_task
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
@@ -22,10 +22,10 @@ def command(
     limit: Annotated[
         list[str] | None, "Artificial limits JOINT=LOW,HIGH in degrees (prismatic: m). Repeatable. Default: the joint limits."
     ] = None,
-    optimise: Annotated[bool, "Search for the artificial limits that maximise the region."] = False,
+    optimise: Annotated[bool, "Search for the artificial limits that maximise the area or volume of the region."] = False,
     rotation: Annotated[str | None, "Tool orientation, if the task has one: roll,pitch,yaw in degrees. Default: 0,0,0."] = None,
     points: Annotated[int, "Number of sampled points (planar arms of three joints need none)."] = 1000,
-    angles: Annotated[int, "Number of locked values tried per joint."] = 24,
+    angles: Annotated[int, "Number of locked values that are tried per joint."] = 24,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),
@@ -44,7 +44,7 @@ def command(
     if rotation is not None:
         values = read_numbers("--rotation", rotation, "roll,pitch,yaw (degrees)")
         if values.size != 3 or not np.isfinite(values).all():
-            raise InputError(f"--rotation has {values.size} numbers; give roll,pitch,yaw in degrees")
+            raise InputError(f"--rotation has {format_count(values.size, 'number')}; give roll,pitch,yaw in degrees")
         tool_rotation = rpy_rotation(np.deg2rad(values).tolist())
     region = hf.tolerant_workspace(
         model, rows, limits or None, optimise=optimise, rotation=tool_rotation, points=points, angles=angles, seed=seed
@@ -56,6 +56,6 @@ def _read_limit(arm: Arm, text: str) -> tuple[float, float]:
     joint, _, values = text.partition("=")
     numbers = read_numbers(f"--limit '{text}'", values, "JOINT=LOW,HIGH")
     if numbers.size != 2:
-        raise InputError(f"--limit '{text}' has {numbers.size} numbers after =; give the lower and the upper limit")
+        raise InputError(f"--limit '{text}' has {format_count(numbers.size, 'number')} after =; give both limits")
     factor = arm.joints[read_joint(arm, joint)].display_unit[0]
     return float(numbers[0] / factor), float(numbers[1] / factor)

@@ -20,7 +20,7 @@ def command(
     controlled: LawOptions = LawOptions(law="failure-tolerant"),
     language: Annotated[str, "Language: c, which is C99 that needs only math.h."] = "c",
     name: Annotated[str | None, "Name of the function and the files. Default: that of the law."] = None,
-    monitor: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to export the monitor NAME_monitor."] = None,
+    monitor: Annotated[Path | None, "Threshold file of 'holdfast calibrate'; also exports the monitor NAME_monitor."] = None,
     controller: Annotated[bool, "Export the C++17 controller NAME_controller, which reacts to the monitor."] = False,
     json_: JsonOption = False,
 ) -> None:

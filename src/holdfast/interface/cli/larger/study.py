@@ -36,7 +36,7 @@ def new(
     seed: Annotated[int, "Seed; the same seed gives bit-identical results."] = 0,
     index: Annotated[list[str] | None, "Index, as in 'holdfast assess'. Repeatable.", "relative-manipulability"] = None,
     law: Annotated[list[str] | None, "Control law of a convergence map to compute as well. Repeatable."] = None,
-    optimise: Annotated[bool, "Find also the best configuration of each pose."] = False,
+    optimise: Annotated[bool, "Also find the best configuration of each pose."] = False,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
 ) -> None:
     """Write a commented study file.

@@ -61,7 +61,7 @@ def analyse(
         "Treatment of subjects without a completed trial in a cell of the design: refuse, complete (exclude such subjects) or "
         "mixed (a mixed model of single trials).",
     ] = "refuse",
-    difficulty: Annotated[str, "Source of the CPM that sorts the tasks: operators (their median) or computer."] = "operators",
+    difficulty: Annotated[str, "Performance that sorts the tasks: operators (their median) or computer."] = "operators",
 ) -> None:
     """Compute the statistics and write a report.
 

@@ -24,12 +24,12 @@ def tasks(
     per_joint: Annotated[int, typer.Option("--per-joint", min=1, help="Number of tasks for each failed joint.")] = 400,
     distance: Annotated[float, "Distance from start to target in m."] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed; the same seed gives the same tasks.")] = 0,
-    select: Annotated[int, typer.Option("--select", min=1, help="Number of tasks to select, if possible one per cell.")] = 22,
+    select: Annotated[int, typer.Option("--select", min=1, help="Number of tasks, spread over their difficulty.")] = 22,
     special: Annotated[
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Select also the most disorienting task, and one in which a wrong stationary point attracts the failed arm.",
+            help="Also select the most disorienting task, and one in which a wrong stationary point attracts the failed arm.",
         ),
     ] = True,
     task: Annotated[str | None, "Task of the joystick: planar or position.", "planar for a planar arm, else position"] = None,

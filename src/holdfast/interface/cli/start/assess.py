@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 FailureRateOption = Annotated[
-    list[str] | None, "Relative failure rate JOINT=RATE; weights the poses that remain reachable. Repeatable."
+    list[str] | None, "Relative failure rate JOINT=RATE, to average the poses reachable after a lock of each joint. Repeatable."
 ]
-AtLeastOption = Annotated[list[float] | None, "Threshold of the index, whose probability is estimated. Repeatable."]
+AtLeastOption = Annotated[list[float] | None, "Estimate the probability that the index is at least this value. Repeatable."]
 
 
 def command(
@@ -46,14 +46,14 @@ def command(
     tool: Annotated[list[str] | None, TOOL_HELP] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    poses: Annotated[int | None, "Number of poses. Default: 2000, or each pose of a list once."] = None,
+    poses: Annotated[int | None, "Number of poses. Default: 2000; each pose once if the region lists poses."] = None,
     seed: SeedOption = 0,
-    sampling: Annotated[str, "Sampling: random or sobol."] = "random",
+    sampling: Annotated[str, "Sampling of the region: random or sobol (scrambled Sobol points)."] = "random",
     restarts: Annotated[int, "Number of random starts per pose before it counts as not found."] = 100,
-    optimise: Annotated[bool, "Find also the best configuration of each pose."] = False,
-    after_lock: Annotated[bool, "Find also the poses that remain reachable after each joint has locked."] = False,
+    optimise: Annotated[bool, "Also find the best configuration of each pose."] = False,
+    after_lock: Annotated[bool, "Also find poses reachable after a lock of each joint at its value in another pose."] = False,
     lock: Annotated[
-        list[str] | None, "Value at which a joint locks, JOINT=VALUE, rad or m; implies --after-lock for it. Repeatable."
+        list[str] | None, "Value at which a joint locks, JOINT=VALUE in rad or m; implies its --after-lock. Repeatable."
     ] = None,
     failure_rate: FailureRateOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
@@ -63,7 +63,7 @@ def command(
     chains: ArmSourcesOptions = ArmSourcesOptions(),
     json_: JsonOption = False,
 ) -> None:
-    """Estimate how likely an arm keeps its dexterity when any one joint locks.
+    """Estimate how likely an arm is to keep its dexterity when any one joint locks.
 
     Several arms, tools or tasks are compared in every combination, over one region and in one report. To compare the control
     laws of one arm, use 'holdfast compare-laws'.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.values import default_task, read_numbers
+from holdfast.interface.cli.values import default_task, format_count, read_numbers
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
@@ -80,7 +80,7 @@ def read_tool(text: str) -> tuple[str, NDArray[np.float64]]:
         raise InputError(f"--tool '{text}' is not NAME=x,y,z,roll,pitch,yaw; write for example gripper=0,0,0.1,0,0,45 (m, deg)")
     numbers = read_numbers(f"--tool {name}", numbers_text, "6 numbers")
     if len(numbers) != 6:
-        raise InputError(f"--tool {name} has {len(numbers)} numbers; give 6: x,y,z in m and roll,pitch,yaw in degrees")
+        raise InputError(f"--tool {name} has {format_count(len(numbers), 'number')}; give 6: x,y,z,roll,pitch,yaw (m, deg)")
     if not np.isfinite(numbers).all():
         raise InputError(f"--tool {name} contains NaN or infinity; give 6 finite numbers")
     return name, tool_pose_from_numbers(numbers)

@@ -13,7 +13,7 @@ from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawsOption, read_laws, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
-from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_target
+from holdfast.interface.cli.values import format_count, read_configuration, read_failures, read_numbers, read_target
 from holdfast.interface.presentation.results import current_command, print_result
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def _sample_motions(
     if distance is not None:
         distance_limits = read_numbers("--distance", distance, "least,greatest")
         if distance_limits.size != 2:
-            raise InputError(f"--distance has {distance_limits.size} numbers; give the shortest and the longest distance, m")
+            raise InputError(f"--distance has {format_count(distance_limits.size, 'number')}; give shortest,longest in m")
         distance_range = float(distance_limits[0]), float(distance_limits[1])
     failures = None if reachable_after is None else read_failures(arm, reachable_after)
     return hf.point_to_point(arm, motions, seed, distance=distance_range, failures=failures, task=task)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def stationary_points(
     arm: ArmArgument,
     target: TargetOption,
-    lock: Annotated[list[str] | None, "Locked joint JOINT=VALUE (rad or m), repeatable; or one JOINT, for curves."] = None,
+    lock: Annotated[list[str] | None, "Locked joint JOINT=VALUE in rad or m, repeatable; JOINT alone: all its values."] = None,
     failure: FailureOption = None,
     degrees: LockDegreesOption = False,
     controlled: SeededLawOptions = SeededLawOptions(),
@@ -43,7 +43,7 @@ def basins(
     lock: Annotated[list[str] | None, "Locked joint JOINT=VALUE in rad or m. Repeatable."] = None,
     failure: FailureOption = None,
     starts: Annotated[int, "Number of random starts."] = 2000,
-    grid: Annotated[int | None, "Number of starts per axis of a map, for two healthy joints; replaces --starts."] = None,
+    grid: Annotated[int | None, "Number of starts per axis of a map over two joints; replaces --starts."] = None,
     degrees: LockDegreesOption = False,
     controlled: SeededLawOptions = SeededLawOptions(),
     output: OutputOptions = OutputOptions(),

@@ -25,8 +25,8 @@ def draw(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Fault file (YAML).")],
     arm: ArmOption,
     episodes: Annotated[int, "Number of episodes, starting with episode 0."] = 1,
-    horizon: Annotated[float | None, "Length of an episode in s. Default: infinite."] = None,
-    seed: Annotated[int | None, "Seed that replaces that of the fault file. Default: that of the file."] = None,
+    horizon: Annotated[float | None, "Length of an episode in s; later faults are left out. Default: infinite."] = None,
+    seed: Annotated[int | None, "Seed of the faults. Default: the seed of the fault file."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:

@@ -19,7 +19,7 @@ class MeasureOptions:
     out: FolderOption = None
     starts: Annotated[
         str | None,
-        "Start positions: grid:52, which is a lattice over the workspace of a planar arm, or a number of random ones.",
+        "Start positions: grid:52 (a lattice of 52 x 52 over the workspace of a planar arm), or a number of random ones.",
         "grid:52 in a plane, else 100; over targets 20",
     ] = None
     configurations: Annotated[
@@ -28,16 +28,16 @@ class MeasureOptions:
         "36 in a plane, else 8; over targets 8 and 4",
     ] = None
     points: Annotated[
-        int | None, "Number of failures per joint and motion; 0 skips the measures F.", "10 in a plane, else 3; over targets 2"
+        int | None, "Number of failures per joint and motion; 0 skips F100 to Fsens.", "10 in a plane, else 3; over targets 2"
     ] = None
     method: Annotated[
         Literal["brute", "procedure", "sampled"] | None,
-        "Failures to simulate: brute (all), procedure (only where a sink exists), or sampled (all, of random configurations).",
+        "Failures: brute (all), procedure (only where a wrong end point attracts the arm), or sampled (random configurations).",
         "brute in a plane, else sampled",
     ] = None
     relative_to: Annotated[
         Literal["inside", "whole"],
-        "Reference of the measures F: inside (the path within the joints' ranges) or whole (the whole path).",
+        "Reference of F100 to Fsens: inside (the path within the joints' ranges) or whole (the whole path).",
     ] = "inside"
 
     def library_arguments(self) -> dict[str, Any]:

@@ -14,14 +14,14 @@ from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, ArmOp
 from holdfast.interface.presentation.printing import make_console, print_written_files
 from holdfast.interface.presentation.results import print_result
 
-ColumnsOption = Annotated[Path | None, "Column file (YAML): names and units of the columns, if they are not the default ones."]
+ColumnsOption = Annotated[Path | None, "Column file (YAML): names and units of the log. Default: holdfast's, in SI units."]
 LatencyOption = Annotated[float, "Latency of the tool-pose measurement in s."]
 
 
 def diagnose(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Log (.npz, .csv or .parquet).")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="Log (.npz, .csv or .parquet); see --columns.")],
     arm: ArmOption,
-    bounds: Annotated[Path, "Threshold file of 'holdfast calibrate'."],
+    bounds: Annotated[Path, "Threshold file (JSON) written by 'holdfast calibrate'."],
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -31,7 +31,7 @@ def diagnose(
 
     Exit code: 0 if no fault is detected, 3 if there is an alarm.
 
-    Example: holdfast diagnose healthy/000000.npz --arm panda --bounds bounds.json --out diagnosis
+    Example: holdfast diagnose faulty/000000.npz --arm panda --bounds bounds.json --out diagnosis
     """
     model = chain.resolve_arm(arm)
     diagnosis = hf.diagnosis.diagnose(
@@ -46,10 +46,10 @@ def calibrate(
     logs: Annotated[list[Path], typer.Argument(metavar="LOG", help="Logs of the healthy arm (.npz, .csv or .parquet).")],
     arm: ArmOption,
     out: Annotated[Path, "File for the thresholds (JSON)."],
-    factor: Annotated[float | None, "Multiple of the largest healthy residual. Default: 1.5, or 2.5 without torques."] = None,
-    coulomb: Annotated[float, "Dry friction of each joint in N m (N), if known."] = 0.0,
+    factor: Annotated[float | None, "Threshold / largest healthy residual. Default: 1.5, or 2.5 without torques."] = None,
+    coulomb: Annotated[float, "Coulomb friction of each joint in N m (N)."] = 0.0,
     viscous: Annotated[float | None, "Viscous friction in N m s/rad (N s/m). Default: that of the arm."] = None,
-    fit: Annotated[bool, "Fit masses and friction to the logs first."] = False,
+    fit: Annotated[bool, "Fit the masses and friction of the arm model to the logs first."] = False,
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -68,7 +68,7 @@ def calibrate(
 def predict_detection(
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="Log (.npz, .csv), or motion that 'holdfast follow' wrote.")],
     arm: ArmOption,
-    bounds: Annotated[Path | None, "Threshold file of 'holdfast calibrate', to predict also the detection time."] = None,
+    bounds: Annotated[Path | None, "Threshold file written by 'holdfast calibrate'; adds the detection time."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),
 ) -> None:
@@ -88,7 +88,7 @@ def simulate_logs(
     out: Annotated[Path, "Folder for the logs."],
     records: Annotated[int, typer.Option("--records", min=1, help="Number of logs, each with a different motion.")] = 1,
     duration: Annotated[float, "Duration of each log in s."] = 6.0,
-    faults: Annotated[Path | None, "Fault file (YAML); log k is episode k. Default: no faults."] = None,
+    faults: Annotated[Path | None, "Fault file (YAML); log k is its episode k, from 0. Default: no faults."] = None,
     robot: Annotated[int, "Seed of the simulated robot. Use one value for all logs of the same robot."] = 0,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),

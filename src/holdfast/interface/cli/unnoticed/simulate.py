@@ -26,29 +26,29 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    start: Annotated[str | None, "Start configuration in rad and m, separated by commas or spaces."] = None,
+    start: Annotated[str | None, "Start configuration in rad and m. Required without --motion."] = None,
     target: OptionalTargetOption = None,
     motion: Annotated[
         Path | None,
         "Motion to play in MuJoCo, instead of --start and --target: a CSV file of joints over time, the folder that recover, "
         "follow or plan-motion wrote with --out, or a log (.npz).",
     ] = None,
-    error_limit: Annotated[str | None, "Largest deviation of a joint from --motion, for example 2deg or 2deg,1mm."] = None,
+    error_limit: Annotated[str | None, "Largest deviation of a joint from --motion: 2deg or 2deg,1mm. Default: none."] = None,
     lock: Annotated[
         list[str] | None,
-        "Joint that locks: JOINT at the start, or JOINT@TIME in s or cycles. With --monitor, it must be detected. Repeatable.",
+        "Joint that locks where it is: JOINT (at the start) or JOINT@TIME in s (cycles with --cycles). Repeatable.",
     ] = None,
     failure: FailureOption = None,
     controlled: LawOptions = LawOptions(),
     loop: ClosedLoopOptions = ClosedLoopOptions(),
-    physics: Annotated[bool, "Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
+    physics: Annotated[bool, "Also simulate in MuJoCo, with bodies and joint servos (needs the extra 'physics')."] = False,
     servo_bandwidth: Annotated[float, "Bandwidth of the joint servos in Hz, with --physics or --motion."] = 10.0,
-    faults: Annotated[Path | None, "Fault file (YAML), from which the faults are sampled."] = None,
-    episode: Annotated[int, "Number of the episode of --faults, from 0."] = 0,
+    faults: Annotated[Path | None, "Fault file (YAML) from which faults are sampled; replaces --lock."] = None,
+    episode: Annotated[int, "Episode of --faults, counted from 0."] = 0,
     monitor: Annotated[
         Path | None,
-        "Threshold file of 'holdfast calibrate', with --physics: a monitor identifies the joint, and the controller reacts "
-        "and avoids --cell.",
+        "Threshold file written by 'holdfast calibrate'. With --physics, a monitor identifies the locked joint, and the "
+        "controller brakes it and avoids --cell. Default: no monitor.",
     ] = None,
     record: Annotated[
         Path | None, "File for the sensor log (.npz, .csv or .parquet), with --physics, for calibrate and diagnose."
@@ -61,7 +61,7 @@ def command(
     out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate the closed loop with locked joints that the controller does not know of.
+    """Simulate a control law with joint locks of which the controller is not informed, except by --monitor.
 
     With --motion, a planned motion is played instead, and the output states when a joint first exceeds --error-limit.
 

@@ -177,7 +177,7 @@ class DesignRecord(Result):
         )
         is_below = claimed.value <= bound * (1 + 1e-9)
         claims.append(
-            ("the value is below the bound" if is_below else "the value beats a proven bound: one of both is wrong", is_below)
+            ("the value is below the bound" if is_below else "the value beats a proven bound: one of them is wrong", is_below)
         )
         return RecordCheck(record=self, claims=claims)
 
