@@ -8,15 +8,15 @@ An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, a
     rows:
       - {a: 0, alpha: -90, d: 0.3, lower: -170, upper: 170, name: shoulder, velocity: 90, effort: 120}
       - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02}     # no lower and upper: no limits
-      - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}          # metres, whatever the angles are in
+      - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}          # always in metres
     base: {xyz: [0, 0, 0.8], urdf_rpy: [0, 0, 180]}   # in the world; roll, pitch, yaw as URDF: Rz(yaw) Ry(pitch) Rx(roll)
-    tool:                                        # pose of the tool in the last row's frame; either form serves for both
+    tool:                                        # pose of the tool in the last row's frame; base and tool accept both forms
       - [1, 0, 0, 0]
       - [0, 1, 0, 0]
       - [0, 0, 1, 0.1]
       - [0, 0, 0, 1]
     gravity: [0, 0, -9.81]    # in the world, m/s^2
-    links:                    # one per row, each in its row's frame; null where nothing is known
+    links:                    # one per row, each in the frame of its row; null if unknown
       - {name: upper arm, mass: 4, com: [0, 0.1, 0], inertia: [0.02, 0.01, 0.02, 0, 0, 0]}   # xx, yy, zz, xy, xz, yz
       - {mass: 2, com: [-0.25, 0, 0], inertia: [[0.01, 0, 0], [0, 0.05, 0], [0, 0, 0.05]]}   # about com, kg m^2
       - null

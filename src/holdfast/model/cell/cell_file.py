@@ -3,21 +3,21 @@
 An example with every key; only ``objects``, and one kind in each object, are required::
 
     name: bench               # default: the file's name
-    margin: 0.01              # what is kept from everything at least, m; default 0
-    objects:                  # each with a name of its own; poses in the world, lengths in m
-      table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.5, 0, -0.02]}}      # full sizes, as URDF
-      post:                                                             # along its z; rpy in rad as URDF
+    margin: 0.01              # smallest permitted distance from every object, m; default 0
+    objects:                  # each has a unique name; poses in the world, lengths in m
+      table: {box: [0.8, 1.2, 0.04], pose: {xyz: [0.5, 0, -0.02]}}      # full edges, as in URDF
+      post:                                                             # axis along z; rpy in rad, as in URDF
         {cylinder: {radius: 0.05, length: 1.0}, pose: {xyz: [0.2, 0.55, 0.5], rpy: [0, 0.1, 0]}}
-      pipe:                                                             # length between the centres of its ends; x, y, z, w
+      pipe:                                                             # length between the centres of its end caps; x, y, z, w
         {capsule: {radius: 0.04, length: 0.6}, pose: {xyz: [0.6, 0, 0.9], quaternion: [0, 0.6, 0, 0.8]}}
       ball: {sphere: 0.12, pose: {xyz: [0.45, 0.35, 0.8]}}
-      ground: {half_space: [0, 0, 1], pose: {xyz: [0, 0, -0.8]}}        # all on the other side of the plane across this
-      jig: {mesh: jig.stl, scale: 0.001, solid: exact}                  # STL OBJ GLB PLY beside this file; exact or hull
-      scan: {points: scan.npy, radius: 0.005}                           # (N, 3) m; every point a ball
-      sealed: {mesh: box.glb, solid: hull, margin: 0.03}                # own margin: the larger of the two counts
+      ground: {half_space: [0, 0, 1], pose: {xyz: [0, 0, -0.8]}}        # solid below a plane with this outward normal
+      jig: {mesh: jig.stl, scale: 0.001, solid: exact}                  # STL, OBJ, GLB or PLY next to this file; exact or hull
+      scan: {points: scan.npy, radius: 0.005}                           # (N, 3) m; a sphere at every point
+      sealed: {mesh: box.glb, solid: hull, margin: 0.03}                # the larger of both margins applies
     held:                     # moves with the tool, as a part in the gripper; poses in the tool's frame
       - {capsule: {radius: 0.02, length: 0.15}, pose: {xyz: [0, 0, 0.08]}}
-    may_touch:                # an object and a link, by the joint that moves it or base: not checked
+    may_touch:                # pairs of an object and a link (its joint, or base) that are not checked
       - [table, base]
       - [ball, panda_joint7]
     arm: {shape: meshes, spheres_to: 0.01, hold: {panda_finger_joint1: 0.04}}

@@ -3,18 +3,18 @@
 A capsule contains all points within ``radius`` of a line segment; a segment of length 0 makes a sphere. An example of a file
 with every key; lengths in m, ``radius`` or ``links`` is required::
 
-    radius: 0.06              # of links that are not named below, and of capsules below without one of their own
-    links:                    # by the joint that moves them, or base; points in the frame that moves with that joint
+    radius: 0.06              # default radius of links and of capsules, m
+    links:                    # key: the joint that moves the link, or base; points in the moving frame of that joint
       base:
         - {from: [0, 0, 0], to: [0, 0, 0.3], radius: 0.1}
       panda_joint4:
         - {from: [0, 0, 0], to: [-0.08, 0.1, 0]}
         - {from: [-0.08, 0.12, 0], radius: 0.07}     # no to: a sphere
-      panda_joint6: []        # nothing here
-    ignore:                   # links whose capsules never meet, or meet by design; (2) is the second capsule of a link
+      panda_joint6: []        # no capsules
+    ignore:                   # pairs that are not checked; (2) is the second capsule of a link
       - [panda_joint5, panda_joint7]
       - [base, panda_joint4 (2)]
-    source: measured by hand  # optional; said in reports
+    source: measured by hand  # optional; printed in reports
 
 A link that is not named has the capsule of :meth:`Capsules.along_links` if ``radius`` is given, else none.
 """
