@@ -31,7 +31,9 @@ def command(
         "Feedback gain: rad/s per unit of the objective with gradient-projection, else 1/s. Default: keeps the lag negligible.",
     ] = None,
     wanted: Annotated[float | None, "Value of the objective that augmented-jacobian keeps. Default: that of the start."] = None,
-    rate_cap: Annotated[float | None, "Largest norm of the joint rates in rad/s; slows only the self-motion."] = None,
+    rate_cap: Annotated[
+        float | None, "Largest norm of the joint rates in rad/s; slows only the self-motion. Default: 20,000 steps of 0.02 rad."
+    ] = None,
     samples: Annotated[int, "Number of samples over the duration."] = 501,
     best: Annotated[bool, "Also find the best configuration of each pose (one or two degrees of redundancy)."] = False,
     torque_bound: Annotated[

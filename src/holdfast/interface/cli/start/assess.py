@@ -33,9 +33,13 @@ if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 FailureRateOption = Annotated[
-    list[str] | None, "Relative failure rate JOINT=RATE, to average the poses reachable after a lock of each joint. Repeatable."
+    list[str] | None,
+    "Relative failure rate JOINT=RATE, to average the poses reachable after a lock. Default: no average. Repeatable.",
 ]
-AtLeastOption = Annotated[list[float] | None, "Estimate the probability that the index is at least this value. Repeatable."]
+AtLeastOption = Annotated[
+    list[float] | None,
+    "Estimate the probability that the index is at least this value. Default: half of its bound, or its median. Repeatable.",
+]
 
 
 def command(
