@@ -52,7 +52,7 @@ class ClassPage(SphinxDirective):
         return shown
 
 
-def described_names(text: str) -> list[str]:
+def list_described_names(text: str) -> list[str]:
     """Return the names that the directives of a page describe, in their order."""
     names = []
     for directive, name, members in DESCRIBED.findall(text):
@@ -63,7 +63,7 @@ def described_names(text: str) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def first_sentence(text: str) -> str:
+def extract_first_sentence(text: str) -> str:
     """Return the first sentence of a docstring's summary, with plain names in place of links."""
     sentence = re.split(r"(?<=[.])\s+(?=[A-Z`])", text)[0]
     return ROLE.sub(r"``\1``", sentence)
@@ -75,8 +75,8 @@ class ApiSummary(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         source = Path(self.env.doc2path(self.env.docname)).read_text(encoding="utf-8")
         rows = []
-        for name in described_names(source):
-            rows += [f"   * - :py:obj:`~{name}`", f"     - {first_sentence(summary(name))}"]
+        for name in list_described_names(source):
+            rows += [f"   * - :py:obj:`~{name}`", f"     - {extract_first_sentence(summary(name))}"]
         return self.parse_text_to_nodes("\n".join([".. list-table::", "   :widths: 35 65", "", *rows]))
 
 

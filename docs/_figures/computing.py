@@ -130,7 +130,7 @@ def draw_study() -> Figure:
 
 
 def draw_box(axes: Axes, text: str, x: float, y: float, width: float, color: str, height: float = 0.62) -> None:
-    """Draw a labelled box around a point."""
+    """Draw a rounded box with a text; its centre is (x, y)."""
     corner = (x - width / 2, y - height / 2)
     axes.add_patch(FancyBboxPatch(corner, width, height, boxstyle="round,pad=0.04", fc="white", ec=color, lw=1.4))
     axes.text(x, y, text, ha="center", va="center", fontsize=9)

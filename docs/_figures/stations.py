@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from matplotlib.axes import Axes
+from computing import draw_box
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyBboxPatch
 
 from holdfast.interface.report import BLUE, GREEN, INK, ORANGE, SOFT, settle_layout, style
 
@@ -17,22 +16,16 @@ def draw_network() -> Figure:
         figure = Figure(figsize=(8.6, 2.7))
         axes = figure.subplots()
         for row, (text, link) in enumerate([("station 1", "token"), ("station 2", "token"), ("your page", "key")]):
-            draw_box(axes, 0.0, 2.0 - row, text, BOX_COLORS["station"])
+            draw_box(axes, text, 0.8, 2.0 - row, 1.6, BOX_COLORS["station"])
             axes.annotate("", (3.95, 1.0), (1.65, 2.0 - row), arrowprops={"arrowstyle": "<->", "color": SOFT})
             axes.text(1.78, 2.14 - 0.98 * row, link, fontsize=8.5, color=INK)
         axes.text(4.8, 1.5, "HTTPS and WebSockets", ha="center", fontsize=9, color=ORANGE)
-        draw_box(axes, 4.0, 1.0, "proxy (TLS)\nCaddy or nginx", BOX_COLORS["proxy"])
+        draw_box(axes, "proxy (TLS)\nCaddy or nginx", 4.8, 1.0, 1.6, BOX_COLORS["proxy"])
         axes.annotate("", (6.45, 1.0), (5.65, 1.0), arrowprops={"arrowstyle": "<->", "color": SOFT})
         axes.text(6.05, 1.2, "local", ha="center", fontsize=9, color=INK)
-        draw_box(axes, 6.5, 1.0, "holdfast teleop\nserve", BOX_COLORS["server"])
+        draw_box(axes, "holdfast teleop\nserve", 7.3, 1.0, 1.6, BOX_COLORS["server"])
         axes.annotate("", (7.3, 0.2), (7.3, 0.62), arrowprops={"arrowstyle": "->", "color": SOFT})
         axes.text(7.3, 0.02, "folder of records", ha="center", fontsize=9, color=INK)
         axes.set(xlim=(-0.15, 8.3), ylim=(-0.55, 2.6))
         axes.set_axis_off()
         return settle_layout(figure)
-
-
-def draw_box(axes: Axes, x: float, y: float, text: str, color: str) -> None:
-    """Draw a rounded box of 1.6 by 0.7 with a centred text; its left edge is at x and its middle at height y."""
-    axes.add_patch(FancyBboxPatch((x, y - 0.3), 1.6, 0.6, boxstyle="round,pad=0.04", fill=False, ec=color, lw=1.6))
-    axes.text(x + 0.8, y, text, ha="center", va="center", fontsize=9.5)

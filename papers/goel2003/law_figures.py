@@ -10,7 +10,17 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.interface.report import BLUE, ORANGE, SKY, SOFT, WIDTH_IN, legend_below, save_png, settle_layout, style
+from holdfast.interface.report import (
+    BLUE,
+    ORANGE,
+    SOFT,
+    WIDTH_IN,
+    draw_quantile_bands,
+    legend_below,
+    save_png,
+    settle_layout,
+    style,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,10 +49,7 @@ def two_minima(found: TwoMinima, path: Path) -> None:
 
 def draw_quantiles(axes: Axes, curve: hf.control.TradeOff, measure: str, label: str) -> None:
     """Draw the median of a measure and its quantile bands against the allowed error."""
-    q05, q25, q50, q75, q95 = curve.quantiles(measure)
-    axes.fill_between(curve.allowed, q05, q95, color=SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
-    axes.fill_between(curve.allowed, q25, q75, color=SKY, linewidth=0, label="25 to 75 %")
-    axes.plot(curve.allowed, q50, color=BLUE, linewidth=1.9, label="median")
+    draw_quantile_bands(axes, curve.allowed, curve.quantiles(measure))
     axes.set(
         xlabel="allowed pre-failure error (of the commanded speed)", ylabel=label, xlim=(0, curve.allowed[-1]), ylim=(0, 1.02)
     )

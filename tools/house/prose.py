@@ -96,11 +96,11 @@ def find_excesses(pages: dict[str, str]) -> dict[str, int]:
         total.add(page)
         if page.words > SHORT_PAGE_WORDS:
             excesses[name] = page.hits.total() - int(PAGE_RATE * page.words / 1000)
-    excesses |= {f"all pages, {name}": excess for name, excess in _total_excesses(total)}
+    excesses |= {f"all pages, {name}": excess for name, excess in _list_total_excesses(total)}
     return {name: excess for name, excess in excesses.items() if excess > 0}
 
 
-def _total_excesses(total: Prose) -> Iterator[tuple[str, int]]:
+def _list_total_excesses(total: Prose) -> Iterator[tuple[str, int]]:
     thousands = total.words / 1000
     for name, (_, rate) in PATTERNS.items():
         yield name, total.hits[name] - int(rate * thousands)

@@ -39,19 +39,19 @@ def is_valid_folder_name(name: object) -> bool:
     )
 
 
-def read_run_file(file: Path, format_name: str, version: int, *, whole: str, again: str) -> dict[str, Any]:
-    """Read the file that identifies ``whole`` ("a study"), and check its digest, format and version.
+def read_run_file(file: Path, format_name: str, version: int, *, kind: str, advice: str) -> dict[str, Any]:
+    """Read the file that identifies a folder of this ``kind`` ("a study"), and check its digest, format and version.
 
     Raises:
-        StoreError: The file cannot be read, or it has another format or version; ``again`` is the advice.
+        StoreError: The file cannot be read, or it has another format or version. The message ends with ``advice``.
     """
     convert = "convert a folder of an early version with holdfast.studies.convert_folder"
     try:
-        data = read_sealed(file)
+        data: dict[str, Any] = read_sealed(file)
     except (OSError, ValueError, InputError) as error:
-        raise StoreError(f"'{file}' cannot be read ({error}); {again}, or {convert}") from error
-    if not isinstance(data, dict) or data.get("format") != format_name:
-        raise StoreError(f"'{file}' was not written by holdfast; give the folder of {whole}")
+        raise StoreError(f"'{file}' cannot be read ({error}); {advice}, or {convert}") from error
+    if data.get("format") != format_name:
+        raise StoreError(f"'{file}' was not written by holdfast; give the folder of {kind}")
     if data.get("version") != version:
         raise StoreError(
             f"'{file.parent}' was written in format {data.get('version')}; this holdfast reads format {version}, and "

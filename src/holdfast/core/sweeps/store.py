@@ -119,11 +119,11 @@ class Store:
         file = folder / RUN_FILE
         if not reading.path_exists(file):
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {RUN_FILE}; give the folder that --out named")
-        again = "start the run again in a new folder"
-        run = read_run_file(file, _FORMAT_NAME, FORMAT_VERSION, whole="a holdfast run", again=again)
+        advice = "start the run again in a new folder"
+        run = read_run_file(file, _FORMAT_NAME, FORMAT_VERSION, kind="a holdfast run", advice=advice)
         invalid_entry = _find_invalid_entry(run)
         if invalid_entry:
-            raise StoreError(f"'{file}' is damaged: its {invalid_entry} is missing or wrong; {again}")
+            raise StoreError(f"'{file}' is damaged: its {invalid_entry} is missing or wrong; {advice}")
         return cls(folder, run)
 
     @contextmanager

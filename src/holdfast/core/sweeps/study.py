@@ -97,13 +97,13 @@ class Study(Result):
             raise StoreError(
                 f"'{folder}' is not a study: it has no {STUDY_FILE}; give the folder that 'holdfast study run --out' named"
             )
-        again = "run the study file again with a new folder"
-        data = read_run_file(file, _STUDY_FORMAT, _STUDY_VERSION, whole="a study", again=again)
+        advice = "run the study file again with a new folder"
+        data = read_run_file(file, _STUDY_FORMAT, _STUDY_VERSION, kind="a study", advice=advice)
         wrong = next((k for k, kind in _KINDS_BY_KEY.items() if not isinstance(data.get(k), kind)), None)
         wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
         wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
         if wrong:
-            raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; {again}")
+            raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; {advice}")
         return cls(folder, data)
 
     def copy(self, path: str | Path) -> Study:

@@ -12,6 +12,7 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_count
 from holdfast.interface.cli.options import (
     TASK_NAMES_HELP,
     FailuresOption,
@@ -21,7 +22,7 @@ from holdfast.interface.cli.options import (
     PlotOption,
     TaskOption,
 )
-from holdfast.interface.cli.values import check_path_units, format_count, read_numbers, read_task
+from holdfast.interface.cli.values import check_path_units, read_numbers, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
 from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
 from holdfast.core.files import reading
-from holdfast.core.formatting import format_count as format_count
+from holdfast.core.formatting import format_count
 from holdfast.core.labels import is_number
 from holdfast.model.arms.spec import default_task as default_task
 from holdfast.model.arms.spec import read_task as read_task

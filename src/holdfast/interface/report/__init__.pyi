@@ -9,6 +9,7 @@ from holdfast.interface.report.figures import cdf_figure as cdf_figure
 from holdfast.interface.report.figures import compare_cdf_figure as compare_cdf_figure
 from holdfast.interface.report.figures import distribution_figure as distribution_figure
 from holdfast.interface.report.figures import draw_cdf as draw_cdf
+from holdfast.interface.report.figures import draw_quantile_bands as draw_quantile_bands
 from holdfast.interface.report.figures import legend_below as legend_below
 from holdfast.interface.report.figures import save_png as save_png
 from holdfast.interface.report.figures import settle_layout as settle_layout

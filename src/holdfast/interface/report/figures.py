@@ -197,6 +197,14 @@ class Bin:
     ylabel: str
 
 
+def draw_quantile_bands(axes: Axes, x: FloatArray, quantiles: FloatArray) -> None:
+    """Draw the 5, 25, 50, 75 and 95 % quantiles (5, N) over ``x`` (N,) as two bands and the line of the median."""
+    q05, q25, q50, q75, q95 = quantiles
+    axes.fill_between(x, q05, q95, color=SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
+    axes.fill_between(x, q25, q75, color=SKY, linewidth=0, label="25 to 75 %")
+    axes.plot(x, q50, color=BLUE, linewidth=1.9, label="median")
+
+
 def draw_cdf(
     axes: Axes, curves: Sequence[Curve], marks: Sequence[Mark], *, xlabel: str, ylabel: str, log: bool = False
 ) -> None:

@@ -10,6 +10,7 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_count
 from holdfast.interface.cli.certify_options import (
     AnglesOption,
     CertificateOption,
@@ -27,7 +28,7 @@ from holdfast.interface.cli.certify_options import (
 from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
 from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption
-from holdfast.interface.cli.values import format_count, read_joint, read_numbers
+from holdfast.interface.cli.values import read_joint, read_numbers
 from holdfast.interface.presentation.results import print_result
 from holdfast.model.failure_modes.sets import read_failures
 

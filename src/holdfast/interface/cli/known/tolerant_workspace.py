@@ -8,9 +8,10 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_count
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
 from holdfast.interface.cli.options import TASK_NAMES_HELP, ArmArgument, SeedOption
-from holdfast.interface.cli.values import format_count, read_joint, read_numbers, read_task
+from holdfast.interface.cli.values import read_joint, read_numbers, read_task
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import InputError
-from holdfast.interface.cli.values import default_task, format_count, read_numbers
+from holdfast.core.formatting import format_count
+from holdfast.interface.cli.values import default_task, read_numbers
 
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm

@@ -9,11 +9,12 @@ import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_count
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawsOption, read_laws, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
 from holdfast.interface.cli.progress import ProgressBar
-from holdfast.interface.cli.values import format_count, read_configuration, read_failures, read_numbers, read_target
+from holdfast.interface.cli.values import read_configuration, read_failures, read_numbers, read_target
 from holdfast.interface.presentation.results import current_command, print_result
 
 if TYPE_CHECKING:

@@ -99,7 +99,15 @@ def _draw_figure(curve: TradeOff) -> Figure:
     """Draw the median and quantile bands of the error after a failure and of the error of the healthy arm."""
     from matplotlib.figure import Figure
 
-    from holdfast.interface.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, format_label, legend_below, settle_layout, style
+    from holdfast.interface.report.figures import (
+        ORANGE,
+        WIDTH_IN,
+        draw_quantile_bands,
+        format_label,
+        legend_below,
+        settle_layout,
+        style,
+    )
 
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.9))
@@ -113,10 +121,7 @@ def _draw_figure(curve: TradeOff) -> Figure:
             strict=True,
         )
         for axes, measure_name, ylabel, title in measures:
-            q05, q25, q50, q75, q95 = curve.quantiles(measure_name)
-            axes.fill_between(curve.allowed, q05, q95, color=SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
-            axes.fill_between(curve.allowed, q25, q75, color=SKY, linewidth=0, label="25 to 75 %")
-            axes.plot(curve.allowed, q50, color=BLUE, linewidth=1.9, label="median")
+            draw_quantile_bands(axes, curve.allowed, curve.quantiles(measure_name))
             axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, curve.allowed[-1]))
             axes.set_ylim(0, 1.02)
             axes.set_title(title)
