@@ -15,7 +15,7 @@ def draw_network() -> Figure:
     with style():
         figure = Figure(figsize=(8.6, 2.7))
         axes = figure.subplots()
-        for row, (text, link) in enumerate([("station 1", "token"), ("station 2", "token"), ("your page", "key")]):
+        for row, (text, link) in enumerate([("station 1", "token"), ("station 2", "token"), ("experimenter's page", "key")]):
             draw_box(axes, text, 0.8, 2.0 - row, 1.6, BOX_COLORS["station"])
             axes.annotate("", (3.95, 1.0), (1.65, 2.0 - row), arrowprops={"arrowstyle": "<->", "color": SOFT})
             axes.text(1.78, 2.14 - 0.98 * row, link, fontsize=8.5, color=INK)

@@ -31,6 +31,7 @@ SENTENCE_WORDS, LONG_SENTENCE_PERCENT = 40, 2.0
 CONNECTIVES = r"\b(because|for example|therefore|however|since|so that|which means|although|instead)\b"
 CONNECTIVE_RATE = 4.0  # at least
 MAX_WORDS = 55_000
+GENERATED = {"_build", "gallery", "commands", "classes"}  # folders of pages that the build writes
 _CODE = re.compile(r":[\w:+-]+:(?=`)|`+[^`]*`+_*|\$[^$]*\$|\]\([^)]*\)|https?://\S+|\{[\w-]+\}")
 
 
@@ -55,8 +56,8 @@ class Prose:
 
 def find_pages(root: Path) -> list[Path]:
     """Find the pages that are written by hand."""
-    docs = sorted((root / "docs").rglob("*.md"))
-    written = [path for path in docs if not {"_build", "gallery"} & set(path.relative_to(root).parts)]
+    docs = sorted(path for path in (root / "docs").rglob("*") if path.suffix in (".md", ".rst"))
+    written = [path for path in docs if not GENERATED & set(path.relative_to(root).parts)]
     top = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
     return [*(path for path in top if path.exists()), *written]
 

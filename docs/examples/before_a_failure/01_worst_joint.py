@@ -20,7 +20,7 @@ worst = int(result.worst)
 print(f"worst case {result.value:.4f}, when {index.failure_names[worst]} locks")
 
 # %%
-# The squares of the nine values add up to n - m = 3, the degree of redundancy. So no
+# The squares of the nine values add up to n - m = 3, the degree of redundancy. Therefore no
 # configuration of this arm keeps more than the dashed line for *every* joint.
 
 figure, axes = plt.subplots(figsize=(7, 3.8))
@@ -33,7 +33,8 @@ axes.set(xticks=range(1, arm.n + 1), title="PA10, 9 joints, pose task: 1 configu
 axes.legend()
 
 # %%
-# The gradient is exact: which way to turn each joint to make the worst case better.
+# The gradient is exact. It shows the direction in which each joint must move to improve the worst
+# case.
 
 for name, slope in zip(arm.joint_names, index.gradient(q), strict=True):
     print(f"{name}: {slope:+.3f} per rad")

@@ -1,10 +1,10 @@
 """
-Probability over a region, with its band
-========================================
+Probability over a region, with its confidence band
+===================================================
 
-One configuration says little about a job of many poses. Here 2000 are drawn in the region of
-[Abdi2012]_, a cube of 0.5 m and of 90 degrees, and solved by inverse kinematics within the joint
-limits.
+A task with many poses needs more than one configuration. This script samples 2000 poses in the
+region of [Abdi2012]_, a cube of 0.5 m and of 90 degrees, and solves them by inverse kinematics
+within the joint limits.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +18,7 @@ run = hf.assess(arm, region, poses=2000, seed=1)
 print(f"probability of at least 0.2, whichever joint locks: {run.interval(at_least=0.2)}")
 
 # %%
-# The band holds the *whole* true curve with 95 % confidence (Dvoretzky, Kiefer, Wolfowitz). A
+# The band contains the *whole* true curve with 95 % confidence (Dvoretzky, Kiefer, Wolfowitz). A
 # pose that was not reached counts as failed.
 
 h = np.linspace(0, 0.5, 501)
@@ -32,7 +32,7 @@ axes.set(ylabel="probability of at least h", title="PA10, 9 joints, any one join
 axes.legend()
 
 # %%
-# Which joint is the worst one, and how often?
+# The joints that are worst, and how often:
 
 for name, count in zip(run.index.failure_names, run.worst_counts, strict=True):
     print(f"{name}: worst at {count / run.distribution.reached:6.1%} of the reached poses")

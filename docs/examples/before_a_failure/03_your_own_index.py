@@ -2,9 +2,10 @@
 Your own index
 ==============
 
-An index is one function of the Jacobian J without the failed joints. This one asks how fast the
-end effector can still be lifted per unit of joint speed, :math:`v = 1 / \\sqrt{u^\\top (J
-J^\\top)^{-1} u}` with u up. holdfast finds the worst failure, compiles it, and differentiates.
+An index is one function of the Jacobian J without the failed joints. This index measures how fast
+the end effector can still be lifted per unit of joint speed, :math:`v = 1 / \\sqrt{u^\\top (J
+J^\\top)^{-1} u}` with u up. holdfast finds the worst failure, compiles the function, and
+differentiates it.
 """
 
 import casadi as ca
@@ -23,7 +24,7 @@ arm = hf.arms.load("panda")
 index = hf.indices.CustomIndex(lifting_speed, arm, "position", name="lifting speed", unit="m/rad")
 
 # %%
-# Bend the elbow through its range: 400 configurations in one call.
+# Bend the elbow through its range, with 400 configurations in one call.
 
 elbow = np.linspace(arm.lower[3], arm.upper[3], 400)
 q = np.tile(hf.arms.about("panda").home, (400, 1))

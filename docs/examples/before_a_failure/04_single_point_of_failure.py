@@ -1,10 +1,10 @@
 """
-A single point of failure by structure
-======================================
+A structural single point of failure
+====================================
 
-PA10 and Panda both have seven joints. Lock the elbow of the PA10 and its end effector cannot do
-all six motions any more, in *no* configuration: the self-motion of this arm never moves the
-elbow. The Panda has no such joint.
+The PA10 and the Panda both have seven joints. If the elbow of the PA10 locks, its end effector
+loses one of the six directions of motion in *every* configuration, because the self-motion of
+this arm never moves the elbow. The Panda has no such joint.
 """
 
 import matplotlib.pyplot as plt
@@ -30,7 +30,7 @@ both[0].set_ylabel("relative manipulability (no unit)\nmedian, and 5 % to 95 %")
 figure.suptitle("4096 random configurations; diamond: 0 in every one")
 
 # %%
-# A structural zero depends on the task. With three rows instead of six, no joint of the PA10 is
-# indispensable.
+# A structural zero depends on the task. With three task components instead of six, no joint of
+# the PA10 is indispensable.
 
 print(structure(hf.arms.load("pa10-7dof"), "position"))

@@ -2,9 +2,9 @@
 Pairs of failures
 =================
 
-After a first failure the arm may have to work on for a while. What does a *second* one do? The
-nine-joint PA10 has three degrees of redundancy for a pose: the count of joints suffices for any
-two locks. The geometry often does not.
+After a first failure, the arm may have to keep working for some time. This script shows the
+effect of a *second* failure. The nine-joint PA10 has three degrees of redundancy for a pose, so
+the number of joints suffices for any two locks. The geometry often does not.
 """
 
 import matplotlib.pyplot as plt
@@ -22,7 +22,8 @@ for failures in ("single", "pairs"):  # the same seed: the same poses and config
         table[failed[-1], failed[0]] = np.nanmedian(values)
 
 # %%
-# The median over the reached poses: off the diagonal for two locked joints, on it for one.
+# Median over the reached poses, for two locked joints off the diagonal and for one locked joint
+# on it.
 
 figure, axes = plt.subplots(figsize=(6.4, 5))
 image = axes.imshow(table, cmap="cividis", vmin=0, vmax=1)

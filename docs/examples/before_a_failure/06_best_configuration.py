@@ -2,8 +2,9 @@
 The best configuration of a pose
 ================================
 
-A redundant arm takes a pose in many ways. ``hf.optimise`` finds the one that keeps most whichever
-joint locks: the tool stays, the joint limits are kept, and the arm is clear of itself.
+A redundant arm reaches a pose in infinitely many configurations. ``hf.optimise`` finds the one
+that keeps most whichever joint locks. The tool does not move, the joint limits are respected, and
+the arm does not collide with itself.
 """
 
 import matplotlib.pyplot as plt
@@ -20,7 +21,7 @@ print("joint angles, deg:", np.rad2deg(best.q).round(1))
 print(f"tool moved by {1000 * best.position_error:.1g} mm")
 
 # %%
-# Before, joint 2 is by far the worst. After, several joints share the worst place.
+# Before the optimisation, joint 2 is by far the worst. Afterwards several joints are equally bad.
 
 figure, axes = plt.subplots(figsize=(7, 3.8))
 joints = np.arange(1, arm.n + 1)

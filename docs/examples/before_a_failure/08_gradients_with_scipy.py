@@ -2,8 +2,9 @@
 Exact gradients with SciPy
 ==========================
 
-Any optimiser can use the gradients of indices and susceptibilities. Here SciPy trades the torques
-that hold a Panda against the accelerations of joints that swing free, the tool point held.
+Any optimiser can use the gradients of indices and susceptibilities. Here SciPy finds trade-offs
+between the torques that hold a Panda and the accelerations of free-swinging joints, while the
+tool point does not move.
 """
 
 import matplotlib.pyplot as plt

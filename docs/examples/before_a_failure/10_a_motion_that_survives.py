@@ -2,9 +2,10 @@
 A motion that survives a lock
 =============================
 
-A Panda moves its tool along a line of one metre. A joint locks on the way: can the rest of the
-line still be followed? That depends on the configuration at that moment, and a pose has a whole
-curve of them. Of all motions through these the best is found, and a bound for any other.
+A Panda moves its tool along a line of one metre, and a joint locks on the way. Whether the arm
+can finish the line depends on its configuration at that moment, and each pose has a whole curve
+of configurations. The script finds the best of all motions through these curves, and an upper
+bound for every other motion.
 """
 
 import numpy as np
@@ -25,14 +26,15 @@ for other in best.comparisons:
     print(f"{other.survival:.3f}  {other.name}")
 
 # %%
-# A local measure of fault tolerance does not buy survival over a task. Gradient projection of
-# relative manipulability follows the hill it is on, and even its best continuous motion knows
-# nothing of what comes later on the path.
+# A high local measure of fault tolerance does not make a motion survive more locks. Gradient
+# projection of relative manipulability climbs to a local optimum, and even its best continuous
+# motion does not take the rest of the path into account.
 
 best.plot("survival")
 
 # %%
-# Where each lock is survivable, over time and the joint that the self-motion moves most; the line
-# is the motion. The elbow is set by the pose: no motion survives its lock but near the end.
+# The locks that the arm survives, over time and over the joint that the self-motion moves most.
+# The line is the motion. The pose determines the angle of the elbow, so no motion survives a lock
+# of the elbow except near the end.
 
 best.plot("map")

@@ -1,9 +1,9 @@
 """
-An arm of your own
-==================
+Your own URDF
+=============
 
-Links on a rail, as a URDF file of a few lines. ``hf.Arm.from_urdf`` reads any serial chain
-of a file; inertial data are optional and needed only for joints that swing free.
+This script describes links on a rail in a URDF file of a few lines. ``hf.Arm.from_urdf`` reads
+any serial chain of a file. Inertial data are optional and needed only for free-swinging joints.
 """
 
 import tempfile

@@ -1,9 +1,9 @@
 """
-Which arm for this cell?
-========================
+Compare two arms for one cell
+=============================
 
-Two arms at the same 300 random poses of one region, in the configurations that inverse kinematics
-finds. Which keeps more, whichever joint locks?
+This script evaluates two arms at the same 300 random poses of one region, in the configurations
+that inverse kinematics finds. It shows which arm keeps more, whichever joint locks.
 """
 
 import holdfast as hf
@@ -17,6 +17,7 @@ for row in compared.table:
     print(f"{name:6} keeps at least 0.05 at {value:.1%} of the poses, worst joint {worst}")
 
 # %%
-# The region is around the home of one of them, which favours it. Give the region of your work.
+# The region is around the home position of one arm, which favours that arm. Use the region of
+# your work instead.
 
 compared.plot()

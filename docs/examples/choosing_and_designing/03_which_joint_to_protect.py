@@ -1,10 +1,10 @@
 """
-Which joint deserves the redundant motor?
-=========================================
+The joint that most needs a redundant motor
+===========================================
 
-If one joint could never fail (a second motor, a brake that holds), the worst case would be over
-the others only. How many of 1000 poses would that save? Both numbers are of the same poses, so
-the gain has a paired interval.
+If one joint could never fail, for example because it has a second motor, the worst case would
+include only the other joints. The script counts how many of 1000 poses this would save. Both
+numbers refer to the same poses, so the gain has a paired interval.
 """
 
 import matplotlib.pyplot as plt

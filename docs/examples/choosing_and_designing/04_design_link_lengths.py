@@ -1,10 +1,10 @@
 """
-Which link lengths?
-===================
+Optimise link lengths
+=====================
 
-The three lengths of a planar arm are open. ``hf.design`` searches for the arm that *guarantees*
-most at 95 % of the poses of a region, whichever joint locks, against reach; the best is checked
-on 200 fresh poses.
+The three link lengths of a planar arm are free. ``hf.design`` searches for the arm with the
+largest 5 % quantile of the index over a region, whichever joint locks, and for the trade-off with
+reach. The best arm is checked on 200 held-out poses.
 """
 
 import holdfast as hf
@@ -24,6 +24,6 @@ for line in found.describe():
     print(line)
 
 # %%
-# Each dot is a design; those on the line are beaten by none in both reach and guaranteed index.
+# Each dot is a design. No design exceeds those on the line in both reach and index quantile.
 
 found.plot("front")

@@ -1,10 +1,10 @@
 """
-An arm to look at
-=================
+A 3-D view of an arm
+====================
 
-``arm.show()`` is a small 3-D view without server or network: in a notebook it is seen as it is,
-and ``save`` writes it as one file. Turn it with the mouse or the arrow keys. Here a Panda, its
-best configuration of the same pose, and a locked joint.
+``arm.show()`` is a small 3-D view without a server or a network. A notebook shows it directly,
+and ``save`` writes it to one file. Rotate the view with the mouse or the arrow keys. This view
+contains a Panda, its best configuration of the same pose, and a locked joint.
 """
 
 # sphinx_gallery_capture_repr = ('_repr_html_',)

@@ -2,9 +2,9 @@
 Tasks for an experiment
 =======================
 
-A person steers an arm while one joint is locked; the controller does not know. Random tasks are
-driven by the computer first: how much harder does the lock make each of them, and does the
-failure-tolerant inverse help? 40 tasks for each joint.
+A person steers an arm with a locked joint, which the controller has not detected. First, the
+computer performs 40 random tasks for each joint. The results show how much harder the lock makes
+each task, and whether the failure-tolerant inverse helps.
 """
 
 import holdfast as hf
@@ -17,7 +17,7 @@ for line in choice.describe():
     print(line)
 
 # %%
-# To the right harder, upward worse with failure tolerance; 12 tasks are chosen from as many cells
-# as there are.
+# Tasks to the right are harder, and tasks further up are worse with failure tolerance. The 12
+# chosen tasks come from as many cells as possible.
 
 choice.plot()

@@ -2,9 +2,9 @@
 An experiment without people
 ============================
 
-Six simulated operators do a whole experiment: training, four scenarios of four tasks each,
-ratings. The records are those of a real session, marked *simulated*. Six are enough for a
-picture, not for a result. Needs ``holdfast-arms[stats]``.
+Six simulated operators complete a whole experiment with training, four scenarios of four tasks
+each, and ratings. The records have the format of a real session and are marked *simulated*. Six
+operators are enough for an illustration, but not for a result. Needs ``holdfast-arms[stats]``.
 """
 
 import tempfile
@@ -25,7 +25,7 @@ with (
     table = teleop.trial_table(done)
 
 # %%
-# Arm and control law, and the largest distance of the tool from the straight way (M3).
+# Arm and control law, and the largest distance of the tool from the straight line (M3).
 
 labels = [scenario.label.replace(", ", ",\n") for scenario in few.scenarios]
 figure, axes = plt.subplots(figsize=(7, 3.6))

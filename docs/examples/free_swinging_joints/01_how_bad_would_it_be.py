@@ -1,10 +1,10 @@
 """
-How bad would the fall be?
-==========================
+Severity of a free swing
+========================
 
-Three numbers for each joint of a Panda that might lose its torque: how hard the fall starts, how
-fast, and how far. For all three smaller is better, and each is made small in other
-configurations.
+Three numbers describe each joint of a Panda that might lose its torque: the holding torque, the
+initial acceleration, and the swing angle. Smaller is better for all three, and each of them is
+smallest in a different configuration.
 """
 
 import matplotlib.pyplot as plt

@@ -1,10 +1,10 @@
 """
-The fall, and brakes that catch it
-==================================
+A free swing, and brakes that stop it
+=====================================
 
-The elbow of a Panda loses its torque, all other joints hold. MuJoCo says what happens, and how
-far the tool has fallen when brakes close after 20, 50 or 100 ms.
-Needs ``holdfast-arms[physics]``.
+The elbow of a Panda loses its torque, and all other joints hold. MuJoCo simulates the fall, and
+shows how far the tool has fallen when brakes close after 20, 50 or 100 ms. Needs
+``holdfast-arms[physics]``.
 """
 
 import numpy as np
@@ -19,6 +19,7 @@ for drop in swing.drops:
     print(f"{drop.after_ms:3.0f} ms: {1000 * drop.drop:5.1f} mm down, then at {speed:.0f} deg/s")
 
 # %%
-# The brakes are taken to stop the joint at once; the speed says how bold that is.
+# The brakes are assumed to stop the joint at once. The speed shows how optimistic this assumption
+# is.
 
 swing.plot()

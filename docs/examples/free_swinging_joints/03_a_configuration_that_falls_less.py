@@ -2,8 +2,8 @@
 A configuration that falls less
 ===============================
 
-The same tool pose, chosen so that the elbow accelerates as little as possible when it swings
-free. The formula chooses; MuJoCo, an independent program, judges.
+This script chooses the configuration of a tool pose in which the elbow accelerates as little as
+possible when it swings free. The formula chooses, and MuJoCo checks the choice independently.
 Needs ``holdfast-arms[physics]``.
 """
 

@@ -1,9 +1,9 @@
 """
-Along a path, prepared all the way
-==================================
+A path with small susceptibility
+================================
 
-The tool draws a line in 20 s. The arm that is prepared uses its self-motion to keep the torques
-of gravity small; the other moves as little as it can. Both draw the same line.
+The tool draws a line in 20 s. The prepared arm uses its self-motion to keep the torques of
+gravity small, and the other arm moves its joints as little as it can. Both draw the same line.
 """
 
 import matplotlib.pyplot as plt

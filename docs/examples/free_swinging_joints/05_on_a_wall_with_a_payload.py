@@ -1,9 +1,10 @@
 """
-On a wall, with a payload
-=========================
+An arm on a wall, with a payload
+================================
 
-How an arm is mounted and what it carries decides which joint would fall hardest. The same
-configuration of a Panda on the floor, on a slope and on a wall, with 0 to 3 kg at the tool.
+The mounting of an arm and its payload decide which joint would fall hardest. This script compares
+the same configuration of a Panda on the floor, on a slope and on a wall, with 0 to 3 kg at the
+tool.
 """
 
 import matplotlib.pyplot as plt

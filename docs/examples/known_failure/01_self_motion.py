@@ -2,9 +2,9 @@
 All configurations of one pose
 ==============================
 
-A Panda holds its tool still and moves its joints: its self-motion, traced from many starts until
-it closes or a joint reaches its limit. Along it everything changes but the pose, what a locked
-joint would leave included.
+A Panda holds its tool in place and moves its joints. This self-motion is traced from many starts
+until it closes or a joint reaches its limit. Everything except the pose changes along it,
+including the dexterity that remains after a lock.
 """
 
 import matplotlib.pyplot as plt
@@ -19,7 +19,7 @@ for line in motion.describe():
     print(line)
 
 # %%
-# The index along each curve. Where it is 0, some locked joint takes a direction of motion away.
+# The index along each curve. Where it is 0, some locked joint removes a direction of motion.
 
 index = hf.indices.relative_manipulability(arm)
 figure, axes = plt.subplots(figsize=(7, 3.8))

@@ -1,10 +1,10 @@
 """
-Where may each joint lock?
-==========================
+Tolerable lock angles of each joint
+===================================
 
-If a joint locks, the pose stays within reach if and only if the joint is at a value that it has
-in some configuration of that pose. So the question has an exact answer for each joint: one or
-more arcs of its range.
+If a joint locks, the pose stays within reach if and only if the joint has a value that it has in
+some configuration of that pose. Therefore each joint has an exact set of tolerable values, which
+is one or more arcs of its range.
 """
 
 import matplotlib.pyplot as plt
@@ -17,8 +17,8 @@ pose = arm.forward_kinematics(np.deg2rad([0, -45, 0, -135, 0, 90, 45]))
 bounds = hf.joint_bounds(arm, pose)
 
 # %%
-# Grey: what the joint can do. Blue: where it may lock. The elbow, joint 4, may be almost nowhere
-# else.
+# Grey is the range of the joint, and blue are the values at which it may lock. For the elbow,
+# joint 4, there is almost only one such value.
 
 figure, axes = plt.subplots(figsize=(7, 3.8))
 for k, arcs in enumerate(bounds):

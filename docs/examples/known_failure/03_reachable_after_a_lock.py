@@ -1,10 +1,10 @@
 """
-What is left of the workspace
-=============================
+The remaining workspace after a lock
+====================================
 
-The elbow of a Panda is locked at 60, 100 and 150 degrees of bend. Which points in the plane
-through its base can the tool still reach, within the other joints' limits? 900 points of a grid,
-by inverse kinematics from random starts.
+The elbow of a Panda is locked at 60, 100 and 150 degrees. The script finds the points in the
+plane through the base that the tool can still reach within the limits of the other joints. It
+uses inverse kinematics from random starts on a grid of 900 points.
 """
 
 import matplotlib.pyplot as plt
@@ -25,5 +25,5 @@ for axes, bend in zip(panels, (60, 100, 150), strict=True):
 panels[0].set_ylabel("z, m")
 
 # %%
-# White was not found to be reachable, which is no proof; ``hf.joint_bounds`` looks at one target
-# more closely.
+# White points were not found to be reachable, which proves nothing. ``hf.joint_bounds`` examines
+# one target exactly.

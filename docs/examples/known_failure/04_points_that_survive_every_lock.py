@@ -1,10 +1,10 @@
 """
-Points that survive every lock
+The failure-tolerant workspace
 ==============================
 
-Artificial joint limits that hold *until* a failure leave fewer angles to lock at. The
-failure-tolerant workspace is what the healthy arm reaches within them, and what the arm still
-reaches with any one joint locked anywhere within them.
+Artificial joint limits that apply *until* a failure restrict the angles at which a joint can
+lock. The failure-tolerant workspace contains the points that the healthy arm reaches within these
+limits, and that it still reaches with any one joint locked anywhere within them.
 """
 
 import holdfast as hf
@@ -15,7 +15,7 @@ for line in found.describe():
     print(line)
 
 # %%
-# Three planar links that turn all the way have a closed form; other arms are sampled, with an
-# interval.
+# Three planar links with unlimited joints have a closed form. Other arms are sampled, and the
+# result has an interval.
 
 found.plot()

@@ -1,9 +1,10 @@
 """
-Home with a locked joint
-========================
+Return home with a locked joint
+===============================
 
-The elbow of a Panda has locked in the middle of the work. What is left of the workspace, can the
-home position still be met, and which way there is within the limits and clear of the arm itself?
+The elbow of a Panda has locked during a task. The script computes the remaining workspace,
+whether the home position can still be reached, and a motion to it within the limits and without
+self-collision.
 """
 
 import numpy as np
@@ -18,11 +19,12 @@ for line in answer.describe():
     print(line)
 
 # %%
-# The motion. ``answer.q`` are the waypoints; ``answer.to_csv("home.csv")`` writes them.
+# The motion. ``answer.q`` contains the waypoints, and ``answer.to_csv("home.csv")`` writes them.
 
 answer.plot("motion")
 
 # %%
-# What is left: points of the healthy workspace, and those that the locked arm was found to reach.
+# The remaining workspace: points of the healthy workspace, and the points that the locked arm was
+# found to reach.
 
 answer.plot("left")

@@ -1,9 +1,10 @@
 """
-How much of the job survives each lock?
-=======================================
+Reachable fraction of a region after each lock
+==============================================
 
-300 random poses around the home of a Panda. For each joint: how many of them can still be reached
-once it has locked where inverse kinematics happened to have it?
+The script samples 300 random poses around the home position of a Panda. For each joint, it
+computes how many of the poses are still reachable if the joint locks at the value that inverse
+kinematics found for it.
 """
 
 import matplotlib.pyplot as plt
@@ -16,7 +17,7 @@ run = hf.assess(arm, region, poses=300, seed=1, after_lock=True, task="pointing"
 survival = run.survival()
 
 # %%
-# Pointing: the turn about the tool's own axis is free. The bars are 95 % intervals.
+# For pointing, the rotation about the tool axis is free. The bars are 95 % intervals.
 
 figure, axes = plt.subplots(figsize=(7, 3.6))
 for k, share in enumerate(survival.values()):
@@ -26,7 +27,7 @@ axes.set(xlabel="joint that locks", ylabel="fraction of poses still in reach", y
 axes.set_title(f"Panda, pointing task: {run.poses} random poses, seed {run.seed}")
 
 # %%
-# Weighted by how often each joint fails (only ratios matter):
+# Weighted by the failure rate of each joint (only ratios matter):
 
 rates = dict.fromkeys(arm.joint_names, 1.0) | {"panda_joint4": 4.0}
 print(f"expected, the elbow failing four times as often: {run.expected_survival(rates):.3f}")

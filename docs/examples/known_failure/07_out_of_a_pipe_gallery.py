@@ -1,10 +1,11 @@
 """
-Out of a pipe gallery
-=====================
+Leave a pipe gallery with a locked elbow
+========================================
 
-In a reactor's pipe gallery the elbow locks while the arm works between the pipes. Is there a way
-home that touches nothing? Five pipes were scanned: 60,000 points, each a ball of 6 mm (a
-simulated scan); the rest is drawn. Every piece of the route is proved clear.
+In the pipe gallery of a reactor, the elbow locks while the arm works between the pipes. The
+script searches for a collision-free motion to the home position. Five pipes come from a simulated
+scan of 60,000 points, each of which is a ball of 6 mm. The other objects are primitives. Every
+piece of the route is proved collision-free.
 """
 
 # sphinx_gallery_capture_repr = ('_repr_html_',)

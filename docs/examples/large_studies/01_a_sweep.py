@@ -2,8 +2,9 @@
 A sweep over arms and indices
 =============================
 
-A study is every combination of its lists, computed and committed chunk by chunk: stopped or
-killed, it resumes. Here three arms and two indices, 200 poses each.
+A study evaluates every combination of its lists, and stores each chunk when it is computed. If it
+is stopped or killed, it can be resumed. This study has three arms, two indices and 200 poses
+each.
 """
 
 import tempfile

@@ -1,9 +1,10 @@
 """
-Stop and resume
-===============
+Stop and resume an assessment
+=============================
 
-With ``store`` an assessment writes what it has, and the same call resumes where it was: after
-Ctrl-C, a crash or a power cut. Here 20,000 poses are stopped after a quarter of them.
+With ``store``, an assessment writes its results as it computes them. After Ctrl-C, a crash or a
+power cut, the same call resumes the run. Here a run of 20,000 poses is stopped after a quarter of
+them.
 """
 
 import tempfile

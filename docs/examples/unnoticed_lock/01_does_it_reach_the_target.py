@@ -1,9 +1,10 @@
 """
-Does it reach the target?
-=========================
+Outcomes of an undetected lock
+==============================
 
-Joint 2 of three is locked, the controller does not know and goes on commanding all of them. 2000
-random starts are simulated: at the target, stuck beside it, or moving for ever?
+Joint 2 of three is locked, and the controller, which has not detected the lock, keeps commanding
+all joints. From 2000 random starts, the script simulates whether the tool reaches the target,
+gets stuck, or keeps moving.
 """
 
 import matplotlib.pyplot as plt
@@ -18,8 +19,8 @@ runs = hf.simulate(law, q0, [1.5, 1.5], locked=["joint2"])
 print(runs.counts())
 
 # %%
-# Where the end effector stops. What decides is the angle at which the joint locked: an arm folded
-# too far cannot reach.
+# The points at which the end effector stops. The angle of the locked joint decides the outcome,
+# because an arm that is folded too far cannot reach the target.
 
 figure, axes = plt.subplots(figsize=(6.6, 4.6))
 for name, style in (("stuck", "C1v"), ("converged", "C0o")):

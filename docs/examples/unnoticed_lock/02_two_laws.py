@@ -1,10 +1,10 @@
 """
-Which control law copes best?
-=============================
+Compare two control laws
+========================
 
-Two control laws make the same 60 motions, healthy and with each joint locked in turn. Because the
-motions are the same, the difference between the laws is *paired*, and its interval much narrower
-than two separate ones.
+Two control laws make the same 60 motions, with a healthy arm and with each joint locked in turn.
+Because the motions are the same, the difference between the laws is *paired*, and its interval is
+much narrower than two separate intervals.
 """
 
 import holdfast as hf
@@ -23,6 +23,6 @@ for joint in (*compared.joints, "any joint"):
     )
 
 # %%
-# How the motions end under each law. ``compared.report("laws.html")`` writes all of it as a page.
+# The outcomes of the motions under each law. ``compared.report("laws.html")`` writes a report.
 
 compared.plot("outcomes")

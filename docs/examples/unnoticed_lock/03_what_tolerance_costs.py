@@ -1,10 +1,10 @@
 """
-What failure tolerance costs while nothing has failed
-=====================================================
+The cost of failure tolerance for the healthy arm
+=================================================
 
-The failure-tolerant inverse gives up some accuracy of the healthy arm for a smaller error after a
-lock. How much is gained for how much? 1000 random configurations and directions of a Panda that
-moves its tool point.
+The failure-tolerant inverse accepts an error of the healthy arm to reduce the error after a lock.
+This script computes the trade-off for 1000 random configurations and directions of a Panda with a
+position task.
 """
 
 import holdfast as hf
@@ -15,7 +15,7 @@ for line in curve.describe()[:4]:
     print(line)
 
 # %%
-# Along the axis: the velocity error that the healthy arm may have, as a fraction of the command.
-# Upward: what remains of the error after the worst lock.
+# The horizontal axis is the allowed velocity error of the healthy arm, as a fraction of the
+# command. The vertical axis is the remaining error after the worst lock.
 
 curve.plot()

@@ -1,10 +1,10 @@
 """
-Where it can get stuck, over the locked angle
-=============================================
+Stationary points over the locked angle
+=======================================
 
-The failed arm stops where the healthy joints are commanded nothing: at the target, or somewhere
-else. These stationary points are followed over all angles at which joint 2 may lock. Thick orange
-are the sinks: there the arm gets stuck.
+The failed arm stops where the law commands no velocity of the healthy joints. This happens at the
+target or at other stationary points. The script follows these points over all angles at which
+joint 2 may lock. Thick orange lines are sinks, where the arm gets stuck.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ arcs = [np.rad2deg(arc).round(1).tolist() for arc in curves.sink_arcs]
 print("sinks with joint 2 at", arcs, "deg")
 
 # %%
-# Shaded: the target is within reach. For this target an arm that can still reach it is never held
-# by a sink.
+# In the shaded angles the target is within reach. For this target, an arm that can still reach it
+# never ends at a sink.
 
 curves.plot()

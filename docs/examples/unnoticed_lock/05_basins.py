@@ -1,10 +1,10 @@
 """
-Basins: which solution does it reach?
+Basins of attraction of two solutions
 =====================================
 
-With joint 2 locked at 45 degrees the target can be reached in two configurations. From 900 starts
-on a grid the closed loop is simulated, and the cell has the colour of the solution where it
-ended.
+With joint 2 locked at 45 degrees, the arm can reach the target in two configurations. The script
+simulates the closed loop from 900 starts on a grid. The colour of each cell shows the solution at
+which its run ended.
 """
 
 import numpy as np
@@ -19,6 +19,6 @@ for name, share in found.shares:
 
 # %%
 # The lines run into the saddles and are the borders between the basins. They are integrated
-# backwards in time, not read off the cells.
+# backwards in time and do not depend on the grid.
 
 found.plot()

@@ -1,9 +1,9 @@
 """
-An arm that never stops
-=======================
+A limit cycle
+=============
 
-The target is within reach, nothing but its two solutions attracts, and still the end effector
-does not get there: it goes round for ever, a limit cycle.
+The target is within reach, and only its two solutions are attracting points. Nevertheless, the
+end effector does not reach the target, because the motion converges to a limit cycle.
 """
 
 import matplotlib.pyplot as plt
@@ -20,8 +20,8 @@ cycle = orbit(runs)
 print(runs.outcome, "|", *cycle.describe(), "| stable:", cycle.stable)
 
 # %%
-# From three starts, the first 300 s (gain 1/s) in the plane of the joints that still move: all of
-# them wind onto the same cycle.
+# The first 300 s from three starts (gain 1/s), in the plane of the joints that still move. All
+# three motions converge to the same cycle.
 
 figure, axes = plt.subplots(figsize=(6.4, 4.4))
 for shift, style in ((-2, "-"), (1, "--"), (-5, ":")):

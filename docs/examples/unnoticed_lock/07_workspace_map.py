@@ -1,10 +1,10 @@
 """
-A map of starts, of a planar arm
-================================
+A map of starts of a planar arm
+===============================
 
-From where does the arm still reach its target, if a joint locks on the way? Every start on a
-lattice has many configurations, and each begins another motion. The maps show on how much of them
-the target stays within reach.
+The maps show from which starts the arm still reaches its target if a joint locks on the way.
+Every start on a grid has many configurations, and each of them begins another motion. The maps
+show the fraction of these motions on which the target stays within reach.
 """
 
 import holdfast as hf
@@ -16,8 +16,8 @@ for line in found.describe():
     print(line)
 
 # %%
-# R100: the fraction of the configurations of a start from which the target is never lost. Ravg:
-# the mean fraction of the motion on which it is not. Rsens: how much the choice of the
-# configuration matters.
+# R100 is the fraction of the configurations of a start from which the target always stays within
+# reach. Ravg is the mean fraction of the motion on which it does. Rsens states how much the
+# choice of the configuration matters.
 
 found.plot("reach")

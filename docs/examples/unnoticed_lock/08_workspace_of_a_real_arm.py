@@ -1,10 +1,10 @@
 """
-A map of starts, of a seven-joint arm
-=====================================
+A map of starts of a seven-joint arm
+====================================
 
-The same question for a Panda that moves its tool point: 30 random starts of 4 configurations,
-each joint locked in turn on the way. The intervals count *starts*, because the configurations of
-one start are alike.
+This script computes the same measures for a Panda with a position task, from 30 random starts
+with 4 configurations each. Each joint locks in turn on the way. The intervals count *starts*,
+because the configurations of one start are not independent.
 """
 
 import holdfast as hf
@@ -17,6 +17,6 @@ for name, fraction, (low, high) in zip(found.columns, mean, sure, strict=True):
     print(f"{name:13} within reach on {fraction:5.1f} % of a motion ({low:.0f} to {high:.0f})")
 
 # %%
-# Seen from above, means over the starts in each cell, in percent.
+# The map from above, with means over the starts in each cell, in percent.
 
 found.plot("reach-top")

@@ -1,10 +1,11 @@
 """
-How motions end, joint by joint
-===============================
+Outcomes for each locked joint
+==============================
 
-80 random starts of a Panda, 4 configurations each. Each motion is made with every joint locked in
-turn from its beginning, and once with none. Orange is the bad luck that a better law could mend:
-the target is in reach, and the arm not there.
+The script simulates motions of a Panda from 80 random starts with 4 configurations each. Every
+motion runs with each joint locked from its beginning, and once without a lock. Orange shows the
+motions that a better control law could save, because the target is within reach and the arm does
+not arrive.
 """
 
 import holdfast as hf
@@ -16,7 +17,6 @@ for name, share in found.shares("converged").items():
     print(f"{name:13} converges {share}")
 
 # %%
-# The elbow, joint 4, is the joint to worry about, mostly because its lock takes the target out of
-# reach.
+# The elbow, joint 4, is the critical joint, mostly because its lock puts the target out of reach.
 
 found.plot("outcomes")

@@ -1,10 +1,10 @@
 """
-A control law as C
-==================
+Export a control law to C
+=========================
 
-The failure-tolerant inverse as one C99 function without memory or libraries, for the robot's own
-controller. Beside it lie a header, an example loop, and a test with numbers that holdfast
-computed.
+This script exports the failure-tolerant inverse as one C99 function, without memory allocation or
+libraries, for the controller of the robot. The folder also contains a header, an example loop,
+and a test with numbers that holdfast computed.
 """
 
 import tempfile
@@ -21,9 +21,9 @@ with tempfile.TemporaryDirectory() as folder:
         print(f"{file.name}: {len(file.read_text().splitlines())} lines")
 
 # %%
-# What the function computes: a joint velocity for each wanted velocity, here of 0.1 m/s all
-# round. The pseudoinverse hits it; the failure-tolerant inverse is off by at most half, and in
-# return a lock does less harm.
+# The function computes a joint velocity for each tool velocity, here of 0.1 m/s in all
+# directions. The pseudoinverse follows the command exactly. The failure-tolerant inverse deviates
+# by at most half of it, and a lock does less harm in return.
 
 angle = np.linspace(0, 2 * np.pi, 181)
 wanted = 0.1 * np.c_[np.cos(angle), np.sin(angle)]

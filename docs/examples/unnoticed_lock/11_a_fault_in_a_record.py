@@ -1,9 +1,10 @@
 """
-A fault in a record
-===================
+Detect a fault in a log
+=======================
 
-A simulated Panda whose third joint locks while it moves: the monitor, calibrated on records of
-the healthy arm, names it within 10 ms. Each panel shows residuals in units of their bounds.
+The third joint of a simulated Panda locks while the arm moves. The monitor, which is calibrated
+on logs of the healthy arm, identifies the joint within 10 ms. Each panel shows residuals divided
+by their thresholds.
 """
 
 import holdfast as hf

@@ -1,9 +1,9 @@
 """
-From a fault to an action
-=========================
+Detection, braking and continuation of a task
+=============================================
 
-The shoulder of a Panda loses its torque on the way. A monitor names the joint, the controller
-brakes it and leaves it out of the law, and the task goes on. Simulated, of course.
+The shoulder of a simulated Panda loses its torque on the way. A monitor identifies the joint, and
+the controller brakes the joint, excludes it from the control law, and continues the task.
 """
 
 import holdfast as hf
@@ -19,7 +19,7 @@ bounds = hf.diagnosis.calibrate(panda, [run.log() for run in runs], **friction)
 monitor = hf.diagnosis.Monitor(panda, bounds)
 
 # %%
-# The same fault, first without a monitor, then with it:
+# The same fault, first without a monitor and then with one:
 
 fault = [FaultEvent("limp", "panda_joint2", 0.7)]
 blind = hf.simulate_faults(law, start, goal, faults=fault, body=body, seed=9, time_limit=4)

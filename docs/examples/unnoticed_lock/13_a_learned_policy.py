@@ -2,9 +2,10 @@
 A learned policy when a joint locks
 ===================================
 
-A small network pushes an object to its goal in Gymnasium's Pusher. Then a joint locks after a
-second; nobody tells the policy. Simulated, of course. How it was trained, and how often it
-finishes under each kind of fault, is in `measurements/faults/POLICY.md` of the repository.
+A small network pushes an object to its goal in the simulated environment Pusher of Gymnasium. A
+joint locks after a second, and the policy receives no information about the lock.
+`measurements/faults/POLICY.md` of the repository describes the training, and how often the policy
+finishes under each kind of fault.
 """
 
 import sys
