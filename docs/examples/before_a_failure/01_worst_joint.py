@@ -33,8 +33,7 @@ axes.set(xticks=range(1, arm.n + 1), title="PA10, 9 joints, pose task: 1 configu
 axes.legend()
 
 # %%
-# The gradient is exact. It shows the direction in which each joint must move to improve the worst
-# case.
+# The exact gradient shows the direction in which each joint must move to improve the worst case.
 
 for name, slope in zip(arm.joint_names, index.gradient(q), strict=True):
     print(f"{name}: {slope:+.3f} per rad")

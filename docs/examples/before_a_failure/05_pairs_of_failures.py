@@ -22,8 +22,7 @@ for failures in ("single", "pairs"):  # the same seed: the same poses and config
         table[failed[-1], failed[0]] = np.nanmedian(values)
 
 # %%
-# Median over the reached poses, for two locked joints off the diagonal and for one locked joint
-# on it.
+# Median over the reached poses: one locked joint on the diagonal, two locked joints off it.
 
 figure, axes = plt.subplots(figsize=(6.4, 5))
 image = axes.imshow(table, cmap="cividis", vmin=0, vmax=1)

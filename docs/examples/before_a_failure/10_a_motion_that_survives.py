@@ -3,9 +3,8 @@ A motion that survives a lock
 =============================
 
 A Panda moves its tool along a line of one metre, and a joint locks on the way. Whether the arm
-can finish the line depends on its configuration at that moment, and each pose has a whole curve
-of configurations. The script finds the best of all motions through these curves, and an upper
-bound for every other motion.
+can finish the line depends on its configuration then, and each pose has a curve of them. The
+script finds the best of all motions through these curves, and an upper bound for the others.
 """
 
 import numpy as np

@@ -2,9 +2,8 @@
 A sweep over arms and indices
 =============================
 
-A study evaluates every combination of its lists, and stores each chunk when it is computed. If it
-is stopped or killed, it can be resumed. This study has three arms, two indices and 200 poses
-each.
+A study evaluates every combination of its lists, and stores each chunk when it is computed. A
+stopped study can be resumed. This one has three arms, two indices and 200 poses each.
 """
 
 import tempfile

@@ -3,8 +3,7 @@ Stop and resume an assessment
 =============================
 
 With ``store``, an assessment writes its results as it computes them. After Ctrl-C, a crash or a
-power cut, the same call resumes the run. Here a run of 20,000 poses is stopped after a quarter of
-them.
+power cut, the same call resumes it. Here 20,000 poses are stopped after a quarter of them.
 """
 
 import tempfile

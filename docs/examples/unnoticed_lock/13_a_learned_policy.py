@@ -3,9 +3,8 @@ A learned policy when a joint locks
 ===================================
 
 A small network pushes an object to its goal in the simulated environment Pusher of Gymnasium. A
-joint locks after a second, and the policy receives no information about the lock.
-`measurements/faults/POLICY.md` of the repository describes the training, and how often the policy
-finishes under each kind of fault.
+joint locks after a second, and the policy receives no information about the lock. The training,
+and success rates under each kind of fault, are in `measurements/faults/POLICY.md`.
 """
 
 import sys
