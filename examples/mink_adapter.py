@@ -1,6 +1,6 @@
 """A holdfast control law in place of mink's ``solve_ik`` for one frame task.
 
-    law = hf.control.failure_tolerant(hf.arms.resolve("arm.xml", tip="attachment_site"), task="pose")
+    law = hf.control.failure_tolerant(hf.arms.load("arm.xml", tip="attachment_site"), task="pose")
     velocity = law_velocity(law, configuration, frame_task)
     configuration.integrate_inplace(velocity, dt)
 

@@ -1,6 +1,6 @@
 """A holdfast control law in place of pink's ``solve_ik`` for one frame task.
 
-    law = hf.control.failure_tolerant(hf.arms.resolve("arm.urdf"), task="pose")
+    law = hf.control.failure_tolerant(hf.arms.load("arm.urdf"), task="pose")
     velocity = law_velocity(law, configuration, frame_task)
     configuration.integrate_inplace(velocity, dt)
 

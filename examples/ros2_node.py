@@ -23,7 +23,7 @@ PERIOD, OLD = 0.005, 0.1  # s
 class FailureTolerantNode(Node):
     def __init__(self):
         super().__init__("failure_tolerant_inverse")
-        arm = hf.arms.resolve(self.declare_parameter("arm", "panda").value)  # a built-in name, or a URDF file
+        arm = hf.arms.load(self.declare_parameter("arm", "panda").value)  # a built-in name, or a URDF file
         allowed = self.declare_parameter("pre_failure_error", 0.5).value
         self.names = list(arm.joint_names)
         self.step = hf.control.failure_tolerant(arm, task="pose", pre_failure_error=allowed).prepare()

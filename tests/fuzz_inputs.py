@@ -665,7 +665,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.teleop.serve import texts
 
     def arm_of(path: Path) -> object:
-        arm = arms.resolve(str(path))
+        arm = arms.load(str(path))
         return arm.fingerprint, json.dumps(to_dict(arm)), arm.forward_kinematics(np.zeros(arm.n))
 
     def cell_of(path: Path) -> object:
@@ -682,7 +682,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     (root / "poses.csv").write_bytes(PLAIN)
     (root / "weighted").mkdir()
     (root / "weighted" / "poses.csv").write_bytes(POSES)
-    toy, planar = arms.resolve(str(root / "arm.yaml")), arms.load("planar-3r")
+    toy, planar = arms.load(str(root / "arm.yaml")), arms.load("planar-3r")
     run = root / "run"
     hf.assess(planar, hf.Region.around_tool(planar), poses=8, seed=1, store=run, task="planar")
     (root / "study.yaml").write_bytes(b"poses: 8\nchunk: 4\narms: [planar-3r]\nassess: {}\n")

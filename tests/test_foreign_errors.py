@@ -204,9 +204,8 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"law": law, "target": target, "starts": 3, "configurations": 1, "cells": 5, "seed": 0}
             | {"relative_to": "inside", "tolerance": 1e-8, "time_limit": 5.0, "method": None},
         ),
-        "arms.load": (hf.arms.load, {"name": "panda"}),
         "arms.about": (hf.arms.about, {"name": "panda"}),
-        "arms.resolve": (hf.arms.resolve, {"spec": urdf, "base": None, "tip": None, "hold": {}}),
+        "arms.load": (hf.arms.load, {"source": urdf, "base": None, "tip": None, "hold": {}}),
         "Arm.from_urdf": (
             hf.Arm.from_urdf,
             {"path": urdf, "base": None, "tip": None, "hold": {}, "name": "x", "gravity": (0, 0, -9.81)},

@@ -40,7 +40,7 @@ def main() -> int:
     signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
     try:
         suite = fail_active(
-            hf.arms.resolve(options.arm, options.base, options.tip),
+            hf.arms.load(options.arm, base=options.base, tip=options.tip),
             options.out,
             cell=options.cell,
             cases=options.cases,

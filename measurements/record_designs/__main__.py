@@ -21,7 +21,7 @@ from measurements.record_designs.workspaces import design_for_workspace
 def resolve_arm(name: str) -> hf.Arm:
     """Return a built-in arm, the arm of a file, or the arm of a record."""
     entry = hf.designs.record_designs().get(name)
-    return hf.arms.resolve(name) if entry is None or entry.arm is None else entry.arm
+    return hf.arms.load(name) if entry is None or entry.arm is None else entry.arm
 
 
 def main(words: Sequence[str] | None = None) -> int:

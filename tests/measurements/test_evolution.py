@@ -159,6 +159,6 @@ def test_the_command_searches_and_writes_the_arm(tmp_path, capsys):
     said = capsys.readouterr().out
     assert said.startswith("tolerant-workspace: ")
     assert "a2 = " in said
-    assert hf.arms.resolve(str(file)).n == 3
+    assert hf.arms.load(str(file)).n == 3
     assert main(["self-motion-size", "self-motion-position-4R-001", "--vary", "a1=0.1..2", "--restarts", "0"]) == 2
     assert "give at least 1" in capsys.readouterr().err

@@ -146,7 +146,7 @@ def test_arms_from_files_of_numbers(tmp_path, capsys):
     words = [str(file), "--null-space", "--task", "planar"]
     assert main([*words, "--starts", "1", "--out", str(tmp_path / "a")]) == 0
     assert "no arm can beat 0.707107" in capsys.readouterr().out
-    assert hf.arms.resolve(str(tmp_path / "a" / "arm-1.yaml")).n == 4
+    assert hf.arms.load(str(tmp_path / "a" / "arm-1.yaml")).n == 4
     for text, refused, said in (
         (None, [*words, "--orders"], "orders are compared for poses"),
         ("1, 2\n3, x\n", [str(file)], "null.csv, line 2: '3, x' is not a row of numbers"),
@@ -162,7 +162,7 @@ def test_arms_from_files_of_numbers(tmp_path, capsys):
 def test_an_arm_of_a_ceiling_is_written_and_read(tmp_path, capsys):
     assert main(["--size", "9,6,2", "--starts", "6", "--seed", "1", "--out", str(tmp_path)]) == 0
     values = [float(line.split("|")[2]) for line in capsys.readouterr().out.splitlines() if line.startswith("| 1 |")]
-    j = hf.arms.resolve(str(tmp_path / "arm-1.yaml")).jacobian(np.zeros(9))
+    j = hf.arms.load(str(tmp_path / "arm-1.yaml")).jacobian(np.zeros(9))
     null = np.linalg.svd(j)[2][6:].T
     least = min(abs(np.linalg.det(null[[a, b]] @ null[[a, b]].T)) ** 0.5 for a in range(9) for b in range(a))
     assert least == pytest.approx(values[0], abs=1e-6)

@@ -32,6 +32,7 @@ holdfast.kinematics.index_bounds: Average=AverageBound Ceiling=UpperBound Ceilin
   SingularValueCeiling=SingularValueBound best_average=bound_average look_up=upper_bound of_index=bound_of_index
   singular_value=bound_singular_value singular_value_of_index=bound_singular_value_of_index
   table=bound_table
+holdfast.model.arms: resolve=load
 holdfast.model.collision: Capsule=LinkCapsule
 holdfast.studies.designs: Book=RecordBook Check=HeldOutCheck Checked=HeldOutResult Judgement=ArmComparison Measured=ArmMeasures
   Parameter=DesignParameter PlanarRest=PlanarStationarySets Record=DesignRecord judge=compare_arms

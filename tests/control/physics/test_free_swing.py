@@ -13,7 +13,7 @@ import dynamics
 import holdfast as hf
 import oracles
 from cards import check_card
-from holdfast.control.physics.model import build_mujoco_spec, compile_model
+from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 
 G, LENGTH, MASS = 9.81, 0.7, 2.0
 
@@ -221,7 +221,7 @@ def test_the_model_with_all_joints_free_is_the_arm(rng):
 
     arm, q = drawn(rng, types="RPRCRP")
     free = range(arm.n)
-    model = compile_model(build_mujoco_spec(arm, np.zeros(arm.n), free), arm, free)
+    model = build_mujoco_spec(arm, np.zeros(arm.n), free).compile()
     data = mujoco.MjData(model)
     data.qpos[:] = q
     mujoco.mj_forward(model, data)

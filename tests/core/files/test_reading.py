@@ -37,10 +37,10 @@ def _run(path):
 
 
 READERS = {
-    "dh.yaml": lambda path: arms.resolve(str(path)),
-    "arm.urdf": lambda path: arms.resolve(str(path)),
-    "arm.xml": lambda path: arms.resolve(str(path)),
-    "arm.mjcf": lambda path: arms.resolve(str(path)),
+    "dh.yaml": lambda path: arms.load(str(path)),
+    "arm.urdf": lambda path: arms.load(str(path)),
+    "arm.xml": lambda path: arms.load(str(path)),
+    "arm.mjcf": lambda path: arms.load(str(path)),
     "region.yaml": hf.Region.load,
     "path.yaml": path_file.parse_path_file,
     "points.csv": path_file.read_pose_table,
@@ -101,7 +101,7 @@ def test_names_that_no_file_has(tmp_path):
         reading.read_bytes("a\0b")
     for spec in ("x" * 5000, "x" * 5000 + ".yaml", "x" * 5000 + ".xml", "a\0b", "a\0.yaml"):
         with pytest.raises(hf.ArmError):
-            arms.resolve(spec)
+            arms.load(spec)
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(str(tmp_path / "s"))
         with pytest.raises(OSError, match="not a regular file"):

@@ -54,7 +54,7 @@ def test_reports_say_base_and_tip_and_the_command_that_makes_them_again(cli, tmp
 
 def test_a_held_axis_stands_where_it_was_put(ask):
     """Oracle: yourdfpy with all seven joints of the file, the first one at the value held."""
-    arm = hf.arms.resolve(PANDA, tip="panda_link8", hold={"panda_joint1": 0.5})
+    arm = hf.arms.load(PANDA, tip="panda_link8", hold={"panda_joint1": 0.5})
     q = np.array([-0.4, 0.2, -1.9, 0.3, 1.5, 0.8])
     other = yourdfpy.URDF.load(PANDA, load_meshes=False, build_scene_graph=True)
     other.update_cfg({"panda_joint1": 0.5, **dict(zip(arm.joint_names, q, strict=True))})
@@ -66,7 +66,7 @@ def test_a_held_axis_stands_where_it_was_put(ask):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("panda", "--hold", "panda_joint1=0"), "'panda' is not a URDF or MJCF file, so it has no links or joints to choose"),
+        (("panda", "--hold", "panda_joint1=0"), "hold cannot be chosen for 'panda', which is a built-in arm; leave it out"),
         (
             (PANDA, "--hold", "elbow=0"),
             "hold names 'elbow', which is not a moving joint of this file; those are 'panda_joint1', ",
@@ -80,7 +80,10 @@ def test_a_held_axis_stands_where_it_was_put(ask):
             (PANDA, "--base", "panda_hand", "--tip", "panda_link3"),
             "choose a base on the way from the root to the tip, which is 'panda_link0', 'panda_link1', 'panda_link2'",
         ),
-        (("robot.urdf.xacro",), "'robot.urdf.xacro' is a xacro file; expand it first: xacro robot.urdf.xacro > robot.urdf"),
+        (("robot.urdf.xacro",), "robot.urdf.xacro: the file cannot be read (no such file); give the path of a xacro file"),
+        ((PANDA, "--xacro", "a"), "--xacro 'a' is not NAME=VALUE; write for example --xacro ur_type=ur5e"),
+        ((PANDA, "--xacro", "a=b"), "xacro cannot be chosen for "),
+        ((PANDA, "--group", "arm"), "there is no group 'arm'; its groups are none"),
     ],
 )
 def test_refusals_say_what_there_is(cli, arguments, sentence):
@@ -249,6 +252,6 @@ def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, 
     code, _, err = cli(*at, "--goal", "half")
     assert code == 2
     assert "--goal 'half' is not known; write home, ready, 'q:...' with 3 joint values, or 'pose:...'" in err
-    arm = hf.arms.resolve(str(at[1]))
+    arm = hf.arms.load(str(at[1]))
     np.testing.assert_array_equal(arm.states["home"], [0.1, 0, 0.3])
     np.testing.assert_array_equal(hf.arms.load("panda").states["home"], hf.arms.about("panda").home)

@@ -201,7 +201,7 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
     given = arms.builtin.DATA_FOLDER.joinpath("example-robot-data/robots/panda_description/meshes/collision")
     for name in names:
         (meshes / f"{name}.stl").write_bytes(given.joinpath(f"{name}.stl").read_bytes())
-    arm = arms.resolve(str(file))
+    arm = arms.load(str(file))
     assert (
         ClearanceOptions(clearance=True)
         .build_clearance(arm)

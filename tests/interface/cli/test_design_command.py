@@ -43,7 +43,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     assert values == sorted(values, reverse=True)
     assert {f.name for f in out.iterdir()} == {"report.html", "best-arm.yaml", "designs.csv", "region.yaml", MEMORY_FILE}
 
-    best = arms.resolve(str(out / "best-arm.yaml"))
+    best = arms.load(str(out / "best-arm.yaml"))
     q = np.random.default_rng(1).uniform(-1, 1, (5, 3))
     design = found["best"]["values"]
     turn = np.cumsum(q, axis=1)

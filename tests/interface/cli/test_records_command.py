@@ -49,7 +49,7 @@ def test_a_submission_of_a_new_record(tmp_path, cli):
     file.write_text(out, encoding="utf-8")
     record = hf.designs.record_design(str(file))
     assert (record.id, record.data.found.by) == ("mine", "A: user")
-    model = hf.arms.resolve(str(arm))
+    model = hf.arms.load(str(arm))
     index = hf.indices.relative_manipulability(model, "planar", 2)
     assert record.data.value == pytest.approx(index(np.zeros(5)), rel=1e-9)
     code, out, _ = cli("record-designs", "check", str(file))

@@ -25,7 +25,7 @@ def studio():
     open_pages = []
 
     def make(name, arm=None, **state):
-        model = arm if arm is not None else arms.resolve(name)
+        model = arm if arm is not None else arms.load(name)
         q = state.pop("q", None)
         home = arms.about(name).home if q is None else q
         page = serve(model, State(name, model.joint_names, tuple(float(x) for x in home), **state), port=0)

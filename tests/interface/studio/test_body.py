@@ -14,8 +14,8 @@ from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.presentation.arm.visuals import build_body, read_visual_parts
 from holdfast.interface.report.viewer import embed_viewer_library
 from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.model.arm.mesh_files import find_mesh
 from holdfast.model.arm.task import as_task
-from holdfast.model.shapes.meshes import find_mesh
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 
@@ -51,7 +51,7 @@ def test_sticks_reach_from_joint_to_joint(mixed7, rng):
 
 
 def test_visuals_are_where_the_file_puts_them():
-    arm = arms.resolve(str(CRANE))
+    arm = arms.load(str(CRANE))
     machine = CompiledArm(arm, as_task(arm, "pose"))
     parts, missing = read_visual_parts(arm)
     assert missing == [(6, "package://inspection_crane/meshes/camera.stl", False)]
@@ -84,20 +84,20 @@ def test_meshes_are_read_and_missing_ones_named(tmp_path):
             "endfacet",
         ]
     (folder / "meshes" / "camera.stl").write_text("\n".join([*text, "endsolid camera"]))
-    parts, missing = read_visual_parts(arms.resolve(str(file)))
+    parts, missing = read_visual_parts(arms.load(str(file)))
     assert missing == []
     camera = next(p for p in parts if p.frame == 7)
     assert volume(camera.vertices, camera.faces) == pytest.approx(0.06 * 0.06 * 0.08)
     assert find_mesh("../meshes/camera.stl", file) is not None
     assert find_mesh("http://example.org/camera.stl", file) is None
     (folder / "meshes" / "camera.stl").write_text("no mesh")
-    _, missing = read_visual_parts(arms.resolve(str(file)))
+    _, missing = read_visual_parts(arms.load(str(file)))
     assert len(missing) == 1
     assert "camera.stl" in missing[0].what
 
 
 def test_links_above_the_base_are_left_out():
-    arm = arms.resolve(str(CRANE), base="mast")
+    arm = arms.load(str(CRANE), base="mast")
     parts, _ = read_visual_parts(arm)
     assert arm.joint_names[0] == "luff"
     assert sorted({p.frame for p in parts}) == [0, 1, 2, 3, 4]
@@ -106,7 +106,7 @@ def test_links_above_the_base_are_left_out():
 def test_a_built_in_arm_and_a_missing_file_have_sticks():
     arm = hf.arms.load("panda")
     assert build_body(arm, 1.0)[1] == ""
-    parts, note = build_body(arms.resolve(str(CRANE)), 1.0)
+    parts, note = build_body(arms.load(str(CRANE)), 1.0)
     assert "camera.stl" in note
     assert {p.frame for p in parts} == set(range(8))
 
@@ -115,7 +115,7 @@ def test_a_mesh_that_is_there_and_cannot_be_read_is_not_called_missing_and_noted
     file = tmp_path / "crane.urdf"
     file.write_text(CRANE.read_text().replace("package://inspection_crane/meshes/camera.stl", "camera.stl"))
     (tmp_path / "camera.stl").write_text("solid camera")
-    arm = hf.arms.resolve(str(file))
+    arm = hf.arms.load(str(file))
     _, note = build_body(arm, 1.0)
     assert note.startswith("of the meshes in the file, 1 found but not readable, such as camera.stl (")
     shown = scene(arm, [0.0] * arm.n)

@@ -27,7 +27,7 @@ def open_page(browser, name, q, **state):
     from holdfast import arms
     from holdfast.interface.studio import State, serve
 
-    arm = arms.resolve(name)
+    arm = arms.load(name)
     served = serve(arm, State(name, arm.joint_names, tuple(float(x) for x in q), **state), port=0)
     page = browser.new_context(viewport=SIZE).new_page()
     page.set_default_timeout(120_000)

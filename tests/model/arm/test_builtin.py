@@ -172,7 +172,7 @@ def test_iiwa_is_the_14() -> None:
 
 def test_unknown_names() -> None:
     with pytest.raises(
-        ArmError, match="there is no built-in arm 'pand'; did you mean 'panda'\\? the built-in arms are planar-2r, "
+        ArmError, match="there is no built-in arm or file 'pand'; did you mean 'panda'\\? the built-in arms are planar-2r, "
     ):
         arms.load("pand")
     with pytest.raises(ArmError, match="there is no built-in arm 'Panda'; did you mean 'panda'"):
@@ -181,34 +181,30 @@ def test_unknown_names() -> None:
         arms.about("1234567")
 
 
-def test_resolve(tmp_path: Path) -> None:
-    assert arms.resolve("panda") is arms.load("panda")
+def test_names_and_files(tmp_path: Path) -> None:
+    assert arms.load("panda") is arms.load("panda")
     urdf = str(DATA_FOLDER.joinpath("panda.urdf"))
-    assert arms.resolve(urdf, tip="panda_link8").n == 7
-    assert arms.resolve(urdf, base="panda_link2", tip="panda_link8").n == 5
+    assert arms.load(urdf, tip="panda_link8").n == 7
+    assert arms.load(urdf, base="panda_link2", tip="panda_link8").n == 5
     copy = tmp_path / "copy.XML"
     copy.write_bytes(DATA_FOLDER.joinpath("iiwa14.urdf").read_bytes())
-    assert arms.resolve(str(copy)).n == 7
+    assert arms.load(str(copy)).n == 7
     for ending in ("yaml", "yml"):
         path = tmp_path / f"two.{ending}"
         path.write_text("rows: [{a: 1, alpha: 0}, {a: 1, alpha: 0}]")
-        assert arms.resolve(str(path)).n == 2
+        assert arms.load(str(path)).n == 2
     with pytest.raises(
         ArmError,
-        match="'panda' is not a URDF or MJCF file, so it has no links or joints to choose; leave out base, tip and hold",
+        match="tip cannot be chosen for 'panda', which is a built-in arm; leave it out",
     ):
-        arms.resolve("panda", tip="panda_link8")
-    with pytest.raises(ArmError, match="is not a URDF or MJCF file"):
-        arms.resolve(str(path), base="x")
-    with pytest.raises(
-        ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file, an \.mjcf file or a \.yaml DH table"
-    ):
-        arms.resolve("xarm")
+        arms.load("panda", tip="panda_link8")
+    with pytest.raises(ArmError, match=r"base cannot be chosen for .*, which is a DH table"):
+        arms.load(str(path), base="x")
+    with pytest.raises(ArmError, match=r"did you mean 'xarm7'.*give a built-in name, a file \(.urdf, .*a \.yaml DH table"):
+        arms.load("xarm")
     with pytest.raises(ArmError, match="the file cannot be read"):
-        arms.resolve(str(tmp_path / "none.urdf"))
+        arms.load(str(tmp_path / "none.urdf"))
     other = tmp_path / "arm.sdf"
     other.write_text("")
-    with pytest.raises(
-        ArmError, match=r"is neither a URDF file \(.urdf, .xml\), an MJCF file \(.mjcf, .xml\) nor a DH table \(.yaml, .yml\)"
-    ):
-        arms.resolve(str(other))
+    with pytest.raises(ArmError, match=r"arm.sdf' is not a file of a known kind; give a built-in name, a file \(.urdf, "):
+        arms.load(str(other))

@@ -133,7 +133,7 @@ def test_a_table_is_written_as_a_file_that_is_read_again(name: str, tmp_path: Pa
     table = dh_table(arm)
     file = tmp_path / "arm.yaml"
     file.write_text(format_dh_file(table, f"{name}: {{mine}}, no", (0, -9.81, 0), "from: a test"), encoding="utf-8")
-    again = arms.resolve(str(file))
+    again = arms.load(str(file))
     assert (again.name, again.source, again.gravity.tolist()) == (f"{name}: {{mine}}, no", "from: a test", [0, -9.81, 0])
     q = rng.uniform(-3, 3, (6, arm.n))
     np.testing.assert_allclose(oracles.forward(again, q), oracles.forward(arm, q), atol=1e-12)
@@ -147,6 +147,6 @@ def test_names_of_joints_may_be_anything(tmp_path: Path) -> None:
     rows = [hf.DH(a=0.1, alpha=0.0, name=x) for x in ("no", "1", "a, b}", "x: y", "it's", "null")]
     file = tmp_path / "arm.yaml"
     file.write_text(format_dh_file(dh_table(hf.Arm.from_dh(rows)), "~"), encoding="utf-8")
-    again = arms.resolve(str(file))
+    again = arms.load(str(file))
     assert again.joint_names == ("no", "1", "a, b}", "x: y", "it's", "null")
     assert again.name == "~"

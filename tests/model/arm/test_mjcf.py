@@ -278,13 +278,13 @@ def test_a_file_that_is_not_there(tmp_path):
 
 
 def test_the_outermost_element_of_an_xml_file_tells_what_it_is(tmp_path):
-    assert arms.resolve(str(write(tmp_path, ONE))).joint_names == ("j",)
-    assert arms.resolve(str(write(tmp_path, ONE, name="arm.mjcf"))).joint_names == ("j",)
-    assert arms.resolve(str(write(tmp_path, PAIR)), tip="a").n == 1
+    assert arms.load(str(write(tmp_path, ONE))).joint_names == ("j",)
+    assert arms.load(str(write(tmp_path, ONE, name="arm.mjcf"))).joint_names == ("j",)
+    assert arms.load(str(write(tmp_path, PAIR)), tip="a").n == 1
     urdf = tmp_path / "urdf.xml"
     joint = "<joint name='u' type='continuous'><parent link='a'/><child link='b'/></joint>"
     urdf.write_text(f"<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")
-    assert arms.resolve(str(urdf)).joint_names == ("u",)
+    assert arms.load(str(urdf)).joint_names == ("u",)
     urdf.write_text("this is not XML")
     with pytest.raises(hf.ArmError, match="not valid XML"):
-        arms.resolve(str(urdf))
+        arms.load(str(urdf))

@@ -157,7 +157,7 @@ def test_sampled_search(tmp_path):
     assert text[0] == "a2,a3,free,converged,reached"
     assert len(text) == 1 + len(found.values)
     q = np.array([0.3, -0.4, 0.9])
-    np.testing.assert_allclose(hf.arms.resolve(str(best)).forward_kinematics(q), found.arm().forward_kinematics(q), atol=1e-12)
+    np.testing.assert_allclose(hf.arms.load(str(best)).forward_kinematics(q), found.arm().forward_kinematics(q), atol=1e-12)
     assert found.to_dict()["fresh"]["best"]["value"] == found.checked[1].value
     text = page.read_text(encoding="utf-8")
     check(text)

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.physics.body import Body, Drives
-from holdfast.control.physics.model import build_mujoco_spec, compile_model
 from holdfast.control.physics.servos import Servos, max_reference_offsets
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.mjcf import import_mujoco
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 from holdfast.model.collision.clearance import Clearance
 
 MAX_PHYSICAL_SPEED = 1e4  # rad/s or m/s: no arm is this fast; MuJoCo itself continues to 1e10 and then writes a log
@@ -74,7 +74,7 @@ class ServoRobot:
         # The integrator must treat the motors' damping implicitly, because it may be far too stiff for light links.
         spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
-        self.model = compile_model(spec, self.arm, self.free.tolist())
+        self.model = spec.compile()
         self.data = mujoco.MjData(self.model)
 
     def _set_gains(self) -> None:

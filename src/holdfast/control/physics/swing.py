@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.physics.fall import BrakedDrop, FreeSwing, Outcome
-from holdfast.control.physics.model import build_mujoco_spec, compile_model
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress, track
@@ -18,6 +17,7 @@ from holdfast.core.validation import check_arguments
 from holdfast.model.arm.machine import Joint
 from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 
@@ -98,7 +98,7 @@ def free_swing(
     model_spec = build_mujoco_spec(arm, start, [joint_number], has_stops, step)
     if contact_log.clearance is not None:
         add_cell_objects(model_spec, contact_log.clearance, step)
-    swing = _SwingModel(compile_model(model_spec, arm, [joint_number]), arm, joint_number, contact_log)
+    swing = _SwingModel(model_spec.compile(), arm, joint_number, contact_log)
     contact_log.require_collision_free(swing.model)
     if failed_joint.prismatic and not swing.is_balanced:
         _require_stop(failed_joint, swing.acceleration > 0)

@@ -24,19 +24,25 @@ from holdfast.interface.cli.options import (
 )
 from holdfast.interface.cli.values import check_path_units, read_numbers, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
-from holdfast.model.arms.spec import arm_specs_from_options, parse_held_joints
+from holdfast.model.arms.spec import ArmSpec, arm_specs_from_options, parse_held_joints, parse_xacro_arguments
 
 if TYPE_CHECKING:
     from holdfast.core.result import Result
     from holdfast.kinematics.paths import TimedPath
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
-    from holdfast.model.arms.spec import ArmSpec
     from holdfast.model.collision.clearance import Clearance
 
 ArmsArgument = Annotated[
-    list[str], typer.Argument(metavar="ARM", help="Arms: built-in names, URDF or MJCF files, or DH tables (YAML).")
+    list[str],
+    typer.Argument(
+        metavar="ARM",
+        help="Arms: built-in names, URDF, xacro, or MJCF files, DH tables (YAML), or names of robot_descriptions.",
+    ),
 ]
+GroupOption = Annotated[str | None, "Group of the SRDF file that gives base and tip (URDF)."]
+XacroOption = Annotated[list[str] | None, "Argument of a xacro file: NAME=VALUE. Repeatable."]
+PackagesOption = Annotated[Path | None, "Folder with the ROS packages that a URDF or xacro file names."]
 _PER_ARM = "Once for all arms, or once per arm in order ('-' for none)."
 
 
@@ -50,11 +56,15 @@ class ArmSourceOptions:
         list[str] | None, "Joint to fix, such as a gripper's (URDF, MJCF): JOINT=VALUE in rad or m. Repeatable."
     ] = None
 
+    group: GroupOption = None
+    xacro: XacroOption = None
+    packages: PackagesOption = None
+
     def resolve_arm(self, spec: str) -> Arm:
         """Return the arm that ``spec`` and these options describe."""
-        from holdfast.model import arms
-
-        return arms.resolve(spec, self.base, self.tip, hold=parse_held_joints(",".join(self.hold)) if self.hold else None)
+        hold = parse_held_joints(",".join(self.hold)) if self.hold else {}
+        xacro = parse_xacro_arguments(self.xacro)
+        return ArmSpec(spec, self.base, self.tip, hold, group=self.group, xacro=xacro, packages=self.packages).load()
 
 
 @dataclass(frozen=True)
@@ -65,12 +75,18 @@ class ArmSourcesOptions:
     tip: Annotated[list[str] | None, f"Tip link, body or site. {_PER_ARM} Default: the only end that is not a finger."] = None
     hold: Annotated[list[str] | None, f"Joints to fix (URDF, MJCF): JOINT=VALUE in rad or m, commas between. {_PER_ARM}"] = None
     name: Annotated[list[str] | None, "Name of an arm in the results, once per arm in order ('-': its own)."] = None
+    group: Annotated[list[str] | None, f"Group of the SRDF file that gives base and tip. {_PER_ARM}"] = None
+    xacro: XacroOption = None
+    packages: PackagesOption = None
 
     def resolve_arms(self, specs: Sequence[str]) -> list[ArmSpec]:
         """Return the arms that ``specs`` and these options describe; see
         :func:`holdfast.model.arms.spec.arm_specs_from_options` for the errors.
         """
-        return arm_specs_from_options(specs, self.base, self.tip, self.hold, self.name)
+        xacro = parse_xacro_arguments(self.xacro)
+        return arm_specs_from_options(
+            specs, self.base, self.tip, self.hold, self.name, self.group, xacro=xacro, packages=self.packages
+        )
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,12 @@ from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
 
 NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the user is not met
 
-ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Arm: built-in name, URDF or MJCF file, or DH table (YAML).")]
+ArmArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="ARM", help="Arm: built-in name, URDF, xacro, or MJCF file, DH table (YAML), or name of robot_descriptions."
+    ),
+]
 ArmOption = Annotated[str, "Arm: built-in name, URDF or MJCF file, or DH table (YAML)."]
 FailureOption = Annotated[Path | None, "Failure file (YAML) with locked, range-limited or slowed joints; replaces --lock."]
 JsonOption = Annotated[bool, "Print the result as JSON."]

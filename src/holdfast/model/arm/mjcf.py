@@ -22,7 +22,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm import mjcf_limits
 from holdfast.model.arm.machine import ArmData, Link, snap_rounding_noise
-from holdfast.model.arm.tree import LinkTree, LockedJoints, TreeJoint, build_chain, resolve_base_and_tip
+from holdfast.model.arm.tree import LinkTree, TreeJoint, build_chain, fixed_joint, resolve_base_and_tip
 
 UNNAMED_MODEL = "MuJoCo Model"
 
@@ -56,6 +56,7 @@ def load_mjcf(
     tip: str | None = None,
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
+    label: str | None = None,
 ) -> ArmData:
     """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast-arms[physics]``).
 
@@ -76,6 +77,7 @@ def load_mjcf(
         hold: Values, rad or m, of joints that are held, on the chain or next to it; held joints on the chain are no joints of
             the arm. By default all joints on the chain move, and those next to it are held at the file's initial pose.
         name: Name of the arm; default: the model name in the file.
+        label: Name of the source in error messages and reports; default: the name of the file.
 
     Returns:
         Data for :meth:`holdfast.Arm.from_mjcf`; ``base`` is the pose of the base body in MuJoCo's world, ``source`` the name of
@@ -87,28 +89,33 @@ def load_mjcf(
         HoldfastError: MuJoCo is not installed.
     """
     path = Path(path)
-    mujoco = import_mujoco()
+    mujoco, source = import_mujoco(), label or path.name
     try:
-        model, label = _compile_model(mujoco, path)
+        model, tree = compile_tree(path, tip)
         if not model.njnt:
             raise ArmError("the model has no joint; an arm needs at least one")
-        tree = _read_tree(mujoco, model, label, tip)
-        arm = _build_arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
+        arm = _build_arm(mujoco, model, tree, base, tip, dict(hold or {}), name or tree.name, source)
         return replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
+        raise ArmError(f"{source}: {error}", tip=error.tip) from error
 
 
-def compile_tree(path: Path) -> tuple[Any, LinkTree]:
-    """Return the model of a file as MuJoCo compiles it, and the tree of its bodies and joints.
+def compile_tree(path: Path, tip: str | None = None) -> tuple[Any, LinkTree]:
+    """Return the model of a file as MuJoCo compiles it, and the tree of its bodies and joints, with the site ``tip`` if any.
 
     Raises:
         ArmError: MuJoCo cannot read the file.
         HoldfastError: MuJoCo is not installed.
     """
     mujoco = import_mujoco()
-    model, label = _compile_model(mujoco, path)
-    return model, _read_tree(mujoco, model, label, None)
+    model = mujoco.MjModel.from_binary_path(str(path)) if path.suffix == ".mjb" else _compile_model(mujoco, path)
+    return model, _read_tree(mujoco, model, model_name(model) or path.stem, tip)
+
+
+def model_name(model: Any) -> str:
+    """Return the name of a compiled model; empty if the file gives it none."""
+    name: str = model.names.partition(b"\0")[0].decode()
+    return "" if name == UNNAMED_MODEL else name
 
 
 def body_name(model: Any, body: int) -> str:
@@ -116,7 +123,7 @@ def body_name(model: Any, body: int) -> str:
     return model.body(body).name or f"body{body}"
 
 
-def _compile_model(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
+def _compile_model(mujoco: ModuleType, path: Path) -> Any:
     text = mjcf_limits.read_checked_model(path)
     try:
         with silence_mujoco():
@@ -125,12 +132,10 @@ def _compile_model(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
             else:  # MuJoCo decides by the file ending
                 spec = mujoco.MjSpec.from_string(text)
                 spec.modelfiledir = str(path.parent)
-            model = spec.compile()
+            return spec.compile()
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise ArmError(f"MuJoCo cannot read this ({reason}); give a valid MJCF file, with the files that it names") from error
-    model_name = spec.modelname
-    return model, model_name if model_name and model_name != UNNAMED_MODEL else path.stem
 
 
 # ---- the tree ----------------------------------------------------------------------------------------------------
@@ -185,24 +190,17 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
             link, pending = child, np.asarray(np.linalg.inv(anchor), dtype=np.float64)
         links[body] = _read_body(model, body_index, body)
         if link != body:
-            joints[f"{body} (fixed)"] = _fixed_joint(body, link, pending)
+            joints[f"{body} (fixed)"] = fixed_joint(body, link, pending)
     if tip is not None and tip not in links:
         for site_index in range(model.nsite):
             if model.site(site_index).name == tip:
                 carrier = bodies[int(model.site_bodyid[site_index])]
                 links[tip] = None
-                joints[f"{tip} (fixed)"] = _fixed_joint(
+                joints[f"{tip} (fixed)"] = fixed_joint(
                     tip, carrier, pose_from_wxyz(model.site_pos[site_index], model.site_quat[site_index])
                 )
     tied = frozenset(joint_names[k] for _, _, joints, _ in _iterate_couplings(mujoco, model) if len(joints) > 1 for k in joints)
     return LinkTree(label, links, joints, limits_required=False, tied=tied)
-
-
-def _fixed_joint(child: str, parent: str, origin: FloatArray) -> TreeJoint:
-    no_limit = np.inf
-    return TreeJoint(
-        f"{child} (fixed)", "fixed", parent, child, origin, np.zeros(3), -no_limit, no_limit, no_limit, no_limit, 0.0
-    )
 
 
 def _read_body(model: Any, body_index: int, name: str) -> Link | None:
@@ -281,10 +279,9 @@ def _build_arm(
     base, tip = resolve_base_and_tip(tree, base, tip)
     on_chain = {joint.name for joint in tree.joint_path(base, tip) if not tree.is_fixed(joint, hold)}
     _reject_coupled_chain(mujoco, model, tree, on_chain)
-    base_pose = LockedJoints(tree, on_chain, hold).link_pose(base)
     weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
     gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
-    arm = build_chain(tree, base, tip, hold, name, gravity.tolist(), source, base_pose)
+    arm = build_chain(tree, base, tip, hold, name, gravity.tolist(), source, in_world=True)
     joints = _names_or_numbers(model.njnt, model.joint, "joint", 1)
     addresses = [int(model.jnt_qposadr[joints.index(joint)]) for joint in arm.joint_names]
     return replace(

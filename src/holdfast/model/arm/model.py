@@ -92,6 +92,21 @@ class Arm(Presentable, ArmData):
         return cls._from_data(load_mjcf(path, base, tip, **options))
 
     @classmethod
+    @check_arguments
+    def from_pinocchio(cls, model: object, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
+        """Return the chain from frame ``base`` to frame ``tip`` of the ``pinocchio.Model`` ``model``.
+
+        ``options`` are the further arguments of :func:`holdfast.model.arm.pinocchio_model.read_pinocchio_model`.
+
+        Raises:
+            ArmError: The chain is not unique or not serial; the message names the frame or joint.
+            HoldfastError: Pinocchio is not installed; it comes with ``holdfast-arms[pinocchio]``.
+        """
+        from holdfast.model.arm.pinocchio_model import read_pinocchio_model
+
+        return cls._from_data(read_pinocchio_model(model, base, tip, **options))
+
+    @classmethod
     def _from_data(cls, data: ArmData) -> Arm:
         return cls(**data.__getstate__())
 
@@ -160,7 +175,7 @@ class Arm(Presentable, ArmData):
         :attr:`fingerprint`. A table has its own frames between the joints.
 
         Args:
-            file: Path of the file, replaced in one step. :func:`holdfast.model.arms.resolve` reads both formats.
+            file: Path of the file, replaced in one step. :func:`holdfast.model.arms.load` reads both formats.
 
         Returns:
             Path of the file.
@@ -171,6 +186,41 @@ class Arm(Presentable, ArmData):
         """
         written: Path = self._present("save", Path(file))
         return written
+
+    def to_urdf(self) -> str:
+        """Return the arm as the text of a URDF file, with a rod from each joint to the next as its shape.
+
+        The format lacks gravity, payload, rotor inertia, one-sided limits, and named configurations; see :meth:`save`.
+        """
+        from holdfast.model.arm.urdf_writing import urdf_text
+
+        return urdf_text(self)
+
+    def to_mujoco(self) -> Any:
+        """Return the arm as a ``mujoco.MjSpec`` in which all joints move, with limits, effort, and named configurations.
+
+        ``qpos`` are the joint values, the site ``tool`` is the tool, and the world is the arm's world. MuJoCo has no velocity
+        limits, and raises the principal moments of rods and points to 1e-9 of the body's largest.
+
+        Raises:
+            ArmError: A link has no inertial data or an impossible inertia, or a joint carries no mass.
+            HoldfastError: MuJoCo is not installed.
+        """
+        from holdfast.model.arm.mujoco_spec import build_whole_spec
+
+        return build_whole_spec(self)
+
+    def to_pinocchio(self) -> Any:
+        """Return the arm as a ``pinocchio.Model`` with one coordinate per joint, also for joints without limits.
+
+        The frame ``tool`` is the tool. The payload is part of the last body.
+
+        Raises:
+            HoldfastError: Pinocchio is not installed.
+        """
+        from holdfast.model.arm.pinocchio_model import build_pinocchio_model
+
+        return build_pinocchio_model(self)
 
     # ---- display -----------------------------------------------------------------------------------------------
 

@@ -52,6 +52,14 @@ class TreeJoint:
         return self.origin @ joint_motion(self.type, self.axis, value)
 
 
+def fixed_joint(child: str, parent: str, origin: FloatArray) -> TreeJoint:
+    """Return the fixed joint that places link ``child`` at the pose ``origin`` (4, 4) of link ``parent``."""
+    no_limit = np.inf
+    return TreeJoint(
+        f"{child} (fixed)", "fixed", parent, child, origin, np.zeros(3), -no_limit, no_limit, no_limit, no_limit, 0.0
+    )
+
+
 @dataclass
 class LinkTree:
     """Links and the joints that carry them; raises an error unless they form one tree."""
@@ -261,7 +269,7 @@ def build_chain(
     name: str,
     gravity: Sequence[float] | None,
     source: str,
-    base_pose: FloatArray | None = None,
+    in_world: bool = False,
 ) -> ArmData:
     """Build the arm from link ``base`` to link ``tip``, and merge every body that does not move relative to a link into that
     link.
@@ -274,7 +282,8 @@ def build_chain(
         name: Name of the arm.
         gravity: (3,) acceleration in the world, m/s^2; None: that of the earth, down along z of the file's root.
         source: Origin of the tree.
-        base_pose: (4, 4) pose of the base link in the world, m; default: the identity.
+        in_world: True if the root of the tree is the world, so that the base link keeps its pose in it; otherwise this pose
+            is the identity.
 
     Raises:
         ArmError: There is no single serial chain from base to tip.
@@ -322,7 +331,7 @@ def build_chain(
         name,
         tuple(joints),
         tuple(links),
-        base=np.eye(4) if base_pose is None else base_pose,
+        base=locked_joints.link_pose(base) if in_world else np.eye(4),
         tool=pending,
         gravity=locked_joints.link_pose(base)[:3, :3].T @ GRAVITY if gravity is None else np.array(gravity, dtype=np.float64),
         source=source,

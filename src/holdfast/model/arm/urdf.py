@@ -18,6 +18,7 @@ import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.files import reading
+from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.machine import ArmData, Link
@@ -40,6 +41,8 @@ def load_urdf(
     gravity: Sequence[float] | None = None,
     srdf: str | Path | None = None,
     meshes: str | Path | None = None,
+    group: str | None = None,
+    label: str | None = None,
 ) -> ArmData:
     """Return the serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
@@ -68,6 +71,8 @@ def load_urdf(
             name that ends in ``.srdf``, if it exists.
         meshes: Folder that is searched for mesh files before the usual locations (``package://``, ``ROS_PACKAGE_PATH``), once
             the shape of the arm is requested.
+        group: Group of the SRDF file whose ``<chain>`` gives base and tip, unless they are given here.
+        label: Name of the source in error messages and reports; default: the name of the file.
 
     Returns:
         Data for :meth:`holdfast.Arm.from_urdf`; ``base`` is the identity, ``source`` the name of the file.
@@ -76,18 +81,22 @@ def load_urdf(
         ArmError: The file cannot be read, is not a sound URDF tree, or has no single serial chain from base to tip.
     """
     path = Path(path)
+    label = label or path.name
+    default_srdf = path.with_suffix(".srdf")
+    srdf_file = default_srdf if srdf is None and reading.path_exists(default_srdf) else None if srdf is None else Path(srdf)
     try:
+        if group is not None:
+            group_base, group_tip = _read_group(srdf_file, group)
+            base, tip = base or group_base, tip or group_tip
         tree = read_tree(robot_element(path), path.stem)
-        arm = build_chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
-        default_srdf = path.with_suffix(".srdf")
-        srdf_file = default_srdf if srdf is None and default_srdf.is_file() else None if srdf is None else Path(srdf)
+        arm = build_chain(tree, base, tip, hold or {}, name or tree.name, gravity, label)
         urdf_path, mesh_folder, srdf_path = (
             "" if given_path is None else str(Path(given_path).absolute()) for given_path in (path, meshes, srdf_file)
         )
         arm = replace(arm, chain=arm.chain and replace(arm.chain, file=urdf_path, meshes=mesh_folder, srdf=srdf_path))
         return arm if srdf_file is None else replace(arm, states=_read_srdf_configurations(srdf_file, arm))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
+        raise ArmError(f"{label}: {error}", tip=error.tip) from error
 
 
 # ---- the file ----------------------------------------------------------------------------------------------------
@@ -167,6 +176,19 @@ def read_disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
         for element in _parse_robot(path, "SRDF").iter("disable_collisions")
     )
     return frozenset((first_link, second_link) for first_link, second_link in pairs)
+
+
+def _read_group(path: Path | None, group: str) -> tuple[str, str]:
+    """Return the base and tip of the chain of a group of an SRDF file."""
+    if path is None:
+        raise ArmError(f"group '{group}' stands in an SRDF file, and there is none beside the URDF file; name it with srdf")
+    groups = {each.get("name", ""): each for each in _parse_robot(path, "SRDF").findall("group")}
+    if group not in groups:
+        raise ArmError(f"{path.name}: there is no group '{group}'; its groups are {list_names(list(groups)) or 'none'}")
+    chain = groups[group].find("chain")
+    if chain is None:
+        raise ArmError(f"{path.name}: group '{group}' is a list of joints or links and has no <chain>; name base and tip")
+    return _require_attribute(chain, "base_link", "<chain>"), _require_attribute(chain, "tip_link", "<chain>")
 
 
 def _read_srdf_configurations(path: Path, arm: ArmData) -> dict[str, FloatArray]:

@@ -1,9 +1,7 @@
 from holdfast.model.arms.builtin import Builtin as Builtin
 from holdfast.model.arms.builtin import about as about
-from holdfast.model.arms.builtin import load as load
 from holdfast.model.arms.builtin import names as names
-from holdfast.model.arms.catalogue import command_words as command_words
-from holdfast.model.arms.catalogue import resolve as resolve
 from holdfast.model.arms.dh_rows import DHTable as DHTable
 from holdfast.model.arms.dh_rows import dh_table as dh_table
-from holdfast.model.arms.urdf_writing import urdf_text as urdf_text
+from holdfast.model.arms.loading import command_words as command_words
+from holdfast.model.arms.loading import load as load

@@ -26,7 +26,7 @@ class Builtin:
     """Facts about a built-in arm that are available without loading it.
 
     Attributes:
-        name: Name for :func:`load`.
+        name: Name for :func:`holdfast.model.arms.load`.
         n: Number of joints.
         summary: One line for lists.
         source: Origin of the numbers, and assumptions.
@@ -61,7 +61,7 @@ def about(name: str) -> Builtin:
 
 @check_arguments
 @cache
-def load(name: str) -> Arm:
+def load_builtin(name: str) -> Arm:
     """Return the built-in arm with this ``name``, the same object each time.
 
     Raises:
@@ -220,7 +220,7 @@ def _pa10_nine_joints() -> Arm:
 
 
 def _ur5_on_rail() -> Arm:
-    ur5 = load("ur5")
+    ur5 = load_builtin("ur5")
     rail = Joint(
         "rail", "prismatic", np.eye(4), axis=np.array([0.0, 1.0, 0.0]), lower=0.0, upper=2.0, velocity=1.0, effort=500.0
     )

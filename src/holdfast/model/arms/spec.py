@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from holdfast.core.errors import InputError
 from holdfast.core.labels import TASK_ROW_NAMES, is_number
@@ -19,10 +20,13 @@ class ArmSpec:
     """Description of an arm on the command line or in a study file.
 
     Attributes:
-        spec: Built-in name or file; see :func:`holdfast.model.arms.resolve`.
+        spec: Built-in name or file; see :func:`holdfast.model.arms.load`.
         base, tip: Links of the file, or None.
         hold: Held joints of the file with their values, rad or m.
         name: Name of the arm; default: the built-in name or the arm's own name.
+        group: Group of the SRDF file that gives base and tip, or None.
+        xacro: Arguments of a xacro file.
+        packages: Folder with ROS packages, or None.
     """
 
     spec: str
@@ -30,13 +34,16 @@ class ArmSpec:
     tip: str | None = None
     hold: Mapping[str, float] = field(default_factory=dict)
     name: str | None = None
+    group: str | None = None
+    xacro: Mapping[str, str] = field(default_factory=dict)
+    packages: str | Path | None = None
 
     def load(self) -> Arm:
         """Return the arm."""
         from holdfast.model import arms
 
-        arm = arms.resolve(self.spec, self.base, self.tip, hold=self.hold)
-        return arm if self.name is None else replace(arm, name=self.name)
+        options = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "spec"}
+        return arms.load(self.spec, **options)
 
 
 def arm_specs_from_options(
@@ -45,14 +52,16 @@ def arm_specs_from_options(
     tip: Sequence[str] | None,
     hold: Sequence[str] | None,
     name: Sequence[str] | None,
+    group: Sequence[str] | None = None,
+    **shared: Any,
 ) -> list[ArmSpec]:
-    """Return several arms; --base, --tip, and --hold are given once for all arms, or once for each arm, '-' for none.
+    """Return several arms; options are given once for all arms, or once for each arm, '-' for none; ``shared`` are for all.
 
     Raises:
         InputError: An option is given another number of times, or two arms have one name.
     """
     hold_option = [",".join(hold)] if hold and len(specs) == 1 else hold
-    options = {"--base": base, "--tip": tip, "--hold": hold_option, "--name": name}
+    options = {"--base": base, "--tip": tip, "--hold": hold_option, "--name": name, "--group": group}
     columns: dict[str, list[str | None]] = {}
     for option, values in options.items():
         option_values = [None if value == "-" else value for value in values or ["-"]]
@@ -64,11 +73,10 @@ def arm_specs_from_options(
                 f"{option} is given {len(option_values)} times and there are {len(specs)} arms; give it {advice}, '-' for none"
             )
         columns[option] = option_values
-    rows = zip(specs, *columns.values(), strict=True)
-    return [
-        ArmSpec(spec_text, base_link, tip_link, {} if hold_text is None else parse_held_joints(hold_text), arm_name)
-        for spec_text, base_link, tip_link, hold_text, arm_name in rows
-    ]
+    held_joints = [{} if text is None else parse_held_joints(text) for text in columns["--hold"]]
+    names = ("spec", "base", "tip", "hold", "name", "group")
+    rows = zip(specs, columns["--base"], columns["--tip"], held_joints, columns["--name"], columns["--group"], strict=True)
+    return [ArmSpec(**dict(zip(names, row, strict=True)), **shared) for row in rows]
 
 
 def parse_held_joints(text: str, option: str = "--hold") -> dict[str, float]:
@@ -82,6 +90,19 @@ def parse_held_joints(text: str, option: str = "--hold") -> dict[str, float]:
             raise InputError(f"{option} gives joint '{joint}' twice; give each joint once")
         values_by_joint[joint] = float(value)
     return values_by_joint
+
+
+def parse_xacro_arguments(assignments: Sequence[str] | None) -> dict[str, str]:
+    """Read the arguments ``NAME=VALUE`` of a xacro file.
+
+    Raises:
+        InputError: An argument has no name.
+    """
+    pairs = [assignment.partition("=") for assignment in assignments or ()]
+    wrong = next((name + equals for name, equals, _ in pairs if not (name and equals)), None)
+    if wrong is not None:
+        raise InputError(f"--xacro '{wrong}' is not NAME=VALUE; write for example --xacro ur_type=ur5e")
+    return {name: value for name, _, value in pairs}
 
 
 def default_task(spec: str, arm: Arm) -> str:

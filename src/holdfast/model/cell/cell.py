@@ -18,7 +18,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.formatting import format_count
 from holdfast.core.validation import check_arguments, check_constructor
-from holdfast.model.arms.catalogue import root_element_name
+from holdfast.model.arms.loading import root_element_name
 from holdfast.model.cell.meshes import Mesh, Points, Source
 from holdfast.model.cell.solids import Solid
 

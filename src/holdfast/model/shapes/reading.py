@@ -9,7 +9,7 @@ from pathlib import Path
 from holdfast.core.errors import InputError
 from holdfast.model.arm import urdf
 from holdfast.model.arm.model import Arm
-from holdfast.model.arms.catalogue import root_element_name
+from holdfast.model.arms.loading import is_mujoco_file
 from holdfast.model.shapes.pieces import Missing, Piece, Purpose
 
 
@@ -38,7 +38,7 @@ def read_pieces(
     if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
         return [], []
     folder = Path(meshes) if meshes is not None else Path(arm.chain.meshes) if arm.chain.meshes else None
-    if root_element_name(arm.chain.file) == "mujoco":
+    if is_mujoco_file(arm.chain.file):
         from holdfast.model.shapes import mjcf_pieces
 
         # MuJoCo opens the files that the model names in any case.
@@ -58,7 +58,7 @@ def unchecked_pairs(arm: Arm) -> frozenset[tuple[str, str]]:
     """
     if arm.chain is None or not arm.chain.file or not Path(arm.chain.file).is_file():
         return frozenset()
-    if root_element_name(arm.chain.file) == "mujoco":
+    if is_mujoco_file(arm.chain.file):
         from holdfast.model.shapes import mjcf_pieces
 
         return mjcf_pieces.read_excluded_contacts(Path(arm.chain.file))

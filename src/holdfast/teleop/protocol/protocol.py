@@ -304,7 +304,7 @@ class _ProtocolFile(Strict):
 
 def _build_protocol(document: _ProtocolFile, folder: Path) -> Protocol:
     arm_file = None if document.arm in arms.names() else folder / document.arm
-    arm = arms.resolve(document.arm if arm_file is None or not reading.path_exists(arm_file) else str(arm_file))
+    arm = arms.load(document.arm if arm_file is None or not reading.path_exists(arm_file) else str(arm_file))
     rows = as_task(arm, document.task)
     for index, task in enumerate(document.tasks):
         for name, values, length in (("q0", task.q0, arm.n), ("target", task.target, rows.m)):

@@ -21,14 +21,6 @@ MIN_MOMENT_FRACTION = 1e-9  # fraction of the largest principal moment
 MIN_MOMENT_KG_M2 = 1e-12  # kg m^2
 
 
-def compile_model(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
-    """Compile a spec of :func:`build_mujoco_spec` to a model, and set the friction of the joints."""
-    model = spec.compile()
-    # Set in the compiled model, because a spec takes one or three numbers, depending on the version of MuJoCo.
-    model.dof_damping[:] = [arm.joints[joint].friction for joint in sorted(free)]
-    return model
-
-
 def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
     """Build the ``mujoco.MjSpec`` of an arm in which the joints ``free`` move and all others are welded at ``q``.
 
@@ -68,6 +60,20 @@ def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool 
     return spec
 
 
+def build_whole_spec(arm: Arm) -> Any:
+    """Return the ``mujoco.MjSpec`` of an arm in which all joints move; see :meth:`holdfast.Arm.to_mujoco`."""
+    mujoco = import_mujoco()
+    spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), stops=True)
+    spec.modelname = arm.name
+    for joint, spec_joint in zip(arm.joints, spec.joints, strict=True):
+        if np.isfinite(joint.effort):
+            spec_joint.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
+            spec_joint.actfrcrange = [-joint.effort, joint.effort]
+    for name, q in arm.states.items():
+        spec.add_key(name=name, qpos=q)
+    return spec
+
+
 def _require_mass(arm: Arm, free: Sequence[int]) -> None:
     """Require that the links between a free joint and the next one have mass."""
     masses = [0.0 if link is None else link.mass for link in arm.links]
@@ -102,6 +108,8 @@ def _set_inertia(mujoco: ModuleType, body: Any, link: Link) -> None:
 def _add_joint(mujoco: ModuleType, body: Any, joint: Joint, position: float, stops: bool, step: float) -> None:
     joint_type = mujoco.mjtJoint.mjJNT_SLIDE if joint.prismatic else mujoco.mjtJoint.mjJNT_HINGE
     added_joint = body.add_joint(name=joint.name, type=joint_type, axis=joint.axis, armature=joint.armature)
+    # MuJoCo 4 takes the coefficients of a cubic, MuJoCo 3 one number.
+    added_joint.damping = joint.friction if np.ndim(added_joint.damping) == 0 else [joint.friction, 0.0, 0.0]
     added_joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
     if stops and (np.isfinite(joint.lower) or np.isfinite(joint.upper)):
         lower, upper = max(joint.lower - position, -NO_LIMIT_RANGE), min(joint.upper - position, NO_LIMIT_RANGE)
