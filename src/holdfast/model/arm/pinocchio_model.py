@@ -123,8 +123,9 @@ def _read_joint(pinocchio: ModuleType, model: Any, joint: int, parent: str, chil
     lower, upper, velocity, effort, friction, armature = -np.inf, np.inf, np.inf, np.inf, 0.0, 0.0
     mimic = None
     if joint in model.mimicking_joints:
-        offset, slope = _mimic_offset_and_slope(pinocchio, model, joint, kind, axis)
-        mimic = (model.names[model.mimicked_joints[list(model.mimicking_joints).index(joint)]], slope, offset)
+        master = model.mimicked_joints[list(model.mimicking_joints).index(joint)]
+        rule = joint_model.extract()
+        mimic, axis = (model.names[master], float(rule.scaling), float(rule.offset)), axis / rule.scaling
     elif joint_model.nv == 1:
         dof, coordinate = joint_model.idx_v, joint_model.idx_q
         if joint_model.nq == 1:
@@ -161,21 +162,6 @@ def _motion_kind(joint_model: Any, neutral: FloatArray) -> tuple[str, FloatArray
     if linear.any() and angular.any():
         return "helical", angular
     return ("prismatic", linear) if linear.any() else ("revolute", angular)
-
-
-def _mimic_offset_and_slope(pinocchio: ModuleType, model: Any, joint: int, kind: str, axis: FloatArray) -> tuple[float, float]:
-    """Return the value of a mimic joint at its master's value 0, and its change per unit of the master.
-
-    Pinocchio's Python interface lacks both, so they are read from two placements of the joint.
-    """
-    master = model.joints[model.mimicked_joints[list(model.mimicking_joints).index(joint)]]
-    data, values = model.createData(), []
-    for step in (0.0, 0.5):
-        q = pinocchio.integrate(model, pinocchio.neutral(model), step * np.eye(model.nv)[master.idx_v])
-        pinocchio.forwardKinematics(model, data, q)
-        motion = model.jointPlacements[joint].inverse() * data.liMi[joint]
-        values.append(float(axis @ (motion.translation if kind == "prismatic" else pinocchio.log3(motion.rotation))))
-    return values[0], 2 * (values[1] - values[0])
 
 
 def _finite_or(limit: float) -> float:

@@ -52,8 +52,8 @@ def locate_description(text: str) -> Description:
     name, _, variant = text.removeprefix(_PREFIX).partition(".")
     known = _description_names()
     if name not in known:
-        advice = suggest_name(name, known) or f"it has {len(known)} names, such as '{known[0]}'; "
-        raise ArmError(f"robot_descriptions has no '{name}'; {advice}give one of its names, or a file")
+        advice = f"{suggest_name(name, known)}give one of its {len(known)} names, or a file"
+        raise ArmError(f"robot_descriptions has no '{name}'; {advice}")
     try:
         with contextlib.redirect_stdout(sys.stderr):  # progress of the clone, which must not become part of an answer
             module = import_module(f"robot_descriptions.{name}")

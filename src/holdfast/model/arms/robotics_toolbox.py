@@ -90,8 +90,8 @@ def _split_transforms(link: Any) -> tuple[FloatArray, Any, FloatArray]:
 
 
 def _read_joint(link: Any, variable: Any, parent: str, child: str, origin: FloatArray) -> TreeJoint:
-    is_prismatic = variable.axis.startswith("t")
-    axis = np.eye(3)["xyz".index(variable.axis[-1])] * (-1.0 if variable.isflip else 1.0)
+    is_prismatic = variable.kind.startswith("t")
+    axis = np.eye(3)["xyz".index(variable.kind[-1])] * (-1.0 if variable.isflip else 1.0)
     limits = np.full(2, np.nan) if link.qlim is None else np.asarray(link.qlim, dtype=np.float64).ravel()
     lower, upper = np.where(np.isfinite(limits), limits, [-np.inf, np.inf]).tolist()
     gear_ratio = float(link.G) if link.G else 1.0

@@ -12,10 +12,6 @@ from holdfast.core.extras import import_extra
 from holdfast.model.arm.mesh_files import find_mesh
 
 
-class _MissingPackageError(Exception):
-    """ROS package that no folder contains."""
-
-
 def expand_xacro(path: Path, arguments: Mapping[str, str], packages: str | Path | None) -> str:
     """Return the URDF text of a xacro file, in which the mesh files that exist have absolute paths.
 
@@ -32,26 +28,26 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], packages: str | Path 
     substitutions = import_extra("xacro.substitution_args", "xacro")
     if not path.is_file():
         raise ArmError(f"{path.name}: the file cannot be read (no such file); give the path of a xacro file")
-    find_installed = substitutions._eval_find
+    find_installed, missing_packages = substitutions._eval_find, []
 
     def find(package: str) -> str:
         folder = _find_package(package, path, packages)
         if folder is not None:
             return str(folder)
-        try:
-            return str(find_installed(package))
-        except Exception as error:
-            raise _MissingPackageError(package) from error
+        missing_packages.append(package)
+        installed = str(find_installed(package))
+        missing_packages.remove(package)
+        return installed
 
     substitutions._eval_find = find
     try:
         text: str = xacro.process_file(str(path), mappings=dict(arguments)).toxml()
-    except _MissingPackageError as error:
-        raise ArmError(
-            f"{path.name}: it needs the ROS package '{error}', which is in no folder above it; name the folder that contains "
-            "the package with packages (--packages)"
-        ) from error
     except Exception as error:  # xacro raises many types
+        if missing_packages:
+            raise ArmError(
+                f"{path.name}: it needs the ROS package '{missing_packages[0]}', which is in no folder above it; name the folder "
+                "that contains the package with packages (--packages)"
+            ) from error
         reason = " ".join(str(error).split()) or type(error).__name__
         raise ArmError(
             f"{path.name}: xacro cannot expand this ({reason}); correct the file, or give its arguments with xacro "
