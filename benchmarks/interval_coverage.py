@@ -199,7 +199,10 @@ CASES = [
         Case("weighted fraction", f"{name}, at least {at:g}", (5, 30, 300), _weighted_share(w, at))
         for (name, w), at in zip(WEIGHTS.items(), (0.5, 0.01, 0.05), strict=True)
     ),
-    *(Case("value that a fraction of the poses reaches (order statistics)", f"{v:.0%}", FEW, _quantile(v)) for v in (0.5, 0.95)),
+    *(
+        Case("value that a fraction of the poses reaches (order statistics)", f"{v:.0%}", FEW, _quantile(v))
+        for v in (0.5, 0.95)
+    ),
 ]
 
 
