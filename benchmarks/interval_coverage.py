@@ -61,10 +61,10 @@ def _mostly_one(rng: np.random.Generator, size: int) -> np.ndarray:
 
 
 FRACTIONS: dict[str, tuple[Draw, float]] = {
-    "even, Beta(2, 2)": (lambda rng, n: rng.beta(2, 2, n), 0.5),
+    "symmetric, Beta(2, 2)": (lambda rng, n: rng.beta(2, 2, n), 0.5),
     "skewed, Beta(0.05, 1)": (lambda rng, n: rng.beta(0.05, 1, n), 0.05 / 1.05),
-    "nearly alike, Beta(90, 10)": (lambda rng, n: rng.beta(90, 10, n), 0.9),
-    "all or nothing, 0.7": (lambda rng, n: (rng.random(n) < 0.7).astype(float), 0.7),
+    "concentrated, Beta(90, 10)": (lambda rng, n: rng.beta(90, 10, n), 0.9),
+    "0 or 1, mean 0.7": (lambda rng, n: (rng.random(n) < 0.7).astype(float), 0.7),
     "1 at 95 % of the starts": (_mostly_one, 0.975),
 }
 
@@ -129,8 +129,8 @@ def _heavy(share: float, weight: float) -> Weight:
 
 WEIGHTS = {
     "weight 1 + 2x": Weight(lambda x: 1 + 2 * x, lambda x: (x + x**2) / 2, 3.0),
-    "the worst 2 % weigh 50": _heavy(0.02, 50.0),
-    "the worst 10 % weigh 20": _heavy(0.1, 20.0),
+    "weight 50 for the lowest 2 %": _heavy(0.02, 50.0),
+    "weight 20 for the lowest 10 %": _heavy(0.1, 20.0),
 }
 
 
@@ -167,17 +167,17 @@ def _quantile(level: float) -> Study:
 
 FEW, MANY = (5, 10, 30, 100), (5, 10, 30, 100, 300)
 PAIRS = {
-    "alike, none better": (0.55, 0.1, 0.1),
-    "the second better": (0.5, 0.05, 0.25),
-    "opposite": (0.0, 0.5, 0.5),
+    "correlated, equal fractions": (0.55, 0.1, 0.1),
+    "second fraction larger": (0.5, 0.05, 0.25),
+    "never equal": (0.0, 0.5, 0.5),
     "independent": (0.25, 0.25, 0.25),
 }
 EVEN = Weight(np.ones_like, lambda x: x, 1.0)
 CASES = [
-    *(Case("share of starts (Clopper-Pearson)", f"share {p:g}", MANY, _share(p)) for p in (0.5, 0.1, 0.99)),
+    *(Case("fraction of starts (Clopper-Pearson)", f"fraction {p:g}", MANY, _share(p)) for p in (0.5, 0.1, 0.99)),
     *(Case("mean of fractions (betting)", name, MANY, _means(*f)) for name, f in FRACTIONS.items()),
     *(Case("difference of fractions (betting)", name, FEW, _paired_means(*f)) for name, f in FRACTIONS.items()),
-    *(Case("difference of paired shares (Newcombe)", name, FEW, _pairs(*p)) for name, p in PAIRS.items()),
+    *(Case("difference of paired fractions (Newcombe)", name, FEW, _pairs(*p)) for name, p in PAIRS.items()),
     *(
         Case("mean of unbounded values (Student)", name, FEW, _student(*f), always)
         for name, f, always in (
@@ -186,20 +186,23 @@ CASES = [
             ("skewed, Beta(0.05, 1)", FRACTIONS["skewed, Beta(0.05, 1)"], False),
         )
     ),
-    Case("band of a CDF (Dvoretzky-Kiefer-Wolfowitz)", "all alike", FEW, _band(EVEN)),
-    *(Case("band of a weighted CDF", name, (5, 30, 300, 3000), _band(w)) for name, w in WEIGHTS.items()),
+    Case("band of a distribution curve (Dvoretzky-Kiefer-Wolfowitz)", "equal weights", FEW, _band(EVEN)),
+    *(Case("band of a weighted distribution curve", name, (5, 30, 300, 3000), _band(w)) for name, w in WEIGHTS.items()),
     Case(
-        "band of a weighted CDF",
-        "the worst 2 % weigh 50, which is not known",
+        "band of a weighted distribution curve",
+        "weight 50 for the lowest 2 %, unknown",
         (30, 100, 300, 3000),
-        _band(WEIGHTS["the worst 2 % weigh 50"], known=False),
+        _band(WEIGHTS["weight 50 for the lowest 2 %"], known=False),
         always=False,
     ),
     *(
-        Case("weighted share", f"{name}, at least {at:g}", (5, 30, 300), _weighted_share(w, at))
+        Case("weighted fraction", f"{name}, at least {at:g}", (5, 30, 300), _weighted_share(w, at))
         for (name, w), at in zip(WEIGHTS.items(), (0.5, 0.01, 0.05), strict=True)
     ),
-    *(Case("what a share of the poses keeps (order statistics)", f"{v:.0%}", FEW, _quantile(v)) for v in (0.5, 0.95)),
+    *(
+        Case("value that a fraction of the poses reaches (order statistics)", f"{v:.0%}", FEW, _quantile(v))
+        for v in (0.5, 0.95)
+    ),
 ]
 
 
@@ -209,7 +212,7 @@ def main() -> None:
     for kind, group in groupby(CASES, lambda c: c.kind):
         cases = list(group)
         sizes = sorted({n for c in cases for n in c.sizes})
-        print(f"\n**{kind[0].upper()}{kind[1:]}**\n\n| simulated | {' | '.join(map(str, sizes))} |")
+        print(f"\n**{kind[0].upper()}{kind[1:]}**\n\n| simulated data | {' | '.join(map(str, sizes))} |")
         print("|---" * (1 + len(sizes)) + "|")
         for c in cases:
             cells = ["{:.3f} ({:.2g})".format(*c.coverage(n)) if n in c.sizes else "" for n in sizes]
