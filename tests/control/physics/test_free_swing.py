@@ -13,7 +13,7 @@ import dynamics
 import holdfast as hf
 import oracles
 from cards import check_card
-from holdfast.model.arm.mujoco_spec import build_mujoco_spec
+from holdfast.model.arm.formats.mujoco_spec import build_mujoco_spec
 
 G, LENGTH, MASS = 9.81, 0.7, 2.0
 

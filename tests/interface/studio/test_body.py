@@ -14,7 +14,7 @@ from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.presentation.arm.visuals import build_body, read_visual_parts
 from holdfast.interface.report.viewer import embed_viewer_library
 from holdfast.interface.studio.scene.machine import CompiledArm
-from holdfast.model.arm.mesh_files import find_mesh
+from holdfast.model.arm.formats.mesh_files import find_mesh
 from holdfast.model.arm.task import as_task
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"

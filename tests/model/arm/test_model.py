@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 from holdfast import arms
 from holdfast.core.errors import ArmError, InputError
-from holdfast.model.arm import urdf
 from holdfast.model.arm.dh import DH
+from holdfast.model.arm.formats import urdf
 from holdfast.model.arm.machine import ArmData, Joint, Link
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.builtin import DATA_FOLDER

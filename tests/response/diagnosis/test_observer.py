@@ -9,7 +9,7 @@ import pytest
 
 import dynamics
 import holdfast as hf
-from holdfast.model.arm.mujoco_spec import build_mujoco_spec
+from holdfast.model.arm.formats.mujoco_spec import build_mujoco_spec
 from holdfast.response.diagnosis.observer import OBSERVER_GAIN_PER_S, accumulate_excess, momentum_kernel, observe_residuals
 
 

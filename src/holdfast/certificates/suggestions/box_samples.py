@@ -8,7 +8,7 @@ import numpy as np
 
 from holdfast.certificates.claims import TolerantClaim
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.urdf import rpy_rotation
+from holdfast.model.arm.formats.urdf import rpy_rotation
 
 
 def sample_box_poses(claim: TolerantClaim, count: int, seed: int, sample: int) -> FloatArray:

@@ -11,9 +11,9 @@ from holdfast.control.physics.servos import Servos
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_constructor
-from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco
+from holdfast.model.arm.formats.mujoco_spec import build_mujoco_spec
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 
 OBSERVER_RAD_S = 2 * np.pi * 20  # bandwidth with which an error of the joint sensors reaches the velocity loop
 

@@ -15,7 +15,7 @@ from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.tool_constraints.labels import KeepLike, anchor_constraints
-from holdfast.model.arm.mjcf import silence_mujoco
+from holdfast.model.arm.formats.mjcf import silence_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import check_poses
 from holdfast.model.collision.clearance import Clearance

@@ -20,7 +20,7 @@ from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.model.arm.mjcf import silence_mujoco
+from holdfast.model.arm.formats.mjcf import silence_mujoco
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes import Locked

@@ -17,9 +17,9 @@ from holdfast.control.physics.body import Body, Drives
 from holdfast.control.physics.servos import Servos, max_reference_offsets
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco
+from holdfast.model.arm.formats.mujoco_spec import build_mujoco_spec
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 from holdfast.model.collision.clearance import Clearance
 
 MAX_PHYSICAL_SPEED = 1e4  # rad/s or m/s: no arm is this fast; MuJoCo itself continues to 1e10 and then writes a log

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from holdfast.core.errors import InputError
-from holdfast.model.arm.mjcf import import_mujoco
-from holdfast.model.arm.mujoco_spec import to_quaternion
+from holdfast.model.arm.formats.mjcf import import_mujoco
+from holdfast.model.arm.formats.mujoco_spec import to_quaternion
 from holdfast.model.cell.cell import Cell
 from holdfast.model.cell.meshes import Mesh
 from holdfast.model.cell.solids import Box, HalfSpace, PrimitiveSolid, Solid, Sphere
@@ -25,7 +25,7 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
     is its convex hull here.
 
     Args:
-        spec: Spec of :func:`holdfast.model.arm.mujoco_spec.build_mujoco_spec` for the arm.
+        spec: Spec of :func:`holdfast.model.arm.formats.mujoco_spec.build_mujoco_spec` for the arm.
         clearance: Collision model of the arm, with the cell. Welded links touch nothing, and the arm does not touch itself.
         step: Time step, s.
 

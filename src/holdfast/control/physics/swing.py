@@ -14,10 +14,10 @@ from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
+from holdfast.model.arm.formats.mjcf import import_mujoco, silence_mujoco
+from holdfast.model.arm.formats.mujoco_spec import build_mujoco_spec
 from holdfast.model.arm.machine import Joint
-from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.mujoco_spec import build_mujoco_spec
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 

@@ -46,7 +46,7 @@ class TargetBoxOptions:
 
     def claim_arguments(self) -> dict[str, Any]:
         """Return the targets as arguments of a claim."""
-        from holdfast.model.arm.urdf import rpy_rotation
+        from holdfast.model.arm.formats.urdf import rpy_rotation
 
         box = {
             "centre": read_numbers("--box", self.box, "two or three numbers, m,"),

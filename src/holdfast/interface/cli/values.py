@@ -226,7 +226,7 @@ def _read_joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
 
 def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
     """Read ``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4), or ``x,y,z`` alone as (3,)."""
-    from holdfast.model.arm.urdf import rpy_rotation
+    from holdfast.model.arm.formats.urdf import rpy_rotation
 
     numbers = read_numbers(option, text, "x,y,z,roll,pitch,yaw (m and degrees)")
     if numbers.size not in (3, 6):

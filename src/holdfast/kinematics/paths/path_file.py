@@ -35,8 +35,8 @@ from holdfast.core.errors import InputError
 from holdfast.core.files.csv_table import read_csv_table
 from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.urdf import rpy_rotation
 from holdfast.model.arm.poses import rotations_of_quaternions
-from holdfast.model.arm.urdf import rpy_rotation
 
 Shape = Literal["line", "arc", "sequence"]
 POSITION_COLUMNS = ("x", "y", "z")

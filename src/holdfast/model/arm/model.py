@@ -67,12 +67,12 @@ class Arm(Presentable, ArmData):
     def from_urdf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
         """Return the chain from link ``base`` to link ``tip`` of the URDF file ``path``.
 
-        ``options`` are the further arguments of :func:`holdfast.model.arm.urdf.load_urdf`.
+        ``options`` are the further arguments of :func:`holdfast.model.arm.formats.urdf.load_urdf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the link or joint.
         """
-        from holdfast.model.arm.urdf import load_urdf
+        from holdfast.model.arm.formats.urdf import load_urdf
 
         return cls._from_data(load_urdf(path, base, tip, **options))
 
@@ -81,13 +81,13 @@ class Arm(Presentable, ArmData):
     def from_mjcf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
         """Return the chain from body ``base`` to body or site ``tip`` of the MJCF file ``path``.
 
-        ``options`` are the further arguments of :func:`holdfast.model.arm.mjcf.load_mjcf`.
+        ``options`` are the further arguments of :func:`holdfast.model.arm.formats.mjcf.load_mjcf`.
 
         Raises:
             ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the body or joint.
             HoldfastError: MuJoCo is not installed; it comes with ``holdfast-arms[physics]``.
         """
-        from holdfast.model.arm.mjcf import load_mjcf
+        from holdfast.model.arm.formats.mjcf import load_mjcf
 
         return cls._from_data(load_mjcf(path, base, tip, **options))
 
@@ -96,13 +96,13 @@ class Arm(Presentable, ArmData):
     def from_pinocchio(cls, model: object, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
         """Return the chain from frame ``base`` to frame ``tip`` of the ``pinocchio.Model`` ``model``.
 
-        ``options`` are the further arguments of :func:`holdfast.model.arm.pinocchio_model.read_pinocchio_model`.
+        ``options`` are the further arguments of :func:`holdfast.model.arm.formats.pinocchio_model.read_pinocchio_model`.
 
         Raises:
             ArmError: The chain is not unique or not serial; the message names the frame or joint.
             HoldfastError: Pinocchio is not installed; it comes with ``holdfast-arms[pinocchio]``.
         """
-        from holdfast.model.arm.pinocchio_model import read_pinocchio_model
+        from holdfast.model.arm.formats.pinocchio_model import read_pinocchio_model
 
         return cls._from_data(read_pinocchio_model(model, base, tip, **options))
 
@@ -192,7 +192,7 @@ class Arm(Presentable, ArmData):
 
         The format lacks gravity, payload, rotor inertia, one-sided limits, and named configurations; see :meth:`save`.
         """
-        from holdfast.model.arm.urdf_writing import urdf_text
+        from holdfast.model.arm.formats.urdf_writing import urdf_text
 
         return urdf_text(self)
 
@@ -206,7 +206,7 @@ class Arm(Presentable, ArmData):
             ArmError: A link has no inertial data or an impossible inertia, or a joint carries no mass.
             HoldfastError: MuJoCo is not installed.
         """
-        from holdfast.model.arm.mujoco_spec import build_whole_spec
+        from holdfast.model.arm.formats.mujoco_spec import build_whole_spec
 
         return build_whole_spec(self)
 
@@ -218,7 +218,7 @@ class Arm(Presentable, ArmData):
         Raises:
             HoldfastError: Pinocchio is not installed.
         """
-        from holdfast.model.arm.pinocchio_model import build_pinocchio_model
+        from holdfast.model.arm.formats.pinocchio_model import build_pinocchio_model
 
         return build_pinocchio_model(self)
 

@@ -9,9 +9,9 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import replace_file
 from holdfast.core.progress import print_warning
+from holdfast.model.arm.formats.urdf_writing import urdf_text
 from holdfast.model.arm.machine import GRAVITY
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf_writing import urdf_text
 from holdfast.model.arms import dh_file
 from holdfast.model.arms.dh_rows import bodies_in_row_frames, dh_table
 from holdfast.model.arms.loading import TABLE_ENDINGS

@@ -41,9 +41,9 @@ from holdfast.core.progress import print_warning
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.dh import DH
+from holdfast.model.arm.formats.urdf import rpy_rotation
 from holdfast.model.arm.machine import GRAVITY, Link
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf import rpy_rotation
 from holdfast.model.arms.dh_rows import DHTable
 
 _MAX_PLAUSIBLE_ANGLE_RAD = 2 * np.pi  # rad: a larger angle is probably in degrees

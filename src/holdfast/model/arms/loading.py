@@ -185,7 +185,7 @@ def _read_yourdfpy_object(robot: Any, **options: Any) -> Arm:
 
 
 def _read_mujoco_object(model: Any, **options: Any) -> Arm:
-    from holdfast.model.arm.mjcf import import_mujoco, model_name
+    from holdfast.model.arm.formats.mjcf import import_mujoco, model_name
 
     mujoco = import_mujoco()
     if isinstance(model, mujoco.MjSpec):
@@ -199,7 +199,7 @@ def _read_mujoco_object(model: Any, **options: Any) -> Arm:
 
 
 def _read_pinocchio_object(model: Any, **options: Any) -> Arm:
-    from holdfast.model.arm.pinocchio_model import import_pinocchio
+    from holdfast.model.arm.formats.pinocchio_model import import_pinocchio
 
     if not isinstance(model, import_pinocchio().Model):
         raise ArmError(f"no arm can be made of a pinocchio.{type(model).__name__}; give its Model")

@@ -14,7 +14,8 @@ from holdfast.core.errors import ArmError
 from holdfast.core.extras import import_extra
 from holdfast.core.formatting import suggest_name
 
-_PREFIX, _ENDING = "robot_descriptions:", "_description"
+NAME_PREFIX = "robot_descriptions:"
+NAME_ENDING = "_description"
 
 
 @dataclass(frozen=True)
@@ -32,12 +33,12 @@ class Description:
 
 def is_description(text: str) -> bool:
     """Return whether a text is a name in robot_descriptions."""
-    return text.startswith(_PREFIX) or (text.isidentifier() and text.endswith(_ENDING))
+    return text.startswith(NAME_PREFIX) or (text.isidentifier() and text.endswith(NAME_ENDING))
 
 
 def suggest_description(name: str) -> str:
     """Return a hint for a sentence if robot_descriptions has a robot of this name; nothing is cloned for it."""
-    module = f"{name.lower()}{_ENDING}"
+    module = f"{name.lower()}{NAME_ENDING}"
     return f"robot_descriptions has '{module}', which it clones when first used; " if module in _description_names() else ""
 
 
@@ -49,7 +50,7 @@ def locate_description(text: str) -> Description:
         HoldfastError: robot_descriptions is not installed.
     """
     import_extra("robot_descriptions", "descriptions")
-    name, _, variant = text.removeprefix(_PREFIX).partition(".")
+    name, _, variant = text.removeprefix(NAME_PREFIX).partition(".")
     known = _description_names()
     if name not in known:
         advice = f"{suggest_name(name, known)}give one of its {len(known)} names, or a file"
@@ -80,4 +81,4 @@ def _description_names() -> list[str]:
     if specification is None or not specification.submodule_search_locations:
         return []
     folder = Path(specification.submodule_search_locations[0])
-    return sorted(path.stem for path in folder.glob(f"*{_ENDING}.py") if not path.stem.startswith("_"))
+    return sorted(path.stem for path in folder.glob(f"*{NAME_ENDING}.py") if not path.stem.startswith("_"))

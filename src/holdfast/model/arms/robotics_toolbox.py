@@ -10,11 +10,11 @@ import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.tree import LinkTree, TreeJoint, build_chain, fixed_joint
 from holdfast.model.arm.machine import Link
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.tree import LinkTree, TreeJoint, build_chain, fixed_joint
 
-_WORLD = "world"
+WORLD_LINK = "world"
 
 
 def read_toolbox_robot(
@@ -54,14 +54,14 @@ def read_toolbox_robot(
 def _read_tree(robot: Any) -> LinkTree:
     is_table = any(hasattr(link, "mdh") for link in robot.links)  # a DHRobot, whose links name no parents
     has_masses = any(link.m for link in robot.links)
-    bodies: dict[str, Link | None] = {_WORLD: None}
+    bodies: dict[str, Link | None] = {WORLD_LINK: None}
     joints: dict[str, TreeJoint] = {}
     link_names = {id(link): link.name or f"link{number}" for number, link in enumerate(robot.links, start=1)}
-    after_joint = {_WORLD: np.asarray(robot.base.A)}  # pose of a link's own frame in its joint's moving frame
-    previous = _WORLD
+    after_joint = {WORLD_LINK: np.asarray(robot.base.A)}  # pose of a link's own frame in its joint's moving frame
+    previous = WORLD_LINK
     for link in robot.links:
         name = link_names[id(link)]
-        parent = previous if is_table else link_names[id(link.parent)] if link.parent is not None else _WORLD
+        parent = previous if is_table else link_names[id(link.parent)] if link.parent is not None else WORLD_LINK
         before, variable, after = _split_transforms(link)
         origin = after_joint[parent] @ before
         joint = fixed_joint(name, parent, origin) if variable is None else _read_joint(link, variable, parent, name, origin)

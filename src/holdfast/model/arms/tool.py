@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.urdf import rpy_rotation
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf import rpy_rotation
 
 
 def tool_pose_from_numbers(numbers: ArrayLike) -> FloatArray:

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from holdfast.core.errors import ArmError
 from holdfast.core.extras import import_extra
-from holdfast.model.arm.mesh_files import find_mesh
+from holdfast.model.arm.formats.mesh_files import find_mesh
 
 
 def expand_xacro(path: Path, arguments: Mapping[str, str], packages: str | Path | None) -> str:
@@ -45,8 +45,8 @@ def expand_xacro(path: Path, arguments: Mapping[str, str], packages: str | Path 
     except Exception as error:  # xacro raises many types
         if missing_packages:
             raise ArmError(
-                f"{path.name}: it needs the ROS package '{missing_packages[0]}', which is in no folder above it; name the folder "
-                "that contains the package with packages (--packages)"
+                f"{path.name}: it needs the ROS package '{missing_packages[0]}', which is in no folder above it; name the "
+                "folder that contains the package with packages (--packages)"
             ) from error
         reason = " ".join(str(error).split()) or type(error).__name__
         raise ArmError(

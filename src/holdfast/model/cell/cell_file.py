@@ -40,8 +40,8 @@ from pydantic import Discriminator, Field, Tag, ValidationError
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files.yaml import Four, Number, Strict, Three, describe_validation_error, read_mapping
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.urdf import rpy_rotation
 from holdfast.model.arm.poses import rotations_of_quaternions
-from holdfast.model.arm.urdf import rpy_rotation
 from holdfast.model.cell.meshes import Mesh, Points
 from holdfast.model.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 

@@ -12,9 +12,9 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.files.mesh import Triangles
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm import mjcf
-from holdfast.model.arm.tree import LinkTree, LockedJoints, resolve_base_and_tip
-from holdfast.model.arm.urdf import read_tree, robot_element
+from holdfast.model.arm.formats import mjcf
+from holdfast.model.arm.formats.tree import LinkTree, LockedJoints, resolve_base_and_tip
+from holdfast.model.arm.formats.urdf import read_tree, robot_element
 from holdfast.model.cell.meshes import Mesh
 from holdfast.model.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.model.shapes.mjcf_pieces import collect_mjcf_shapes as collected_geoms

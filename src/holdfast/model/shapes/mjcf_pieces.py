@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm import mjcf
+from holdfast.model.arm.formats import mjcf
 from holdfast.model.arm.model import Arm
 from holdfast.model.shapes.pieces import Kind, LinkCarriers, Missing, Piece, Place, Purpose
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.model.arm.formats.tree import LinkTree, LockedJoints
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.tree import LinkTree, LockedJoints
 
 Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh", "half space"]
 Purpose = Literal["visual", "collision"]

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from holdfast.core.errors import InputError
-from holdfast.model.arm import urdf
+from holdfast.model.arm.formats import urdf
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.loading import is_mujoco_file
 from holdfast.model.shapes.pieces import Missing, Piece, Purpose

@@ -11,9 +11,9 @@ import numpy as np
 
 from holdfast.core.errors import ArmError, HoldfastError
 from holdfast.core.files import mesh
-from holdfast.model.arm.mesh_files import find_mesh
+from holdfast.model.arm.formats.mesh_files import find_mesh
+from holdfast.model.arm.formats.urdf import read_origin, read_tree, robot_element
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.model.shapes.pieces import Kind, LinkCarriers, Missing, Piece, Place, Purpose
 
 _SIZE_ATTRIBUTES = {"box": ("size",), "cylinder": ("radius", "length"), "capsule": ("radius", "length"), "sphere": ("radius",)}

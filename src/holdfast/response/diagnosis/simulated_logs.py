@@ -16,7 +16,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.mjcf import import_mujoco, silence_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco, silence_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.response.faults.events import FaultEvent
 from holdfast.response.faults.injector import FaultInjector

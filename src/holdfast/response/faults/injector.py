@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco
 from holdfast.response.faults.events import FaultEvent, FaultEvents
 from holdfast.response.faults.fault_model import FaultModel, HasJointNames, list_joint_names
 from holdfast.response.faults.kind import find_kind

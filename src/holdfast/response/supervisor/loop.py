@@ -17,7 +17,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm.mjcf import silence_mujoco
+from holdfast.model.arm.formats.mjcf import silence_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance

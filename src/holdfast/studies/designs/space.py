@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.urdf import rpy_rotation
 from holdfast.model.arm.machine import Link
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf import rpy_rotation
 from holdfast.model.arms.dh_rows import DHTable, dh_table
 
 ROW_PARAMETERS = ("a", "alpha", "d", "theta", "lower", "upper")

@@ -35,8 +35,8 @@ def command(
 
     Example: holdfast tolerant-workspace planar-3r --optimise --plot region.png
     """
+    from holdfast.model.arm.formats.urdf import rpy_rotation
     from holdfast.model.arm.task import plane_normal
-    from holdfast.model.arm.urdf import rpy_rotation
 
     model = chain.resolve_arm(arm)
     rows = read_task(task, arm, model) if task else "planar" if plane_normal(model) is not None else "position"

@@ -16,7 +16,7 @@ from functools import wraps
 from types import ModuleType
 from typing import Any
 
-from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco
 from holdfast.response.faults.injector import FaultInjector
 
 _PHYSICS_FUNCTIONS = re.compile(r"mj_(step[12]?|forward(Skip)?|fwd[A-Z]\w+|Euler|RungeKutta|implicit)")

@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.mjcf import import_mujoco
+from holdfast.model.arm.formats.mjcf import import_mujoco
 from holdfast.model.arm.model import Arm
 from holdfast.response.faults.events import FaultEvent
 from holdfast.response.faults.fault_model import FaultModel, HasJointNames

@@ -21,8 +21,8 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, bound_table, upper_bound
 from holdfast.kinematics.solvers.self_motions import self_motion
+from holdfast.model.arm.formats.urdf_writing import urdf_text
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.urdf_writing import urdf_text
 from holdfast.model.arms import dh_file, load, names
 from holdfast.studies.designs.record_book.measuring import (
     approximate_jacobian,

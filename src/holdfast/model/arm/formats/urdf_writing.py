@@ -7,13 +7,12 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.machine import Joint, Link
-from holdfast.model.arm.model import Arm
+from holdfast.model.arm.machine import ArmData, Joint, Link
 
 _ROD_RADIUS_FRACTION = 0.02  # radius of a drawn link, relative to the arm's length
 
 
-def urdf_text(arm: Arm) -> str:
+def urdf_text(arm: ArmData) -> str:
     """Return the arm as URDF: joints with their limits, masses if they are known, and a rod from each joint to the next.
 
     The rods are only a drawing. They are visual elements if masses are known, and otherwise collision elements as well, so that
@@ -21,7 +20,7 @@ def urdf_text(arm: Arm) -> str:
     Limits of speed and effort that are not given are 0, which :meth:`holdfast.Arm.from_urdf` reads as not given.
 
     Args:
-        arm: Arm model; the format cannot store gravity, payload, rotor inertias and states.
+        arm: ArmData model; the format cannot store gravity, payload, rotor inertias and states.
     """
     next_origins = [*(joint_after.origin for joint_after in arm.joints[1:]), arm.tool]
     radius = _ROD_RADIUS_FRACTION * sum(float(np.linalg.norm(origin[:3, 3])) for origin in next_origins) or _ROD_RADIUS_FRACTION

@@ -11,9 +11,8 @@ import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.typing import FloatArray
-from holdfast.model.arm.machine import Joint, Link
-from holdfast.model.arm.mjcf import import_mujoco
-from holdfast.model.arm.model import Arm
+from holdfast.model.arm.formats.mjcf import import_mujoco
+from holdfast.model.arm.machine import ArmData, Joint, Link
 from holdfast.model.arm.soundness import require_possible_inertia
 
 NO_LIMIT_RANGE = 1e9  # rad or m: stands for no limit, because MuJoCo's ranges are finite
@@ -21,7 +20,7 @@ MIN_MOMENT_FRACTION = 1e-9  # fraction of the largest principal moment
 MIN_MOMENT_KG_M2 = 1e-12  # kg m^2
 
 
-def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
+def build_mujoco_spec(arm: ArmData, q: FloatArray, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
     """Build the ``mujoco.MjSpec`` of an arm in which the joints ``free`` move and all others are welded at ``q``.
 
     The model's ``qpos`` is 0 at ``q``, in rad or m. Body k + 1 is the moving frame of joint k, joints have the arm's names, the
@@ -60,7 +59,7 @@ def build_mujoco_spec(arm: Arm, q: FloatArray, free: Sequence[int], stops: bool 
     return spec
 
 
-def build_whole_spec(arm: Arm) -> Any:
+def build_whole_spec(arm: ArmData) -> Any:
     """Return the ``mujoco.MjSpec`` of an arm in which all joints move; see :meth:`holdfast.Arm.to_mujoco`."""
     mujoco = import_mujoco()
     spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), stops=True)
@@ -74,7 +73,7 @@ def build_whole_spec(arm: Arm) -> Any:
     return spec
 
 
-def _require_mass(arm: Arm, free: Sequence[int]) -> None:
+def _require_mass(arm: ArmData, free: Sequence[int]) -> None:
     """Require that the links between a free joint and the next one have mass."""
     masses = [0.0 if link is None else link.mass for link in arm.links]
     masses[-1] += 0.0 if arm.payload is None else arm.payload.mass

@@ -21,9 +21,9 @@ from holdfast.core.files import reading
 from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
+from holdfast.model.arm.formats.tree import LIMITED_TYPES, MOVING_TYPES, LinkTree, TreeJoint, build_chain
 from holdfast.model.arm.machine import ArmData, Link
 from holdfast.model.arm.poses import cos_sin
-from holdfast.model.arm.tree import LIMITED_TYPES, MOVING_TYPES, LinkTree, TreeJoint, build_chain
 
 _MAX_FILE_BYTES = 64 << 20  # bytes
 JOINT_TYPES = (*MOVING_TYPES, "fixed", "floating", "planar")

@@ -20,9 +20,9 @@ from holdfast.core.extras import import_extra
 from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.model.arm import mjcf_limits
+from holdfast.model.arm.formats import mjcf_limits
+from holdfast.model.arm.formats.tree import LinkTree, TreeJoint, build_chain, fixed_joint, resolve_base_and_tip
 from holdfast.model.arm.machine import ArmData, Link, snap_rounding_noise
-from holdfast.model.arm.tree import LinkTree, TreeJoint, build_chain, fixed_joint, resolve_base_and_tip
 
 UNNAMED_MODEL = "MuJoCo Model"
 
@@ -60,7 +60,7 @@ def load_mjcf(
 ) -> ArmData:
     """Return the serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast-arms[physics]``).
 
-    As in :func:`holdfast.model.arm.urdf.load_urdf`, bodies without a joint are merged into their parent. A body that is
+    As in :func:`holdfast.model.arm.formats.urdf.load_urdf`, bodies without a joint are merged into their parent. A body that is
     attached to the chain without being part of it is merged as well, with its joints held at the values of the file. Hinges
     become revolute joints if they have a range and continuous joints otherwise, slides become prismatic joints. Several joints
     of one body become joints with massless links in between. ``links[i]`` is given in a frame with the axes of the body and the

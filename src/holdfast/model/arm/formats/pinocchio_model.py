@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.extras import import_extra
 from holdfast.core.typing import FloatArray
+from holdfast.model.arm.formats.tree import LinkTree, TreeJoint, build_chain, fixed_joint
 from holdfast.model.arm.machine import ArmData, Link
-from holdfast.model.arm.tree import LinkTree, TreeJoint, build_chain, fixed_joint
-
-if TYPE_CHECKING:
-    from holdfast.model.arm.model import Arm
 
 _NOT_GIVEN = 1e20  # a limit above it, or a speed or effort of 0, means that there is none
 _TYPE_NAMES = {"FreeFlyer": "floating", "RevoluteUnaligned": "revolute", "PrismaticUnaligned": "prismatic"}
@@ -44,8 +41,8 @@ def read_pinocchio_model(
 ) -> ArmData:
     """Return the serial arm from frame ``base`` to frame ``tip`` of a ``pinocchio.Model``.
 
-    Links are the model's frames of the types body, sensor, and operational frame, and ``universe``. The joints stand at the
-    model's neutral configuration where they are no joints of the arm. The whole inertia of a joint belongs to its first link.
+    Links are the model's frames of the types body, sensor, and operational frame, and ``universe``. Joints outside
+    the chain are held at the model's neutral configuration. The whole inertia of a joint belongs to its first link.
 
     Args:
         model: The ``pinocchio.Model``.
@@ -183,7 +180,7 @@ def _arm_configuration(model: Any, arm: ArmData, q: FloatArray) -> FloatArray:
 # ---- write -------------------------------------------------------------------------------------------------------
 
 
-def build_pinocchio_model(arm: Arm) -> Any:
+def build_pinocchio_model(arm: ArmData) -> Any:
     """Return the arm as a ``pinocchio.Model`` with the same frames, limits, friction, rotor inertia, and gravity.
 
     Joint values are those of the arm, one number per joint, also for joints without limits. The frame of joint k is named after
