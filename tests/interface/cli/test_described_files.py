@@ -106,6 +106,8 @@ def descriptions(workspace, tmp_path_factory, monkeypatch):
     for name, text in modules.items():
         (package / f"{name}.py").write_text(text)
     monkeypatch.syspath_prepend(str(folder))
+    for name in [name for name in sys.modules if name.partition(".")[0] == "robot_descriptions"]:
+        monkeypatch.delitem(sys.modules, name)
     yield package
     for name in [name for name in sys.modules if name.partition(".")[0] == "robot_descriptions"]:
         del sys.modules[name]

@@ -106,7 +106,7 @@ def test_a_record_in_mujoco(book):
     mujoco = pytest.importorskip("mujoco")
     record = book["pose-9R-k2-001"]
     arm = record.arm
-    model = mujoco.MjModel.from_xml_string(hf.arms.urdf_text(arm))
+    model = mujoco.MjModel.from_xml_string(arm.to_urdf())
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     j, last = np.zeros((6, arm.n)), model.nbody - 1
@@ -121,7 +121,7 @@ def test_a_record_in_mujoco(book):
 @pytest.mark.parametrize("name", ["panda", "ur5-rail", "planar-3r"])
 def test_an_arm_written_as_urdf_is_the_same_arm(name, tmp_path, rng):
     arm, file = hf.arms.load(name), tmp_path / "arm.urdf"
-    file.write_text(hf.arms.urdf_text(arm), encoding="utf-8")
+    file.write_text(arm.to_urdf(), encoding="utf-8")
     again = hf.Arm.from_urdf(file)
     q = rng.uniform(-1, 1, arm.n)
     assert again.forward_kinematics(q) == pytest.approx(arm.forward_kinematics(q), abs=1e-14)

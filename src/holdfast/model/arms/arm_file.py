@@ -9,7 +9,6 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import replace_file
 from holdfast.core.progress import print_warning
-from holdfast.model.arm.formats.urdf_writing import urdf_text
 from holdfast.model.arm.machine import GRAVITY
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms import dh_file
@@ -21,7 +20,7 @@ def write_arm(arm: Arm, file: Path) -> Path:
     """Write an arm as a URDF file or as a Denavit-Hartenberg table; see :meth:`holdfast.Arm.save`."""
     ending = file.suffix.lower()
     if ending == ".urdf":
-        replace_file(file, urdf_text(arm), "arm file")
+        replace_file(file, arm.to_urdf(), "arm file")
         lost_data = quantities_lost_in_urdf(arm)
         if lost_data:
             print_warning(

@@ -21,7 +21,6 @@ from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, bound_table, upper_bound
 from holdfast.kinematics.solvers.self_motions import self_motion
-from holdfast.model.arm.formats.urdf_writing import urdf_text
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms import dh_file, load, names
 from holdfast.studies.designs.record_book.measuring import (
@@ -147,7 +146,7 @@ class DesignRecord(Result):
         """
         if self.arm is None:
             raise InputError(f"'{self.id}' has only a null space; measurements/synthesis in the repository makes arms from it")
-        return urdf_text(self.arm)
+        return self.arm.to_urdf()
 
     @property
     def q(self) -> FloatArray:
