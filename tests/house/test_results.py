@@ -103,6 +103,7 @@ INPUTS = named(
         "kinematics.paths": "Constant Path TimedPath Trapezoid",
         "studies": "StudyFile",
         "interface.studio": "State Studio",
+        "response.supervisor": "FrozenJoints",
         "teleop": "Measure Person PointTasks Protocol Records EndRules Scenario Joystick Training",
     }
 )
