@@ -67,7 +67,7 @@ def answer_with_pinocchio(
         ValueError: Pinocchio cannot read the file.
     """
     pin = import_module("pinocchio")
-    text = strip_shapes(file.read_text(encoding="utf-8", errors="replace"))
+    text = strip_shapes(file.read_text(encoding="utf-8", errors="replace").lstrip())
     if exact_quarter_turns:
         text = re.sub(r'(?<=rpy=")[^"]*', round_angles, text)
     model = pin.buildModelFromXML(text)
@@ -108,7 +108,10 @@ def set_joint(model: Any, q: Array, name: str, value: float) -> None:
 
 
 def strip_shapes(text: str) -> str:
-    """Return a URDF text with its links and joints alone, because urdfdom refuses some shapes that do not matter here."""
+    """Return a URDF text with its links and joints alone.
+
+    The parser of Pinocchio refuses some shapes, and files without a name, effort, or velocity. None of these matters here.
+    """
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError:  # undeclared prefixes
@@ -119,6 +122,8 @@ def strip_shapes(text: str) -> str:
             root.remove(element)
         for shape in (*element.findall("visual"), *element.findall("collision")):
             element.remove(shape)
+        for limit in element.findall("limit"):
+            limit.attrib.update({key: limit.get(key, "0") for key in ("effort", "velocity")})
     return ElementTree.tostring(root, encoding="unicode")
 
 
@@ -147,6 +152,11 @@ def held_values(text: str, chain: ChainQuestion) -> dict[str, float]:
 # ---- MuJoCo ------------------------------------------------------------------------------------------------------
 
 
+def complete_names(names: list[str]) -> list[str]:
+    """Return names in which each made-up one, marked by a blank at its end, gets an underscore if the file uses it."""
+    return [name if name.strip() == name else name.strip() + "_" * (name.strip() in names) for name in names]
+
+
 @lru_cache(maxsize=1)
 def compile_mujoco_model(file: Path) -> Any:
     """Return the model of an MJCF file; the chains of one file share it, because meshes take long."""
@@ -163,8 +173,8 @@ def answer_with_mujoco(file: Path, chain: ChainQuestion, configurations: Array) 
     mujoco = import_module("mujoco")
     model = compile_mujoco_model(file)
     data = mujoco.MjData(model)
-    names = [model.joint(k).name or f"joint{k + 1}" for k in range(model.njnt)]
-    bodies = [model.body(k).name or f"body{k}" for k in range(model.nbody)]
+    names = complete_names([model.joint(k).name or f"joint{k + 1} " for k in range(model.njnt)])
+    bodies = complete_names([model.body(k).name or f"body{k} " for k in range(model.nbody)])
     for k, name in enumerate(names):
         if int(model.jnt_type[k]) in (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)):
             value = chain.hold.get(name, data.qpos[model.jnt_qposadr[k]])

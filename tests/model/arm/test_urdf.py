@@ -313,7 +313,7 @@ def test_reversed_limits_beside_the_chain_hold_the_joint_at_the_nearest_one(
     path = write(tmp_path, AB, link("w", heavy()), J, joint("finger", "b", "w", "prismatic", slide))
     np.testing.assert_allclose(Arm.from_urdf(path, tip="b").links[0].com, [1, stands_at, 0])
     np.testing.assert_allclose(Arm.from_urdf(path, tip="b", hold={"finger": lower}).links[0].com, [1, lower, 0])
-    with pytest.raises(ArmError, match="its limits are reversed"):
+    with pytest.raises(ArmError, match="limits of joint 'finger' are reversed"):
         Arm.from_urdf(path, tip="w")
     with pytest.raises(ArmError, match="within its limits"):
         Arm.from_urdf(path, tip="b", hold={"finger": 9.0})
@@ -391,7 +391,7 @@ REFUSED = [
     (
         AB + joint("j", "a", "b", inside="<limit lower='1' upper='-1'/>"),
         {},
-        "joint 'j': its limits are reversed, lower 1 is above upper -1; swap them",
+        "limits of joint 'j' are reversed: lower 1 is above upper -1; swap them",
     ),
     (
         AB + joint("j", "a", "b", inside=""),

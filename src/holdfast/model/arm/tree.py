@@ -309,12 +309,7 @@ def build_chain(
                 f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
                 "choose a base and tip with independent joints in between"
             )
-        # Next to the chain such joints have no effect, because they are held at 0 or the limit nearest to it.
-        if joint.lower > joint.upper:
-            raise ArmError(
-                f"joint '{joint.name}': its limits are reversed, "
-                f"lower {joint.lower:g} is above upper {joint.upper:g}; swap them"
-            )
+        # Next to the chain such a joint has no effect, because it is held at 0.
         if tree.limits_required and joint.type in LIMITED_TYPES and not np.isfinite(joint.lower):
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
