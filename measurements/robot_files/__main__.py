@@ -1,6 +1,7 @@
-"""Compare public robot files with Pinocchio and MuJoCo: ``python -m measurements.robot_files FOLDER``; writes RESULTS.md.
+"""Compare public robot files with Pinocchio and MuJoCo, and write RESULTS.md and FILES.md.
 
-FOLDER contains one folder per repository or package. A file ``.version`` in it, if there is one, states its commit and date.
+Run ``python -m measurements.robot_files FOLDER``. FOLDER contains one folder per repository or package. A file ``.version``
+in it, if there is one, states its commit and date.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from datetime import date
 from importlib.metadata import version
 from multiprocessing import get_context
 from pathlib import Path
 
-from measurements.robot_files.compare import CONFIGURATIONS, SEED, TOLERANCE, Outcome, examine
+from measurements.robot_files.compare import CONFIGURATIONS, MAX_CHAINS, SEED, TOLERANCE, Outcome, examine
 from measurements.robot_files.files import RobotFile, find_robot_files
 
 HERE = Path(__file__).parent
@@ -84,8 +86,9 @@ def write_results(outcomes: Sequence[Outcome], versions: dict[str, str]) -> str:
         f"- {len(outcomes) - len(expanded)} xacro files could not be expanded by the package `xacro` alone, because another "
         "package or an argument is missing. They are not counted above.",
         "",
-        "URDF files are compared with Pinocchio, and MJCF files with MuJoCo. A file counts if it has at least 3 moving joints "
-        "and no other file has the same links and joints.",
+        "[FILES.md](FILES.md) lists every file. URDF files are compared with Pinocchio, and MJCF files with MuJoCo. A file "
+        "counts if it has at least 3 moving joints and no other file has the same links and joints. Of a robot with several "
+        f"ends, at most {MAX_CHAINS} chains are compared.",
         "",
         "## Makers",
         "",
@@ -98,10 +101,6 @@ def write_results(outcomes: Sequence[Outcome], versions: dict[str, str]) -> str:
         "## Sentences",
         "",
         *table_of_sentences(expanded),
-        "",
-        "## Files",
-        "",
-        *table_of_files(expanded),
     ]
     return "\n".join(lines) + "\n"
 
@@ -162,13 +161,19 @@ def table_of_sentences(outcomes: Sequence[Outcome]) -> list[str]:
     return ["| files | example |", "|---|---|", *(f"| {len(texts)} | {escape_cell(texts[0], 600)} |" for texts in rows)]
 
 
-def table_of_files(outcomes: Sequence[Outcome]) -> list[str]:
-    """Return a table with one row per file."""
+def write_files(outcomes: Sequence[Outcome]) -> str:
+    """Return the text of FILES.md: a table with one row per file."""
     lines = [
+        "# Robot files one by one",
+        "",
+        "The table continues [RESULTS.md](RESULTS.md). Numbers are the largest differences of all compared chains.",
+        "",
         "| file | maker | chains, joints | pose | Jacobian | torque | sentence |",
         "|---|---|---|---|---|---|---|",
     ]
     for outcome in sorted(outcomes, key=lambda outcome: outcome.file.label.lower()):
+        if outcome.file.problem:
+            continue
         compared = outcome.comparisons
         joints = ", ".join(str(comparison.joints) for comparison in compared)
         torques = [comparison.torque for comparison in compared if comparison.torque is not None]
@@ -182,7 +187,7 @@ def table_of_files(outcomes: Sequence[Outcome]) -> list[str]:
             "" if compared else escape_cell(outcome.failure or outcome.sentences[-1], 240),
         ]
         lines.append("| " + " | ".join(cells) + " |")
-    return lines
+    return "\n".join(lines) + "\n"
 
 
 def escape_cell(text: str, length: int = 120) -> str:
@@ -190,17 +195,23 @@ def escape_cell(text: str, length: int = 120) -> str:
     return (text if len(text) <= length else f"{text[: length - 4]} ...").replace("|", "\\|").replace("<", "&lt;")
 
 
+def hide_folder(outcome: Outcome, folder: Path) -> Outcome:
+    """Return an outcome whose sentences name files relative to ``folder``."""
+    return replace(outcome, sentences=tuple(sentence.replace(f"{folder}/", "") for sentence in outcome.sentences))
+
+
 def main(folder: Path) -> None:
-    """Compare all files below ``folder``, and write RESULTS.md."""
+    """Compare all files below ``folder``, and write RESULTS.md and FILES.md."""
     versions = {}
     for place in folder.iterdir():
         with suppress(OSError):
             versions[place.name.replace("+", "/")] = (place / ".version").read_text().strip()
     with tempfile.TemporaryDirectory() as expanded, ProcessPoolExecutor(WORKERS, get_context("spawn")) as pool:
         files = list(find_robot_files(folder, Path(expanded)))
-        outcomes = list(pool.map(examine_in_time, files, chunksize=4))
+        outcomes = [hide_folder(outcome, folder) for outcome in pool.map(examine_in_time, files, chunksize=4)]
     (HERE / "RESULTS.md").write_text(write_results(outcomes, versions), encoding="utf-8")
+    (HERE / "FILES.md").write_text(write_files(outcomes), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Path(sys.argv[1]).absolute())
