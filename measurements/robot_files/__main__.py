@@ -77,6 +77,8 @@ def write_results(outcomes: Sequence[Outcome], versions: dict[str, str]) -> str:
         f"(seed {SEED}). Differences are relative to the largest entry if that is above 1.",
         f"- {states['sentence']} files end in one sentence. {states['different']} files differ, and {states['failed']} end in "
         "an error that is not a sentence.",
+        f"- {sum('Error opening file' in outcome.sentences[-1] for outcome in expanded if outcome.state == 'sentence')} of the "
+        "sentences name a file that was not downloaded: a mesh of 4 MiB or more, a submodule, or a file of another repository.",
         f"- {sum(bool(o.sentences) for o in expanded if o.comparisons)} of the files that open need an option that the first "
         "error message names, most often `--tip`. The measurement follows this advice.",
         f"- {sum(comparison.rounded for comparison in chains)} chains are equal only if Pinocchio, too, takes angles within "
@@ -96,9 +98,13 @@ def write_results(outcomes: Sequence[Outcome], versions: dict[str, str]) -> str:
         "",
         "## Sources",
         "",
+        "A licence is listed as the nearest package.xml or licence file states it, TODO included.",
+        "",
         *table_of_sources(expanded, versions),
         "",
         "## Sentences",
+        "",
+        "Sentences of the same form are counted together.",
         "",
         *table_of_sentences(expanded),
     ]
