@@ -238,6 +238,45 @@ def test_ties_beside_the_chain_do_no_harm(tmp_path, more):
     assert hf.Arm.from_mjcf(ties(tmp_path, TWO_FINGERS, more), tip="b").n == 2
 
 
+def test_unnamed_bodies_and_joints_get_names_that_the_file_does_not_use(tmp_path):
+    inside = f"<body name='body2'>{hinge('joint2')}{BALL}<body><joint/>{BALL}</body></body>"
+    arm = hf.Arm.from_mjcf(ties(tmp_path, inside, ""))
+    assert arm.joint_names == ("joint2", "joint2_")
+    assert arm.chain.tip == "body2_"
+
+
+def test_an_actuator_with_several_controls_does_not_shift_the_efforts_of_others(tmp_path):
+    """MuJoCo 4 has more controls than actuators if one of them drives an orientation."""
+    ball = f"<body name='ball'><joint name='s' type='ball'/>{BALL}</body>"
+    drive = "<orientation joint='s' kp='1' forcerange='0 9'/>" if hasattr(mujoco.MjModel, "actuator_ctrladr") else ""
+    motors = "<motor joint='j' gear='2' ctrlrange='-3 3'/><motor joint='k' gear='5' ctrlrange='-7 7'/>"
+    more = f"<compiler autolimits='true'/><actuator>{drive}{motors}</actuator>"
+    arm = hf.Arm.from_mjcf(ties(tmp_path, PAIR + ball, more), tip="b")
+    assert [joint.effort for joint in arm.joints] == [6, 35]
+
+
+def test_a_mocap_body_that_pulls_the_arm_is_no_loop(tmp_path):
+    more = "<equality><weld body1='pull' body2='b'/></equality>"
+    assert hf.Arm.from_mjcf(ties(tmp_path, PAIR + "<body name='pull' mocap='true'/>", more), tip="b").joint_names == ("j", "k")
+    with pytest.raises(hf.ArmError, match="closes a loop"):
+        hf.Arm.from_mjcf(ties(tmp_path, PAIR + "<body name='pull'/>", more), tip="b")
+
+
+def test_a_gripper_of_closed_loops_ends_the_arm_at_its_base(tmp_path):
+    """Four bars on each side, as in many grippers: rods whose ends meet, and no name that says finger."""
+    side = (
+        "<body name='{0}1'>{1}" + BALL + "<body name='{0}2' pos='0 0 1'>{2}" + BALL + "</body></body>"
+        "<body name='{0}3' pos='0 1 0'>{3}" + BALL + "</body>"
+    )
+    bars = "".join(side.format(x, *(hinge(f"{x}{k}") for k in (1, 2, 3))) for x in "lr")
+    inside = PAIR.replace("</body></body>", f"<body name='palm'>{BALL}{bars}</body></body></body>")
+    more = "<equality><connect body1='l2' body2='l3' anchor='0 1 0'/><connect body1='r2' body2='r3' anchor='0 1 0'/></equality>"
+    with pytest.raises(hf.ArmError, match=r"the arm could end at .*'palm'") as caught:
+        hf.Arm.from_mjcf(ties(tmp_path, inside, more))
+    assert caught.value.tip == "palm"
+    assert hf.Arm.from_mjcf(ties(tmp_path, inside, more), tip="palm").joint_names == ("j", "k")
+
+
 @pytest.mark.parametrize("objects", [1, 3])
 def test_free_objects_beside_the_arm_are_no_ends_of_it(tmp_path, objects):
     beside = "".join(f"<body name='cube{k}' pos='1 {k} 1'><freejoint/>{BALL}</body>" for k in range(objects))

@@ -110,9 +110,23 @@ def test_an_arm_that_is_all_fingers_asks(tmp_path: Path) -> None:
     parts = [link("palm"), link("a"), link("b"), joint("finger_1", "palm", "a"), joint("finger_2", "a", "b")]
     path = tmp_path / "finger.urdf"
     path.write_text(f"<robot name='finger'>{''.join(parts)}</robot>")
-    with pytest.raises(ArmError, match=r"only the fingers of a gripper move on 'palm' \('a', 'b'\); name one with --tip"):
+    with pytest.raises(
+        ArmError, match=r"only the fingers of a gripper move on 'palm' \('a', 'b'\); name one with --tip"
+    ) as caught:
         hf.Arm.from_urdf(path)
+    assert caught.value.tip == "b"  # the command line shows it in an example
     assert hf.Arm.from_urdf(path, tip="b").n == 2
+
+
+def test_a_pinky_is_a_finger_and_a_tip_on_independent_joints_is_suggested(tmp_path: Path) -> None:
+    """Fingers of a hand often have other names, and their outer joints mimic the inner ones."""
+    pinky = (link("pinky"), joint("pinky", "right_hand", "pinky"))
+    assert hf.Arm.from_urdf(sawyer(tmp_path, *HAND, gripper=pinky)).chain == hf.model.arm.Chain("base", "right_hand")
+    outer = joint("ring_2", "ring_1", "ring_tool", inside="<mimic joint='ring_1'/>")
+    ring = (link("ring_1"), joint("ring_1", "right_hand", "ring_1"), link("ring_tool"), outer)
+    with pytest.raises(ArmError, match="the arm could end at 'ring_tool', 'right_hand_camera'") as caught:
+        hf.Arm.from_urdf(sawyer(tmp_path, *HAND, *CAMERA, gripper=ring))
+    assert caught.value.tip == "right_hand_camera"
 
 
 def test_a_panda_with_its_hand_ends_at_the_hand_s_frame() -> None:

@@ -305,6 +305,20 @@ def test_faults_far_from_the_chain_do_no_harm(tmp_path: Path) -> None:
     np.testing.assert_allclose(arm.links[0].com, [1, 0, 0])
 
 
+@pytest.mark.parametrize(("lower", "upper", "stands_at"), [(1, 0, 0), (3, 1, 1), (-1, -3, -1)])
+def test_reversed_limits_beside_the_chain_hold_the_joint_at_the_nearest_one(
+    tmp_path: Path, lower: float, upper: float, stands_at: float
+) -> None:
+    slide = f"<axis xyz='0 1 0'/><limit lower='{lower}' upper='{upper}'/>"
+    path = write(tmp_path, AB, link("w", heavy()), J, joint("finger", "b", "w", "prismatic", slide))
+    np.testing.assert_allclose(Arm.from_urdf(path, tip="b").links[0].com, [1, stands_at, 0])
+    np.testing.assert_allclose(Arm.from_urdf(path, tip="b", hold={"finger": lower}).links[0].com, [1, lower, 0])
+    with pytest.raises(ArmError, match="limits of joint 'finger' are reversed"):
+        Arm.from_urdf(path, tip="w")
+    with pytest.raises(ArmError, match="within its limits"):
+        Arm.from_urdf(path, tip="b", hold={"finger": 9.0})
+
+
 def test_long_lists_are_cut(tmp_path: Path) -> None:
     many = [link(f"c{k}") + joint(f"k{k}", "b", f"c{k}") for k in range(70)]
     with pytest.raises(ArmError, match=r"the arm could end at 'c0', .* 'c59' and 10 more; name one with --tip \(tip= in"):
@@ -323,7 +337,11 @@ def test_the_only_end_is_found(tmp_path: Path) -> None:
 GRIPPER = AB + link("c") + link("d") + J + joint("k", "b", "c") + joint("l", "b", "d")
 REFUSED = [
     ("", {}, "the robot has no <link>; it needs at least two links and a joint"),
-    (AB + joint("j", "a", "x"), {}, "joint 'j' names the child link 'x', which the file does not define"),
+    (
+        AB + joint("j", "a", "x"),
+        {},
+        "joint 'j' names the child link 'x', which the file does not define; correct the name or add the link",
+    ),
     (AB + joint("j", "x", "b"), {}, "joint 'j' names the parent link 'x', which the file does not define"),
     (AB + J + joint("k", "a", "b"), {}, "link 'b' is the child of both 'j' and 'k'; a tree gives each link one parent"),
     (AB + link("c") + J, {}, "the links 'a', 'c' have no parent; a tree has one root, so connect them with joints"),
@@ -373,7 +391,7 @@ REFUSED = [
     (
         AB + joint("j", "a", "b", inside="<limit lower='1' upper='-1'/>"),
         {},
-        "joint 'j': its limits are reversed, lower 1 is above upper -1; swap them",
+        "limits of joint 'j' are reversed: lower 1 is above upper -1; swap them",
     ),
     (
         AB + joint("j", "a", "b", inside=""),
@@ -450,7 +468,7 @@ REFUSED = [
     (
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='x'/>"),
         {"tip": "b"},
-        "joint 'k' mimics 'x', which the file does not define",
+        "joint 'k' mimics 'x', which the file does not define; correct the name, or freeze the joint: --hold k=0",
     ),
     (
         AB + joint("j", "a", "b", "continuous", "<mimic joint='j' multiplier='two'/>"),
@@ -518,7 +536,7 @@ def test_refusals(tmp_path: Path, parts: str, options: dict, sentence: str) -> N
 
 
 RAW = [
-    (b"<robot", "this is not valid XML"),
+    (b"<robot", r"this is not valid XML \(.*line 1.*\); correct it there, or give another URDF file"),
     (b"", "this is not valid XML"),
     (b"<?xml version='1.0' encoding='klingon'?><robot/>", "this is not valid XML"),
     (b"<sdf/>", "the outermost element is <sdf>; a URDF file has <robot>"),
@@ -572,6 +590,13 @@ def test_prefixes_need_no_declaration_and_leftover_definitions_do_no_harm(tmp_pa
     other = yourdfpy.URDF.load(str(plain), load_meshes=False, build_scene_graph=True)
     other.update_cfg({"j": 0.2})
     np.testing.assert_allclose(Arm.from_urdf(path).forward_kinematics([0.2]), other.get_transform("b", "a"), atol=1e-12)
+
+
+def test_blanks_before_the_declaration_and_unexpanded_mesh_names_do_no_harm(tmp_path: Path) -> None:
+    mesh = "<visual><geometry><mesh filename='file://$(find arm)/a.stl'/></geometry></visual>"
+    plain, path = Arm.from_urdf(write(tmp_path, AB, J)), tmp_path / "bot.urdf"
+    path.write_text(f"\n<?xml version='1.0'?><robot name='bot'>{link('a', mesh)}{link('b')}{J}</robot>")
+    assert Arm.from_urdf(path).fingerprint == plain.fingerprint
 
 
 @pytest.mark.parametrize("call", ["<xacro:arm name='x'/>", "<x:arm/>", "<link name='${side}_hand'/>"])

@@ -67,15 +67,16 @@ def load_mjcf(
     anchor of joint i as origin; ``tool`` is the frame of ``tip``; joint values are MuJoCo's, including ``ref``.
 
     The arm takes ``range``, ``armature``, ``damping`` (the friction), gravity, and as effort the joint's ``actuatorfrcrange``
-    or else the total capacity of its actuators. Springs, dry friction, gravity compensation and contacts are left out, because
-    an Arm has none. Named keyframes become ``states``.
+    or else the total capacity of its actuators. Springs, dry friction, gravity compensation, contacts, and equalities with
+    mocap bodies are left out, because an Arm has none. Named keyframes become ``states``.
 
     Args:
         path: MJCF file; files that it names are searched next to it.
         base: Name of the body on which the arm is mounted; default: ``world``.
         tip: Name of the body, or else of the site, whose frame is the tool; optional as for a URDF file.
         hold: Values, rad or m, of joints that are held, on the chain or next to it; held joints on the chain are no joints of
-            the arm. By default all joints on the chain move, and those next to it are held at the file's initial pose.
+            the arm. By default all joints on the chain move, and those next to it are held at the file's initial pose, within
+            their limits.
         name: Name of the arm; default: the model name in the file.
         label: Name of the source in error messages and reports; default: the name of the file.
 
@@ -120,7 +121,7 @@ def model_name(model: Any) -> str:
 
 def body_name(model: Any, body: int) -> str:
     """Return the name of a body of the model in the tree."""
-    return model.body(body).name or f"body{body}"
+    return model.body(body).name or _names_or_numbers(model.nbody, model.body, "body", 0)[body]
 
 
 def _compile_model(mujoco: ModuleType, path: Path) -> Any:
@@ -156,9 +157,14 @@ def pose_from_wxyz(position: ArrayLike, wxyz: ArrayLike) -> FloatArray:
 
 
 def _names_or_numbers(count: int, accessor: Callable[[int], Any], kind: str, start: int) -> list[str]:
-    """Return the names of all bodies or joints; an unnamed one gets its number, counted from ``start``."""
+    """Return unique names of all bodies or joints; an unnamed one gets its number, counted from ``start``."""
     names = [str(accessor(k).name) for k in range(count)]
-    return [name or f"{kind}{k + start}" for k, name in enumerate(names)]
+    for k in range(count):
+        label = f"{kind}{k + start}"
+        while not names[k]:
+            names[k] = "" if label in names else label
+            label += "_"
+    return names
 
 
 def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> LinkTree:
@@ -199,8 +205,22 @@ def _read_tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> L
                 joints[f"{tip} (fixed)"] = fixed_joint(
                     tip, carrier, pose_from_wxyz(model.site_pos[site_index], model.site_quat[site_index])
                 )
-    tied = frozenset(joint_names[k] for _, _, joints, _ in _iterate_couplings(mujoco, model) if len(joints) > 1 for k in joints)
-    return LinkTree(label, links, joints, limits_required=False, tied=tied)
+    tied: set[str] = set()
+    looped: set[str] = set()
+    for _, _, coupled_joints, coupled_bodies in _iterate_couplings(mujoco, model):
+        tied.update(joint_names[k] for k in coupled_joints if len(coupled_joints) > 1)
+        carriers = [{joint_names[k] for k in _joints_above(model, body)} for body in coupled_bodies]
+        if carriers:
+            looped |= carriers[0].union(*carriers) - carriers[0].intersection(*carriers)
+    return LinkTree(label, links, joints, limits_required=False, tied=frozenset(tied), looped=frozenset(looped))
+
+
+def _joints_above(model: Any, body: int) -> Iterator[int]:
+    """Yield the joints that move a body."""
+    while body:
+        first = int(model.body_jntadr[body])
+        yield from range(first, first + int(model.body_jntnum[body]))
+        body = int(model.body_parentid[body])
 
 
 def _read_body(model: Any, body_index: int, name: str) -> Link | None:
@@ -243,20 +263,25 @@ def _actuator_effort(mujoco: ModuleType, model: Any, joint_index: int) -> float:
         return float(np.abs(model.jnt_actfrcrange[joint_index]).max())
     total, has_actuator = 0.0, False
     joint_transmissions = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
-    for actuator in range(model.nu):
+    for actuator in range(len(model.actuator_trntype)):
         if (
             int(model.actuator_trntype[actuator]) not in joint_transmissions
             or int(model.actuator_trnid[actuator, 0]) != joint_index
         ):
             continue
-        gear, has_actuator = abs(float(model.actuator_gear[actuator, 0])), True
+        # From MuJoCo 4 on, an actuator may have several controls and outputs.
+        control, output = (
+            int(getattr(model, key)[actuator]) if hasattr(model, key) else actuator
+            for key in ("actuator_ctrladr", "actuator_outadr")
+        )
+        gear, has_actuator = abs(float(model.actuator_gear[output, 0])), True
         has_fixed_gain = int(model.actuator_gaintype[actuator]) == int(mujoco.mjtGain.mjGAIN_FIXED)
         is_motor = has_fixed_gain and int(model.actuator_biastype[actuator]) == int(mujoco.mjtBias.mjBIAS_NONE)
         if model.actuator_forcelimited[actuator]:
             total += gear * float(np.abs(model.actuator_forcerange[actuator]).max())
-        elif is_motor and model.actuator_ctrllimited[actuator]:
+        elif is_motor and model.actuator_ctrllimited[control]:
             total += (
-                gear * abs(float(model.actuator_gainprm[actuator, 0])) * float(np.abs(model.actuator_ctrlrange[actuator]).max())
+                gear * abs(float(model.actuator_gainprm[actuator, 0])) * float(np.abs(model.actuator_ctrlrange[control]).max())
             )
         else:
             return np.inf
@@ -331,7 +356,8 @@ def _iterate_couplings(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, st
         elif kind in (int(equality_types.mjEQ_CONNECT), int(equality_types.mjEQ_WELD)):
             at_sites = int(model.eq_objtype[index]) == int(object_types.mjOBJ_SITE)
             bodies = [int(model.site_bodyid[object_id]) if at_sites else max(object_id, 0) for object_id in ends]
-            yield "equality", name, [], bodies
+            if not any(model.body_mocapid[body] >= 0 for body in bodies):  # a mocap body pulls the arm; it is no part of it
+                yield "equality", name, [], bodies
     for index in range(model.ntendon):
         first_wrap, tied_joints, tied_bodies = int(model.tendon_adr[index]), [], []
         for wrap_index in range(first_wrap, first_wrap + int(model.tendon_num[index])):

@@ -44,14 +44,14 @@ def _read_text(path: Path) -> str:
         with reading.guard_reading(advice="give the path of an MJCF file", error_type=ArmError):
             return reading.read_text(path, _MAX_MODEL_BYTES)
     except UnicodeDecodeError as error:
-        raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
+        raise ArmError(f"this is not valid XML ({error}); correct it there, or give another MJCF file") from error
 
 
 def _check_model(text: str, path: Path, folder: Path, seen: set[Path]) -> None:
     try:
         root = ElementTree.fromstring(text)
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
+        raise ArmError(f"this is not valid XML ({error}); correct it there, or give another MJCF file") from error
     elements = 0
     for element, copies in _elements_with_copies(root, 1):
         elements += copies

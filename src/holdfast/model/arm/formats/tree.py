@@ -17,7 +17,7 @@ from holdfast.model.arm.poses import joint_motion
 
 MOVING_TYPES = get_args(JointType)
 LIMITED_TYPES = ("revolute", "prismatic")
-FINGER_PATTERN = re.compile("finger|thumb|knuckle|jaw|claw", re.IGNORECASE)
+FINGER_PATTERN = re.compile("finger|thumb|pinky|knuckle|jaw|claw", re.IGNORECASE)
 GRIPPER_PATTERN = re.compile("grip", re.IGNORECASE)
 TOOL_PATTERN = re.compile("tool|tcp|flange|grip|grasp|effector", re.IGNORECASE)
 TIP_ADVICE = "name one with --tip (tip= in Python)"
@@ -69,6 +69,7 @@ class LinkTree:
     joints: dict[str, TreeJoint]
     limits_required: bool = True  # the format requires limits of revolute and prismatic joints
     tied: frozenset[str] = frozenset()  # joints coupled to others, such as fingers
+    looped: frozenset[str] = frozenset()  # joints of closed loops, such as those of a four-bar gripper
     joint_above: dict[str, TreeJoint] = field(default_factory=dict)  # link -> joint that carries it
     joints_below: dict[str, list[TreeJoint]] = field(default_factory=dict)  # link -> joints attached to it
 
@@ -79,7 +80,10 @@ class LinkTree:
         for joint in self.joints.values():
             for role, link in (("parent", joint.parent), ("child", joint.child)):
                 if link not in self.bodies:
-                    raise ArmError(f"joint '{joint.name}' names the {role} link '{link}', which the file does not define")
+                    raise ArmError(
+                        f"joint '{joint.name}' names the {role} link '{link}', which the file does not define; "
+                        "correct the name or add the link"
+                    )
             if joint.child in self.joint_above:
                 other = self.joint_above[joint.child].name
                 raise ArmError(
@@ -151,7 +155,8 @@ def require_single_tip(tree: LinkTree, base: str) -> str:
         raise ArmError(f"the arm could end at {list_names(candidates)}; {TIP_ADVICE}", tip=likely_tip(tree, base, candidates))
     moving = [joint.child for joint in _descendant_joints(tree, base) if joint.is_moving]
     if moving:
-        raise ArmError(f"only the fingers of a gripper move on '{base}' ({list_names(moving)}); {TIP_ADVICE}")
+        farthest = max(moving, key=lambda link: len(tree.joint_path(base, link)))
+        raise ArmError(f"only the fingers of a gripper move on '{base}' ({list_names(moving)}); {TIP_ADVICE}", tip=farthest)
     raise ArmError(f"no moving joint hangs on '{base}'; an arm needs at least one")
 
 
@@ -197,11 +202,16 @@ def possible_tips(tree: LinkTree, base: str) -> list[str]:
 
 
 def likely_tip(tree: LinkTree, base: str, candidates: Sequence[str]) -> str:
-    """Return the candidate that most resembles a tool: by its name, then the fewest fingers on its path, then the farthest."""
+    """Return the candidate that most resembles a tool.
 
-    def rank_tip(link: str) -> tuple[bool, int]:
+    Independent joints on its path count first, then its name, then the fewest fingers on its path, then its distance.
+    """
+
+    def rank_tip(link: str) -> tuple[bool, bool, int]:
         moving = [joint for joint in tree.joint_path(base, link) if joint.is_moving]
-        return not TOOL_PATTERN.search(link), sum(_is_finger(joint) or _may_be_finger(tree, joint) for joint in moving)
+        is_dependent = any(joint.name in tree.tied | tree.looped for joint in moving)
+        fingers = sum(_is_finger(joint) or _may_be_finger(tree, joint) for joint in moving)
+        return is_dependent, not TOOL_PATTERN.search(link), fingers
 
     return min(candidates, key=rank_tip)
 
@@ -212,12 +222,11 @@ def _is_finger(joint: TreeJoint) -> bool:
 
 
 def _may_be_finger(tree: LinkTree, joint: TreeJoint) -> bool:
-    """Return whether a joint may be a finger: by name, or with siblings, if coupled to a joint or one of two prismatic ones."""
+    """Return whether a joint may be a finger: by name, in a closed loop, or with siblings if coupled or one of two slides."""
     siblings = [sibling for sibling in tree.joints_below[joint.parent] if sibling is not joint]
     has_prismatic_sibling = joint.type == "prismatic" and any(sibling.type == "prismatic" for sibling in siblings)
-    return bool(
-        has_prismatic_sibling or (siblings and joint.name in tree.tied) or GRIPPER_PATTERN.search(f"{joint.name} {joint.child}")
-    )
+    is_coupled = joint.name in tree.looped or (siblings and joint.name in tree.tied)
+    return bool(has_prismatic_sibling or is_coupled or GRIPPER_PATTERN.search(f"{joint.name} {joint.child}"))
 
 
 def _descendant_joints(tree: LinkTree, base: str) -> Iterator[TreeJoint]:
@@ -411,10 +420,11 @@ class LockedJoints:
                     f"hold names '{name}', which is not a moving joint of this file; those are {list_names(movable_names)}"
                 )
             joint = tree.joints[name]
-            if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
+            lower, upper = sorted((joint.lower, joint.upper))
+            if not (np.isfinite(value) and lower <= value <= upper):
                 raise ArmError(
                     f"hold puts joint '{name}' at {value:g}; "
-                    f"it must be a finite number within its limits {joint.lower:g} to {joint.upper:g}"
+                    f"it must be a finite number within its limits {lower:g} to {upper:g}"
                 )
         self.tree, self.on_path, self.hold = tree, on_path, hold
 
@@ -438,6 +448,10 @@ class LockedJoints:
             if master in self.on_path:
                 raise ArmError(f"joint '{joint.name}' mimics '{master}', which moves on the chain; freeze it with hold")
             if master not in self.tree.joints:
-                raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
+                raise ArmError(
+                    f"joint '{joint.name}' mimics '{master}', which the file does not define; correct the name, or freeze the "
+                    f"joint: --hold {joint.name}=0 (hold= in Python)"
+                )
             return multiplier * self.joint_value(self.tree.joints[master], (*mimic_trail, joint.name)) + offset
-        return float(min(max(joint.rest, joint.lower), joint.upper))
+        lower, upper = sorted((joint.lower, joint.upper))  # a file may have them reversed
+        return float(min(max(joint.rest, lower), upper))

@@ -132,13 +132,13 @@ def _parse_robot(path: Path, kind: str) -> ElementTree.Element:
     parser.StartDoctypeDeclHandler = _reject_doctype
     parser.buffer_text = True
     try:
-        parser.Parse(content, True)
+        parser.Parse(content.lstrip(), True)
         robot = builder.close()
     # An unknown encoding in the XML declaration surfaces as LookupError or ValueError.
     except (expat.ExpatError, LookupError, ValueError, AssertionError) as error:
         if isinstance(error, ArmError):
             raise
-        raise ArmError(f"this is not valid XML ({error}); give a {kind} file") from error
+        raise ArmError(f"this is not valid XML ({error}); correct it there, or give another {kind} file") from error
     if robot.tag != "robot":
         raise ArmError(f"the outermost element is <{robot.tag}>; a {kind} file has <robot>")
     return robot
@@ -161,7 +161,8 @@ def _find_xacro(robot: ElementTree.Element) -> Iterator[str]:
             continue
         is_robot_part = is_robot_part or element.tag in ("link", "joint")
         if is_robot_part:
-            yield from (value for value in element.attrib.values() if XACRO_TERM.search(value))
+            # A file name does not change the mechanics; the reader of shapes reports it.
+            yield from (value for key, value in element.attrib.items() if key != "filename" and XACRO_TERM.search(value))
         pending += [(child, is_robot_part) for child in reversed(element)]
 
 
@@ -294,8 +295,6 @@ def _read_limits(element: ElementTree.Element, joint_type: str, label: str) -> t
     if joint_type in LIMITED_TYPES and (limit.get("lower") is not None or limit.get("upper") is not None):
         # According to the format a missing limit is 0.
         lower, upper = (_parse_numbers(limit.get(key, "0"), 1, f"{label}: {key}")[0] for key in ("lower", "upper"))
-        if lower > upper:
-            raise ArmError(f"{label}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
     velocity, effort = (_read_nonnegative(limit, key, label) or np.inf for key in ("velocity", "effort"))
     return lower, upper, velocity, effort
 

@@ -1,0 +1,1 @@
+"""Public robot files, read by holdfast and compared with Pinocchio and MuJoCo."""
