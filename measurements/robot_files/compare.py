@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.core.errors import HoldfastError
-from holdfast.model.arm import Chain, mjcf, tree, urdf
+from holdfast.model.arm import Chain
+from holdfast.model.arm.formats import mjcf, tree, urdf
 from measurements.robot_files.files import RobotFile
 from measurements.robot_files.oracles import Answers, ChainQuestion, answer_with_mujoco, answer_with_pinocchio
 
