@@ -56,8 +56,10 @@ from holdfast.kinematics.solvers import PoseSolutions as PoseSolutions
 from holdfast.kinematics.solvers import optimise as optimise
 from holdfast.kinematics.solvers import self_motion as self_motion
 from holdfast.kinematics.solvers import solve_ik as solve_ik
+from holdfast.kinematics.workspace import ReachabilityMap as ReachabilityMap
 from holdfast.kinematics.workspace import TolerantWorkspace as TolerantWorkspace
 from holdfast.kinematics.workspace import joint_bounds as joint_bounds
+from holdfast.kinematics.workspace import reachability_map as reachability_map
 from holdfast.kinematics.workspace import reachable_when_locked as reachable_when_locked
 from holdfast.kinematics.workspace import tolerant_workspace as tolerant_workspace
 from holdfast.model import arms as arms

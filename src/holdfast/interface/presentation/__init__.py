@@ -58,6 +58,7 @@ PRESENTER_MODULES = {
     "control.physics.execution.Execution": "physics.execution",
     "control.physics.fall.FreeSwing": "physics.free_swing",
     "control.physics.run.PhysicalRun": "physics.physical_run",
+    "kinematics.workspace.reachability.ReachabilityMap": "workspace.reachability_map",
     "kinematics.workspace.tolerance.TolerantWorkspace": "workspace.tolerant_workspace",
     "certificates.suggestions.working_ranges.WorkingRanges": "certificates.working_ranges",
     "response.supervisor.run.FaultRun": "supervisor.fault_run",

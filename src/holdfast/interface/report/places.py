@@ -75,6 +75,42 @@ def place_maps(
         return settle_layout(figure)
 
 
+def panel_maps(
+    plane: Plane, panels: Mapping[str, FloatArray], *, label: str, caption: str, column_count: int = 4, most: float = 1.0
+) -> Figure:
+    """Plot maps over the same positions in rows of ``column_count`` panels, all on one colour scale.
+
+    Args:
+        plane: Positions.
+        panels: (P,) values of each panel, from 0 to ``most``, by title; NaN for a position without a value.
+        label: Label of the colour bar.
+        caption: Line below the figure.
+        column_count: Largest number of panels in a row.
+        most: Upper end of the colour scale.
+    """
+    scale = Scale(0.0, most)
+    columns, rows = min(column_count, len(panels)), -(-len(panels) // column_count)
+    with style():
+        width, height = np.ptp(plane.points, axis=0)
+        panel_width = (WIDTH_IN - 1.2) / max(columns, 3)
+        figure = Figure(
+            figsize=(panel_width * columns + 1.2, rows * (panel_width * np.clip(height / width, 0.4, 1.6) + 0.5) + 0.4)
+        )
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+        for axes, (title, values) in zip(grid.flat, panels.items(), strict=False):
+            _draw_position_map(axes, plane, values, scale)
+            axes.set_title(format_label(title, 24))
+        for axes in list(grid.flat)[len(panels) :]:
+            axes.set_axis_off()
+        for axes in grid[-1]:
+            axes.set_xlabel(plane.labels[0])
+        for axes in grid[:, 0]:
+            axes.set_ylabel(plane.labels[1])
+        label_color_bar(figure.colorbar(scale.mappable, ax=list(grid.flat), shrink=0.9, aspect=30, pad=0.015), label, scale)
+        figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
+        return settle_layout(figure)
+
+
 def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scale) -> None:
     has_value = ~np.isnan(values)
     if plane.cells is not None and plane.axes is not None:
