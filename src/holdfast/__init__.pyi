@@ -85,7 +85,9 @@ from holdfast.response.lock_survival import LockSurvival as LockSurvival
 from holdfast.response.lock_survival import evaluate_motion as evaluate_motion
 from holdfast.response.lock_survival import plan_motion as plan_motion
 from holdfast.response.lock_survival import plan_motion_to as plan_motion_to
+from holdfast.response.recovery import PoseExplanation as PoseExplanation
 from holdfast.response.recovery import Recovery as Recovery
+from holdfast.response.recovery import explain_ik as explain_ik
 from holdfast.response.recovery import recover as recover
 from holdfast.response.supervisor import FaultRun as FaultRun
 from holdfast.response.supervisor import simulate_faults as simulate_faults

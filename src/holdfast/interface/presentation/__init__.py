@@ -62,6 +62,7 @@ PRESENTER_MODULES = {
     "kinematics.workspace.tolerance.TolerantWorkspace": "workspace.tolerant_workspace",
     "certificates.suggestions.working_ranges.WorkingRanges": "certificates.working_ranges",
     "response.supervisor.run.FaultRun": "supervisor.fault_run",
+    "response.recovery.proofs.explanation.PoseExplanation": "recovery.explanation",
     "response.recovery.recovery.Recovery": "recovery.recovery",
     "response.recovery.workspace_after_failure.RemainingWorkspace": "recovery.remaining_workspace",
     "response.recovery.waypoints.WaypointCheck": "recovery.waypoint_check",
