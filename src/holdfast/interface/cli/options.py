@@ -34,6 +34,7 @@ KeepOption = Annotated[
     "along this axis) or plane:0,0,1 (tool point stays in the plane with this normal). Default units: rad, m. Repeatable.",
 ]
 MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
+RrdOption = Annotated[Path | None, "Recording of the motion (.rrd) for the Rerun viewer (needs the extra 'rerun')."]
 PlotOption = Annotated[Path | None, "PNG file for the figure."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]
 RegionOption = Annotated[Path | None, "Region file (YAML). Default: a box around the first arm's home, 1/4 of its reach wide."]

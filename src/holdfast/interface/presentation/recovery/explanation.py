@@ -58,8 +58,8 @@ def _list_reasons(explanation: PoseExplanation) -> list[str]:
     reasons = [f"{capitalise_first(explanation.proof)}."]
     if not explanation.proof:
         reasons = [
-            f"{explanation.starts:,} random starts found no configuration, and an interval search of {explanation.seconds:.2g} s "
-            "decided nothing."
+            f"{explanation.starts:,} random starts found no configuration, and an interval search of "
+            f"{explanation.seconds:.2g} s decided nothing."
         ]
     if explanation.colliding_pair:
         reasons.append(f"If collisions are ignored, the pose is reachable; then {explanation.colliding_pair} are too close.")
