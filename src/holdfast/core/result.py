@@ -59,7 +59,10 @@ class Result(Presentable):
         return files
 
     def to_rrd(self, path: str | Path) -> Path:
-        """Write the motion of the result as a recording for the Rerun viewer: shapes, joint values, and locks over time.
+        """Write the motion of the result as a recording for the Rerun viewer (``rerun FILE``).
+
+        Entities: ``arm/LINK`` is the pose of each link in the world, m, with its shapes, ``joints/JOINT`` the joint value, rad
+        or m, and ``events`` a text at each lock. The timeline is ``time``, s, or ``sample`` for a motion without timing.
 
         Raises:
             InputError: The result contains no motion.

@@ -45,7 +45,6 @@ def test_a_timed_recovery_contains_poses_joints_and_the_lock(tmp_path):
         columns = entities[f"/joints/{name}"]
         np.testing.assert_array_equal(flatten(columns["Scalars:scalars"]), timed.q[:, joint])
         np.testing.assert_allclose(np.array(columns["time"]) / 1e9, timed.time, atol=1e-9)
-        assert set(flatten(entities[f"/locks/{name}"]["Scalars:scalars"])) == {float(name == "panda_joint4")}
     assert entities["/events"]["TextLog:text"] == [["panda_joint4 locked"]]
     model = pin.buildModelFromUrdf(str(DATA_FOLDER / "panda.urdf"))
     data, tip = model.createData(), model.getFrameId("panda_hand_tcp")
@@ -71,13 +70,12 @@ def test_a_lock_during_a_run_is_at_its_time(tmp_path):
     cell = hf.Cell([hf.cell.Sphere("ball", 0.1, pose=[0.0, -2.0, 0.0])])
     runs = hf.simulate(law, [0.3, 0.5, 0.4], [1.5, 1.5], locked=["joint2"], time=0.5, cell=cell)
     entities = read_columns(runs.to_rrd(tmp_path / "run.rrd"))
-    time = np.array(entities["/locks/joint2"]["time"]) / 1e9
-    flags = flatten(entities["/locks/joint2"]["Scalars:scalars"])
-    assert time[flags == 1].min() == pytest.approx(0.5, abs=np.diff(time).max())
-    assert entities["/events"]["time"][0] / 1e9 == pytest.approx(0.5, abs=np.diff(time).max())
+    time = np.array(entities["/joints/joint2"]["time"]) / 1e9
+    lock_time = entities["/events"]["time"][0] / 1e9
+    assert lock_time == pytest.approx(0.5, abs=np.diff(time).max())
     joint2 = flatten(entities["/joints/joint2"]["Scalars:scalars"])
-    assert np.ptp(joint2[flags == 1]) < 1e-9
-    assert np.ptp(joint2[flags == 0]) > 1e-3
+    assert np.ptp(joint2[time >= lock_time]) < 1e-9
+    assert np.ptp(joint2[time < 0.5]) > 1e-3
     # The ball is fixed to the base: its corners are around its centre.
     balls = [
         np.array(columns["Mesh3D:vertex_positions"][0])
@@ -85,6 +83,16 @@ def test_a_lock_during_a_run_is_at_its_time(tmp_path):
         if path.startswith("/arm/base/shape")
     ]
     assert any(np.abs(np.linalg.norm(corners - [0, -2, 0], axis=1) - 0.1).max() < 0.01 for corners in balls)
+
+
+def test_the_response_to_a_fault_contains_the_first_lock(tmp_path):
+    law = hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar")
+    fault = hf.faults.FaultEvent("locked", "joint2", 0.4)
+    run = hf.simulate_faults(law, [0.3, 0.5, 0.4], [1.5, 1.5], faults=[fault], react="known", plan=False, time_limit=1.0)
+    entities = read_columns(run.to_rrd(tmp_path / "fault.rrd"))
+    assert entities["/events"]["TextLog:text"] == [["joint2 locked"]]
+    assert entities["/events"]["time"][0] / 1e9 == pytest.approx(0.4, abs=1e-9)
+    np.testing.assert_array_equal(flatten(entities["/joints/joint3"]["Scalars:scalars"]), run.q[:, 2])
 
 
 def test_a_recovery_without_timing_numbers_its_samples(tmp_path):

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-    from holdfast.interface.presentation.arm.rerun import Motion
     from holdfast.interface.report.page import Block, Section
 
 _MAX_NARROW_COLUMNS = 5  # columns
@@ -241,22 +240,11 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     return [*files, page.write(build_page(presentation, command, drawn), folder / "report.html")]
 
 
-def motion(result: Result) -> Motion:
-    """Return the motion of the result.
-
-    Raises:
-        InputError: The result is not a motion.
-    """
-    from holdfast.interface.presentation.arm.rerun import Motion
-
-    return Motion.from_result(result)
-
-
 def write_rrd(result: Result, path: Path) -> Path:
     """Write the motion of the result as a recording for the Rerun viewer."""
-    from holdfast.interface.presentation.arm.rerun import write_rrd
+    from holdfast.interface.presentation.arm import rerun
 
-    return write_rrd(call_presenter(result, "motion"), path)
+    return rerun.write_rrd(result, path)
 
 
 def write_json(result: Result, path: Path) -> None:

@@ -45,23 +45,27 @@ def place_maps(
     Args:
         plane: Positions.
         rows: (P, C) values of each row of panels, from 0 to ``most``, by title; NaN for a position without a value.
-        columns: (C,) titles of the columns of panels.
+        columns: (C,) titles of the columns of panels, or titles of all panels, row by row;
+            panels without a title are hidden.
         label: Label of the colour bar.
         caption: One or two lines below the figure.
         most: Upper end of the colour scale.
     """
     scale = Scale(0.0, most)
     with style():
-        column_count, row_count = len(columns), len(rows)
+        column_count, row_count = next(iter(rows.values())).shape[1], len(rows)
         panel_edge = min(2.5, max(1.7, WIDTH_IN / column_count))
         figure = Figure(figsize=(panel_edge * column_count + 1.4, (panel_edge + 0.15) * row_count + 0.9))
         panels = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for row, (name, values) in enumerate(rows.items()):
-            for column_index, column in enumerate(columns):
+            for column_index in range(column_count):
                 axes = panels[row, column_index]
+                panel = row * column_count + column_index
+                if panel < len(columns):
+                    axes.set_title(format_label(columns[panel], 22))
+                elif len(columns) > column_count:
+                    axes.set_visible(False)
                 _draw_position_map(axes, plane, values[:, column_index], scale)
-                if row == 0:
-                    axes.set_title(format_label(column, 22))
                 if row == row_count - 1:
                     axes.set_xlabel(plane.labels[0])
                 if column_index == 0:
@@ -72,42 +76,6 @@ def place_maps(
         if plane.mark is not None:  # the legend must not cover the titles
             handles, labels = panels[0, 0].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside upper right")
-        return settle_layout(figure)
-
-
-def panel_maps(
-    plane: Plane, panels: Mapping[str, FloatArray], *, label: str, caption: str, column_count: int = 4, most: float = 1.0
-) -> Figure:
-    """Plot maps over the same positions in rows of ``column_count`` panels, all on one colour scale.
-
-    Args:
-        plane: Positions.
-        panels: (P,) values of each panel, from 0 to ``most``, by title; NaN for a position without a value.
-        label: Label of the colour bar.
-        caption: Line below the figure.
-        column_count: Largest number of panels in a row.
-        most: Upper end of the colour scale.
-    """
-    scale = Scale(0.0, most)
-    columns, rows = min(column_count, len(panels)), -(-len(panels) // column_count)
-    with style():
-        width, height = np.ptp(plane.points, axis=0)
-        panel_width = (WIDTH_IN - 1.2) / max(columns, 3)
-        figure = Figure(
-            figsize=(panel_width * columns + 1.2, rows * (panel_width * np.clip(height / width, 0.4, 1.6) + 0.5) + 0.4)
-        )
-        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-        for axes, (title, values) in zip(grid.flat, panels.items(), strict=False):
-            _draw_position_map(axes, plane, values, scale)
-            axes.set_title(format_label(title, 24))
-        for axes in list(grid.flat)[len(panels) :]:
-            axes.set_axis_off()
-        for axes in grid[-1]:
-            axes.set_xlabel(plane.labels[0])
-        for axes in grid[:, 0]:
-            axes.set_ylabel(plane.labels[1])
-        label_color_bar(figure.colorbar(scale.mappable, ax=list(grid.flat), shrink=0.9, aspect=30, pad=0.015), label, scale)
-        figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
         return settle_layout(figure)
 
 

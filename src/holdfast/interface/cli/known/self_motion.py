@@ -63,6 +63,8 @@ def command(
         explanation = hf.explain_ik(
             model, target_value, task=rows, clearance=clearance or False, margin=apart.margin or 0.0, seed=seed
         )
+        if output.plot is not None:
+            raise InputError("--explain draws no figure; leave --plot out, or use --out for a report")
         output.print_result(explanation)
         raise typer.Exit(0 if explanation.verdict == PoseVerdict.REACHABLE else NOT_MET_EXIT_CODE)
     motion = hf.self_motion(

@@ -3,97 +3,84 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from holdfast.control.simulation.runs import Runs
 from holdfast.core.errors import InputError
 from holdfast.core.extras import import_extra
 from holdfast.core.files.output import replace_file
+from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.body import MeshPart, stretched_length
 from holdfast.interface.presentation.arm.visuals import build_body
 from holdfast.interface.presentation.cell.bodies import build_cell_parts
 from holdfast.model.arm.model import Arm
-from holdfast.model.cell.cell import Cell
+from holdfast.response.recovery.recovery import Recovery
+from holdfast.response.supervisor.run import FaultRun
 
 
-@dataclass(frozen=True)
-class Motion:
-    """Configurations of an arm over time.
-
-    Attributes:
-        arm: Arm model.
-        q: (T, n) configurations, rad and m.
-        time: (T,) times, s; None for a motion without timing, whose samples are numbered.
-        lock_times: ``{joint: time}`` at which a joint locks, s, or the number of its first locked sample.
-        cell: Objects around the arm.
-    """
-
+class _RecordedMotion(NamedTuple):
     arm: Arm
-    q: FloatArray
-    time: FloatArray | None
-    lock_times: Mapping[str, float] = field(default_factory=dict)
-    cell: Cell | None = None
-
-    @classmethod
-    def from_result(cls, result: Any) -> Motion:
-        """Return the motion of a result with the fields ``arm``, ``time``, ``q`` and, if joints lock in it, ``lock_time``.
-
-        Raises:
-            InputError: The result is not a motion.
-        """
-        arm: Arm | None = getattr(result, "arm", None)
-        time, q = (np.asarray(getattr(result, name, ())) for name in ("time", "q"))
-        if arm is None or time.ndim != 1 or not time.size or q.shape != (time.size, arm.n):
-            raise InputError(f"{type(result).__name__} contains no motion, so there is nothing to record for Rerun")
-        lock_times = zip(arm.joint_names, getattr(result, "lock_time", ()), strict=False)
-        finite = {name: float(lock_time) for name, lock_time in lock_times if np.isfinite(lock_time)}
-        return cls(arm, q, time, finite)
+    q: FloatArray  # (T, n), rad and m
+    time: FloatArray | None  # (T,), s; None for a motion without timing, whose samples are numbered
+    lock_times: Mapping[str, float]  # s, or number of a sample; infinite for joints that do not lock
 
 
-def write_rrd(motion: Motion, path: Path) -> Path:
-    """Write a Rerun recording: the shapes of the arm and its environment, its frames, its joint values, and its locks.
+def _read_motion(result: Result) -> _RecordedMotion:
+    """Return the motion of a result, the first one of several runs."""
+    if isinstance(result, Runs):
+        path, joints = result.path(), result.law.arm.joint_names
+        times = np.append(np.arange(len(path.time)) if result.cycles else path.time, np.inf)
+        first_locked = np.where(path.locked.any(axis=0), path.locked.argmax(axis=0), -1)
+        lock_times = dict(zip(joints, times[first_locked].tolist(), strict=True))
+        return _RecordedMotion(result.law.arm, path.q, None if result.cycles else path.time, lock_times)
+    if isinstance(result, Recovery) and len(result.q):
+        timed, start_locks = result.timed, dict.fromkeys(result.locked, 0.0)
+        if timed is None:
+            return _RecordedMotion(result.arm, result.q, None, start_locks)
+        return _RecordedMotion(result.arm, timed.q, timed.time, start_locks)
+    arm, time, q = (getattr(result, name, None) for name in ("arm", "time", "q"))
+    if not (isinstance(arm, Arm) and isinstance(time, np.ndarray) and isinstance(q, np.ndarray) and len(q) == len(time) > 0):
+        raise InputError(f"{type(result).__name__} contains no motion, so there is nothing to record for Rerun")
+    lock_times = dict(zip(arm.joint_names, getattr(result, "lock_time", ()), strict=False))
+    if isinstance(result, FaultRun):
+        locks = [(event.joint, event.onset) for event in result.events if event.kind == "locked"]
+        locks += [(str(action.joint), action.time) for action in result.actions if action.what == "brake"]
+        lock_times = dict(sorted(locks, key=lambda lock: -lock[1]))  # the first lock of each joint counts
+    return _RecordedMotion(arm, q, time, lock_times)
 
-    Entities: ``arm/LINK`` with its pose in the world (m), ``joints/JOINT`` with its value (rad or m), ``locks/JOINT`` with 0 or
-    1, and ``events`` with a text at each lock. The timeline is ``time`` (s), or ``sample`` for a motion without timing.
 
-    Raises:
-        HoldfastError: rerun-sdk is not installed (extra ``rerun``).
-        StoreError: The file cannot be written.
-    """
+def write_rrd(result: Result, path: Path) -> Path:
+    """Write the motion of a result; :meth:`holdfast.core.result.Result.to_rrd` describes the file."""
     rerun = import_extra("rerun", "rerun", "rerun-sdk")
     from scipy.spatial.transform import Rotation
 
-    arm, size = motion.arm, stretched_length(motion.arm)
-    times = np.arange(len(motion.q)) if motion.time is None else motion.time
-    timeline, unit = ("sample", "sequence") if motion.time is None else ("time", "duration")
-    index = [rerun.TimeColumn(timeline, **{unit: times})]
+    arm, q, time, lock_times = _read_motion(result)
+    clearance = getattr(result, "clearance", None)
+    cell = None if clearance is None else clearance.cell
+    timeline, unit = ("sample", "sequence") if time is None else ("time", "duration")
+    index = [rerun.TimeColumn(timeline, **{unit: np.arange(len(q)) if time is None else time})]
     recording = rerun.RecordingStream("holdfast")
     stream = recording.binary_stream()
     recording.log("/", rerun.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     links = ["base", *arm.joint_names, "tool"]
-    for link, poses in zip(links, arm.frames(motion.q).swapaxes(0, 1), strict=True):
+    for link, poses in zip(links, arm.frames(q).swapaxes(0, 1), strict=True):
         quaternions = Rotation.from_matrix(poses[:, :3, :3]).as_quat()
         columns = rerun.Transform3D.columns(translation=poses[:, :3, 3], quaternion=quaternions)
         recording.send_columns(rerun.new_entity_path(["arm", link]), index, columns)
-    parts, _ = build_body(arm, size)
-    parts += [] if motion.cell is None else build_cell_parts(motion.cell, arm.base, size)
-    for number, part in enumerate(parts):
+    size = stretched_length(arm)
+    for number, part in enumerate(build_body(arm, size)[0] + ([] if cell is None else build_cell_parts(cell, arm.base, size))):
         recording.log(["arm", links[part.frame], f"shape{number}"], _make_mesh(rerun, part), static=True)
-    for joint, values in zip(arm.joints, motion.q.T, strict=True):
-        lock_time = motion.lock_times.get(joint.name, np.inf)
-        for entity, series, label in (
-            ("joints", values, f"{joint.name}, {joint.unit}"),
-            ("locks", (times >= lock_time).astype(np.float64), f"{joint.name} locked"),
-        ):
-            entity_path = rerun.new_entity_path([entity, joint.name])
-            recording.log(entity_path, rerun.SeriesLines(names=label), static=True)
-            recording.send_columns(entity_path, index, rerun.Scalars.columns(scalars=series))
+    for joint, values in zip(arm.joints, q.T, strict=True):
+        entity = rerun.new_entity_path(["joints", joint.name])
+        recording.log(entity, rerun.SeriesLines(names=f"{joint.name}, {joint.unit}"), static=True)
+        recording.send_columns(entity, index, rerun.Scalars.columns(scalars=values))
+        lock_time = lock_times.get(joint.name, np.inf)
         if np.isfinite(lock_time):
-            recording.set_time(timeline, **{unit: lock_time if unit == "duration" else int(lock_time)})
+            recording.set_time(timeline, **{unit: int(lock_time) if time is None else float(lock_time)})
             recording.log("events", rerun.TextLog(f"{joint.name} locked", level=rerun.TextLogLevel.WARN))
     replace_file(path, stream.read(), "the recording to")
     return path

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.core.errors import InputError
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
@@ -20,7 +19,6 @@ from holdfast.response.recovery.recovery import RecoveryOutcome
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from holdfast.interface.presentation.arm.rerun import Motion
     from holdfast.interface.report.page import Section
     from holdfast.response.recovery.goals import RelaxedRows
     from holdfast.response.recovery.recovery import Recovery
@@ -105,18 +103,6 @@ def _relaxed_misses(relaxed_rows: RelaxedRows | None) -> dict[str, float] | None
         f"{name}_{unit}": residual
         for name, unit, residual in zip(relaxed_rows.names, relaxed_rows.units, relaxed_rows.misses, strict=True)
     }
-
-
-def motion(recovery: Recovery) -> Motion:
-    """Return the timed motion, or samples of the waypoints at equal distances; the joints are locked from the start."""
-    from holdfast.interface.presentation.arm.rerun import Motion
-    from holdfast.interface.presentation.recovery.recovery_figures import VIEW_FRAMES, resample_path
-
-    if not len(recovery.q):
-        raise InputError("the recovery has no motion, so there is nothing to record for Rerun")
-    timed = recovery.timed
-    q, time = (resample_path(recovery.q, VIEW_FRAMES), None) if timed is None else (timed.q, timed.time)
-    return Motion(recovery.arm, q, time, dict.fromkeys(recovery.locked, 0.0), recovery.cell)
 
 
 def present(recovery: Recovery) -> Presentation:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 _PATH_DOTS = 160  # samples of the tool path
 _GHOST_COUNT = 4  # drawings of the arm between start and end
-VIEW_FRAMES = 121
+_VIEW_FRAMES = 121
 
 
 def build_sections(recovery: Recovery) -> list[Section]:
@@ -43,10 +43,10 @@ def build_sections(recovery: Recovery) -> list[Section]:
             recovery.arm, recovery.at, locked=list(recovery.locked), task=recovery.task, targets=goals, cell=recovery.cell
         )
         return [Section("The arm", [Picture(view.to_html("motion", caption), caption)])]
-    q, time = resample_path(recovery.q, VIEW_FRAMES), np.linspace(0.0, 100.0, VIEW_FRAMES)
+    q, time = _resample_path(recovery.q, _VIEW_FRAMES), np.linspace(0.0, 100.0, _VIEW_FRAMES)
     readings, speed_text = [f"{progress:.0f} % of the path" for progress in time], "at constant speed in joint space"
     if recovery.timed is not None:
-        timed_motion, time = recovery.timed, np.linspace(0.0, recovery.timed.time[-1], VIEW_FRAMES)
+        timed_motion, time = recovery.timed, np.linspace(0.0, recovery.timed.time[-1], _VIEW_FRAMES)
         q = np.stack([np.interp(time, timed_motion.time, column) for column in timed_motion.q.T], axis=1)
         readings, speed_text = [f"{instant:.2f} s" for instant in time], "with its timing within the acceleration limits"
     view = scene(recovery.arm, q, locked=list(recovery.locked), targets=goals, time=time, readings=readings, cell=recovery.cell)
@@ -58,9 +58,9 @@ def draw_motion(recovery: Recovery) -> Figure:
     """Draw the arm at its start, on its path, and at its end; the path of the tool is coloured from start to end."""
     arm = recovery.arm
     has_motion = len(recovery.q) > 1
-    path = resample_path(recovery.q, _PATH_DOTS) if has_motion else np.zeros((0, arm.n))
+    path = _resample_path(recovery.q, _PATH_DOTS) if has_motion else np.zeros((0, arm.n))
     points = arm.forward_kinematics(path)[:, :3, 3] if has_motion else np.zeros((0, 3))
-    ghost_configurations = resample_path(recovery.q, _GHOST_COUNT + 2)[1:-1] if has_motion else np.zeros((0, arm.n))
+    ghost_configurations = _resample_path(recovery.q, _GHOST_COUNT + 2)[1:-1] if has_motion else np.zeros((0, arm.n))
     start, *ghosts, final = arm.frames(
         np.vstack([recovery.at, ghost_configurations, recovery.q[-1] if has_motion else recovery.at])
     )[..., :3, 3]
@@ -147,7 +147,7 @@ def _compose_title(recovery: Recovery) -> str:
     return f"{recovery.arm.name}: {recovery.ending.phrase}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
 
 
-def resample_path(waypoints: Any, count: int) -> Any:
+def _resample_path(waypoints: Any, count: int) -> Any:
     """Resample the path (K, n) at ``count`` equal fractions of its length: configurations (count, n)."""
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(waypoints, axis=0), axis=1))])
     samples = np.linspace(0, lengths[-1], count)

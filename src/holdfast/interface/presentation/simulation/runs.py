@@ -18,7 +18,6 @@ from holdfast.interface.presentation.simulation.errors import REACHED_ERROR, for
 from holdfast.kinematics.paths.joint_table import joint_columns
 
 if TYPE_CHECKING:
-    from holdfast.interface.presentation.arm.rerun import Motion
     from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 
 
@@ -172,18 +171,6 @@ def _tabulate_joints(drawing: RunDrawing) -> TableSpec:
     columns = [Header(key, key, units) for key in ("start", "end", "smallest", "largest")]
     rows = list(zip(drawing.arm.joint_names, *values, notes, strict=True))
     return TableSpec("Joint positions", [Header("joint", "joint"), *columns, Header("note", "")], rows)
-
-
-def motion(runs: Runs) -> Motion:
-    """Return the first run; its samples are numbered if its time is in cycles."""
-    from holdfast.interface.presentation.arm.rerun import Motion
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
-
-    path, names = RunDrawing(runs, 0).full_path, runs.law.arm.joint_names
-    times = np.arange(len(path.time), dtype=np.float64) if runs.cycles else path.time
-    cell = None if runs.clearance is None else runs.clearance.cell
-    lock_times = {name: float(times[flags.argmax()]) for name, flags in zip(names, path.locked.T, strict=True) if flags.any()}
-    return Motion(runs.law.arm, path.q, None if runs.cycles else times, lock_times, cell)
 
 
 def to_csv(runs: Runs, file: Path, k: int) -> Path:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from holdfast.interface.presentation.arm.rerun import Motion
     from holdfast.interface.report.page import Section
     from holdfast.response.supervisor.run import FaultRun
 
@@ -109,36 +108,22 @@ def present(run: FaultRun) -> Presentation:
     )
 
 
-def motion(run: FaultRun) -> Motion:
-    """Return the true motion; a joint locks by a fault, or when the controller brakes it."""
-    from holdfast.interface.presentation.arm.rerun import Motion
-
-    faults = {event.joint: event.onset for event in reversed(run.events) if event.kind == "locked"}
-    cell = None if run.clearance is None else run.clearance.cell
-    return Motion(run.arm, run.q, run.time, _find_brake_times(run) | faults, cell)
-
-
-def _find_brake_times(run: FaultRun) -> dict[str, float]:
-    locked_joints = {} if run.degraded is None else run.degraded.locked
-    return {
-        action.joint: action.time
-        for action in run.actions
-        if action.what == "brake" and action.joint is not None and action.joint in locked_joints
-    }
-
-
 def _build_sections(run: FaultRun) -> Sequence[Section]:
     from holdfast.interface.presentation.arm.view import scene
     from holdfast.interface.report.page import Picture, Section
 
     frame_indices = np.linspace(0, len(run.time) - 1, min(201, len(run.time))).astype(int)
+    locked_joints = {} if run.degraded is None else run.degraded.locked
+    brake_times = {
+        action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
+    }
     caption = "Measured motion of the arm; a braked joint is marked from the time of its brake."
     motion_scene = scene(
         run.arm,
         run.q[frame_indices],
         time=run.time[frame_indices],
         readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
-        locked=_find_brake_times(run),
+        locked=brake_times,
         targets=[run.target if run.law.task.angular else run.target[:3, 3]],
         cell=None if run.clearance is None else run.clearance.cell,
     )

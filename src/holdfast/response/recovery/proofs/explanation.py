@@ -14,17 +14,17 @@ from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
-from holdfast.kinematics.solvers.inverse_kinematics import PoseSolutions, solver
+from holdfast.kinematics.solvers.inverse_kinematics import Accept, PoseSolutions, solver
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.task import Task, as_task, default_path_task, target_pose
+from holdfast.model.arm.task import Task, as_task, target_pose
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import chosen_clearance
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.response.recovery.proofs.reach import EXACT_TOLERANCE, enumerate_configurations, prove_no_configuration
 
 _STARTS_WITHOUT_LIMITS = 512
-_ROUNDING = 1e-9  # rad and m: a joint this close to its limit does not exceed it
+_LIMIT_ROUNDING = 1e-9  # rad and m: a joint this close to its limit does not exceed it
 
 
 class PoseVerdict(SentenceEnum):
@@ -53,7 +53,6 @@ class PoseExplanation(Result):
             limits; empty if none was found without limits either, or if the limits do not prevent the pose.
         colliding_pair: Pair of bodies that is too close in a configuration that meets the pose within the limits; empty if
             no such configuration was found, or if collisions are not checked.
-        is_position_reached: True if the position is reached in another orientation; None for a task without orientation.
         seconds: Measured duration of the interval search, s; 0 if it was not needed.
     """
 
@@ -68,7 +67,6 @@ class PoseExplanation(Result):
     proof: str
     values_beyond_limits: Mapping[str, float]
     colliding_pair: str
-    is_position_reached: bool | None
     seconds: float
 
 
@@ -88,8 +86,8 @@ def explain_ik(
     """Decide whether a pose without a solution is unreachable, or whether the solver failed.
 
     Inverse kinematics first searches from many random starts. If it finds nothing, an interval search over the joint limits
-    finds a configuration or proves that none exists. Without a configuration, the function also drops the limits, the collision
-    check and the orientation in turn, to find the condition that prevents the pose. These searches prove nothing.
+    finds a configuration or proves that none exists. Without a configuration, the function also searches without the collision
+    check or without the limits, to find the condition that prevents the pose. These searches prove nothing.
 
     Args:
         arm: Arm model; for a locked joint, an arm with equal limits (:meth:`holdfast.Arm.with_limits`).
@@ -114,36 +112,30 @@ def explain_ik(
     def is_clear(q: FloatArray) -> BoolArray:
         return np.ones(len(q), dtype=bool) if model is None else np.asarray(model.margin_left(q) >= margin)
 
-    def solve(task: Task, first: FloatArray | None = None, collides: bool = False) -> PoseSolutions:
-        engine = solver(arm, task)
-        return engine.solve(
-            wanted[None],
-            np.random.SeedSequence(seed),
-            starts,
-            engine.scale_tolerance(EXACT_TOLERANCE[0]),
-            first=first,
-            accept=None if collides else is_clear,
-        ).first_row
+    engine = solver(arm, resolved_task)
+    tolerance = engine.scale_tolerance(EXACT_TOLERANCE[0])
 
-    solution, proof, seconds = solve(resolved_task), None, 0.0
-    values_beyond_limits, colliding_pair, is_position_reached = dict[str, float](), "", None
+    def solve(accept: Accept | None, first: FloatArray | None = None) -> PoseSolutions:
+        seeds = np.random.SeedSequence(seed)
+        return engine.solve(wanted[None], seeds, starts, tolerance, first=first, accept=accept).first_row
+
+    solution, proof, seconds = solve(is_clear), None, 0.0
+    values_beyond_limits, colliding_pair = dict[str, float](), ""
     if not solution.success:
         blocked = None if model is None else BlockedBoxes(model, margin)
         search = enumerate_configurations(arm, resolved_task, wanted, time_limit, blocked)
         seconds = 0.0 if search is None else search.seconds
         candidates = np.zeros((0, arm.n)) if search is None else search.q[is_clear(search.q)]
         if len(candidates):
-            solution = solve(resolved_task, first=candidates[:1])
+            solution = solve(is_clear, candidates[:1])
         else:
             proof = prove_no_configuration(search, model, "" if blocked is None else blocked.blocker_names)
     if not solution.success:
-        colliding = solve(resolved_task, collides=True)
+        colliding = solve(None)
         if colliding.success and model is not None:
             colliding_pair = model.pair_names[int(model.closest_pair(colliding.q))]
         else:
             values_beyond_limits = _find_values_beyond_limits(arm, resolved_task, wanted, seed)
-        if resolved_task.m > (position_task := as_task(arm, default_path_task(arm, False))).m:
-            is_position_reached = bool(solve(position_task).success)
     return PoseExplanation(
         arm=arm,
         task=resolved_task,
@@ -156,7 +148,6 @@ def explain_ik(
         proof=proof or "",
         values_beyond_limits=values_beyond_limits,
         colliding_pair=colliding_pair,
-        is_position_reached=is_position_reached,
         seconds=seconds,
     )
 
@@ -175,6 +166,6 @@ def _find_values_beyond_limits(arm: Arm, task: Task, pose: FloatArray, seed: int
     turns = np.where(arm.prismatic, 0.0, np.round((q[is_reached] - (lower + upper) / 2) / (2 * np.pi)))
     q = q[is_reached] - 2 * np.pi * turns
     excess = np.maximum(np.maximum(arm.lower - q, q - arm.upper), 0.0)
-    is_beyond = excess > _ROUNDING
+    is_beyond = excess > _LIMIT_ROUNDING
     best = np.lexsort((excess.sum(axis=1), is_beyond.sum(axis=1)))[0]
     return {arm.joint_names[joint]: float(q[best, joint]) for joint in np.flatnonzero(is_beyond[best])}
