@@ -19,12 +19,12 @@ from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import as_task, plane_normal
 
-DEFAULT_SAMPLES = 400_000
+DEFAULT_SAMPLES = 1_000_000
 DEFAULT_BANDS = 3
 DEFAULT_LOCK_VALUES = 4
 _CELLS_PER_REACH = {2: 40, 3: 12}  # cells between the first joint and the end of the stretched arm, in a plane and in space
 _MAX_FLAGS = 2_000_000_000  # bytes
-_BATCH_ROWS = 1 << 17
+_BATCH_ROWS = 1 << 13  # fits into the cache
 _LEAST_HORIZONTAL = 1e-9  # length of the horizontal part of a direction below which its azimuth is only rounding
 
 

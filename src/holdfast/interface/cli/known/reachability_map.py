@@ -24,7 +24,7 @@ def command(
     ] = None,
     bands: Annotated[int, "Number of bands of the sphere of directions; a cell has 2 x BANDS x BANDS directions."] = 3,
     lock_values: Annotated[int, "Number of lock values of each joint without --at."] = 4,
-    samples: Annotated[int, "Number of configurations for the intact arm, and for each lock value."] = 400_000,
+    samples: Annotated[int, "Number of configurations for the intact arm, and for each lock value."] = 1_000_000,
     seed: SeedOption = 0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     npz: Annotated[Path | None, "NPZ file (numpy) for the map."] = None,

@@ -94,8 +94,8 @@ def _draw_layer(reachability: ReachabilityMap, view: View) -> Figure:
         {" " * row: panels for row, panels in enumerate(rows)},
         ["intact", *reachability.arm.joint_names],
         label="reached fraction of directions",
-        caption=f"{reachability.arm.name}, {view.title.lower()}, layer with the most cells ({1e3 * size:.3g} mm). Titles: locked "
-        f"joint. {reachability.samples:,} samples for the intact arm and for each lock value. Grey: not reached.",
+        caption=f"{reachability.arm.name}, {view.title.lower()}, layer with the most cells ({1e3 * size:.3g} mm). Titles: "
+        f"locked joint. {reachability.samples:,} samples for the intact arm and for each lock value. Grey: not reached.",
         most=1.0,
     )
 
