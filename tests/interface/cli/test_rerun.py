@@ -95,6 +95,23 @@ def test_the_response_to_a_fault_contains_the_first_lock(tmp_path):
     np.testing.assert_array_equal(flatten(entities["/joints/joint3"]["Scalars:scalars"]), run.q[:, 2])
 
 
+def test_an_execution_and_a_followed_path_are_recorded(tmp_path):
+    arm, q = hf.arms.load("planar-3r"), np.array([0.3, 0.5, 0.4])
+    played = hf.execute(arm, [q, q + 0.2], [0.0, 1.0], locked=["joint1"], lock_time=0.5)
+    entities = read_columns(played.to_rrd(tmp_path / "played.rrd"))
+    assert entities["/events"]["time"][0] / 1e9 == pytest.approx(0.5)
+    assert len(entities["/joints/joint2"]["time"]) == len(played.time)
+    start = arm.forward_kinematics(q)[:3, 3]
+    path = hf.paths.TimedPath(hf.paths.line(start, start + [0.05, 0, 0]), hf.paths.Constant(1.0))
+    index = hf.indices.relative_manipulability(arm, "planar")
+    followed = hf.follow(arm, path, maximise=index, q=q, samples=5, task="planar")
+    entities = read_columns(followed.to_rrd(tmp_path / "followed.rrd"))
+    tool = np.exp(1j * np.cumsum(followed.q, axis=1)).sum(axis=1)
+    translations = flatten(entities["/arm/tool"]["Transform3D:translation"])
+    np.testing.assert_allclose(translations[:, 0] + 1j * translations[:, 1], tool, atol=1e-6)
+    assert "/events" not in entities
+
+
 def test_a_recovery_without_timing_numbers_its_samples(tmp_path):
     arm = hf.arms.load("planar-3r")
     recovery = hf.recover(arm, ["joint2"], [0.2, 0.4, 0.3], goal=[1.0, 0.4, -0.5], samples=0)
