@@ -102,7 +102,7 @@ def test_an_execution_and_a_followed_path_are_recorded(tmp_path):
     assert entities["/events"]["time"][0] / 1e9 == pytest.approx(0.5)
     assert len(entities["/joints/joint2"]["time"]) == len(played.time)
     start = arm.forward_kinematics(q)[:3, 3]
-    path = hf.paths.TimedPath(hf.paths.line(start, start + [0.05, 0, 0]), hf.paths.Constant(1.0))
+    path = hf.paths.TimedPath(hf.paths.line(start, start + np.array([0.05, 0, 0])), hf.paths.Constant(1.0))
     index = hf.indices.relative_manipulability(arm, "planar")
     followed = hf.follow(arm, path, maximise=index, q=q, samples=5, task="planar")
     entities = read_columns(followed.to_rrd(tmp_path / "followed.rrd"))
