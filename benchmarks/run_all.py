@@ -24,6 +24,7 @@ WORKLOADS = (
     "design_gradients",
     "first_use",
     "cell_clearances",
+    "reachability_map",
     "lock_survival",
     "recovery_planners",
     "certificate_search",

@@ -195,6 +195,15 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "centre": (1.2, 0.5), "size": 0.1, "task": "planar", "rotation": None, "rpy": None}
             | {"working_ranges": None, "failures": "single", "targets": 4, "values": 4, "margin": 0.05, "seed": 0},
         ),
+        "explain_ik": (
+            hf.explain_ik,
+            {"arm": arm, "pose": target, "task": "planar", "clearance": False, "margin": 0.0, "starts": 3, "time_limit": 1.0}
+            | {"seed": 0},
+        ),
+        "reachability_map": (
+            hf.reachability_map,
+            {"arm": arm, "at": q, "cell_size": 0.5, "bands": 2, "lock_values": 2, "samples": 100, "seed": 0},
+        ),
         "tolerant_workspace": (
             hf.tolerant_workspace,
             {**at_planar, "limits": None, "rotation": None, "points": 5, "angles": 4, "seed": 0} | {"confidence": 0.95},

@@ -182,6 +182,12 @@ def draw_tolerant_workspace() -> Figure:
         return settle_layout(figure)
 
 
+def draw_reachability_map() -> Figure:
+    """Draw the reachability index of an arm, intact and with each joint locked at its value in the home configuration."""
+    arm = hf.arms.load("panda")
+    return hf.reachability_map(arm, at=hf.arms.about("panda").home, samples=300_000).plot("side")
+
+
 def draw_timeline() -> Figure:
     """Draw the sequence of a fault: fault, detection, isolation, braking, recovery."""
     events = [

@@ -56,8 +56,10 @@ from holdfast.kinematics.solvers import PoseSolutions as PoseSolutions
 from holdfast.kinematics.solvers import optimise as optimise
 from holdfast.kinematics.solvers import self_motion as self_motion
 from holdfast.kinematics.solvers import solve_ik as solve_ik
+from holdfast.kinematics.workspace import ReachabilityMap as ReachabilityMap
 from holdfast.kinematics.workspace import TolerantWorkspace as TolerantWorkspace
 from holdfast.kinematics.workspace import joint_bounds as joint_bounds
+from holdfast.kinematics.workspace import reachability_map as reachability_map
 from holdfast.kinematics.workspace import reachable_when_locked as reachable_when_locked
 from holdfast.kinematics.workspace import tolerant_workspace as tolerant_workspace
 from holdfast.model import arms as arms
@@ -83,7 +85,9 @@ from holdfast.response.lock_survival import LockSurvival as LockSurvival
 from holdfast.response.lock_survival import evaluate_motion as evaluate_motion
 from holdfast.response.lock_survival import plan_motion as plan_motion
 from holdfast.response.lock_survival import plan_motion_to as plan_motion_to
+from holdfast.response.recovery import PoseExplanation as PoseExplanation
 from holdfast.response.recovery import Recovery as Recovery
+from holdfast.response.recovery import explain_ik as explain_ik
 from holdfast.response.recovery import recover as recover
 from holdfast.response.supervisor import FaultRun as FaultRun
 from holdfast.response.supervisor import simulate_faults as simulate_faults

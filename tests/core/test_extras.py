@@ -54,6 +54,13 @@ def test_tables_of_an_experiment_say_that_pandas_is_missing(monkeypatch):
         hf.teleop.describe_columns(read_protocol())
 
 
+def test_a_recording_says_that_rerun_is_missing(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    runs = hf.simulate(LAW, [0.3, 0.5, 0.4], [1.5, 1.5])
+    with pytest.raises(HoldfastError, match=r"rerun-sdk is needed here and is not installed; install holdfast-arms\[rerun\]"):
+        runs.to_rrd(tmp_path / "run.rrd")
+
+
 def test_an_extra_that_is_there_is_returned():
     assert import_extra("numpy", "none") is np
 

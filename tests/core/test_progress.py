@@ -368,6 +368,8 @@ CALLS = {
     "looking for configurations with a locked joint": lambda arm, law, x: hf.reachable_when_locked(
         arm, [1.5, 1.5], {"joint1": [0.5]}, task="planar"
     ),
+    "mapping the reachable workspace": lambda arm, law, x: hf.reachability_map(arm, samples=100, cell_size=0.5),
+    "explaining a pose without a solution": lambda arm, law, x: hf.explain_ik(arm, [3.5, 0], task="planar", starts=3),
     "measuring the failure-tolerant workspace": lambda arm, law, x: tolerant(arm),
     "executing the motion": lambda arm, law, x: hf.execute(arm, [x, x + 0.1], [0.0, 1.0]),
     "simulating the physics": lambda arm, law, x: hf.simulate_physics(law, x, [1.5, 1.5], time_limit=1.0),

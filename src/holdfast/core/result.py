@@ -58,6 +58,20 @@ class Result(Presentable):
         files: list[Path] = self._present("save", Path(folder), *args, **options)
         return files
 
+    def to_rrd(self, path: str | Path) -> Path:
+        """Write the motion of the result as a recording for the Rerun viewer (``rerun FILE``).
+
+        Entities: ``arm/LINK`` is the pose of each link in the world, m, with its shapes, ``joints/JOINT`` the joint value, rad
+        or m, and ``events`` a text at each lock. The timeline is ``time``, s, or ``sample`` for a motion without timing.
+
+        Raises:
+            InputError: The result contains no motion.
+            HoldfastError: rerun-sdk is not installed (extra ``rerun``).
+            StoreError: The file cannot be written.
+        """
+        written: Path = self._present("write_rrd", Path(path))
+        return written
+
     def figures(self, *args: Any, **options: Any) -> dict[str, Figure]:
         """Return the figures by name."""
         figures: dict[str, Figure] = self._present("figures", *args, **options)

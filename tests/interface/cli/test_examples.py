@@ -61,6 +61,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "design": "--designs 4 --local-searches 1 --poses 8 --check-poses 32",
     "follow": "--samples 11",
     "plan-motion": "--samples 5 --spacing 0.3",
+    "reachability-map": "--samples 2000",
     "recover": "--samples 0",
     "simulate-logs": "--records 1 --duration 0.2",
     "free-swing": "--duration 0.2",

@@ -264,3 +264,10 @@ def test_a_goal_in_a_cone_is_met_by_an_arm_that_cannot_turn_its_tool(cli):
         assert (code, sentence in error) == (2, True), error
     code, _, error = cli(*call, "pose:0.4,0.3,0.5", "--within", "30deg")
     assert (code, "no orientation" in error) == (2, True)
+
+
+def test_without_rerun_the_command_stops_before_it_plans(cli, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    code, out, err = cli("recover", "panda", "--lock", "4", "--at", "0 0 0 -2 0 2 0", "--rrd", tmp_path / "home.rrd")
+    assert (code, out) == (2, "")
+    assert "rerun-sdk is needed here and is not installed" in err

@@ -40,6 +40,20 @@ def test_a_spatial_arm_ends_at_its_limits(cli, tmp_path):
     assert figure.exists()
 
 
+def test_explain_states_the_proof_or_a_configuration(cli, ask):
+    code, out, err = cli("self-motion", "planar-3r", "--target", "3.2,0", "--explain")
+    assert (code, err) == (3, "")
+    assert "Unreachable: it is proved" in out
+    assert "boxes of joints" in out
+    data = ask("self-motion", "planar-3r", "--target", "1.5,1.5", "--explain")
+    assert data["verdict"] == "reachable"
+    q = [row["value"] for row in data["q"]]
+    np.testing.assert_allclose(np.exp(1j * np.cumsum(q)).sum(), 1.5 + 1.5j, atol=2e-6)
+    code, _, err = cli("self-motion", "planar-3r", "--target", "1.5,1.5", "--explain", "--plot", "none.png")
+    assert code == 2
+    assert "--explain draws no figure" in err
+
+
 def test_more_redundancy_and_nothing_found(cli, tmp_path):
     figure = tmp_path / "none.png"
     code, out, _ = cli("self-motion", "planar-3r", "--target", "5,0", "--bounds", "--plot", figure)

@@ -107,6 +107,8 @@ MADE = {
     "PathProof": found(
         lambda: hf.certify(hf.certificates.path_claim(arm(), np.array([[0.3, 0.8, 1.1], [0.4, 0.7, 1.2]]), task="planar"))
     ),
+    "PoseExplanation": found(lambda: hf.explain_ik(arm(), TARGET, task="planar", starts=5)),
+    "ReachabilityMap": found(lambda: hf.reachability_map(arm(), samples=2000, lock_values=2, cell_size=0.3)),
     "Recovery": recovered,
     "Proof": lambda: proof(),
     "Refutation": found(lambda: hf.certify(hf.certificates.out_of_reach_claim(arm(), (2.9, 1.4), 0.1))),
@@ -130,7 +132,7 @@ MADE = {
     "RemainingWorkspace": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "StationaryPoints"}
+WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "PoseExplanation", "StationaryPoints"}
 WITHOUT_FIGURE |= {
     "RecordBook",
     "UpperBound",

@@ -15,7 +15,7 @@ _PANEL_OPTIONS = {
     "Arm and environment": "base tip hold name tool mount gravity payload capsules radius meshes margin clearance cell",
     "Computation": "seed poses samples sampling restarts starts tries configurations points angles method time-limit threads "
     "workers local-searches check-poses designs chunk halvings store spacing metric",
-    "Output": "out json csv parquet plot report at-least",
+    "Output": "out json csv rrd parquet plot report at-least",
 }
 _OTHER_MEANINGS = {("optimise", "--poses"), ("export", "--name")}  # commands whose option has no place in its panel
 _PANEL_BY_OPTION = {f"--{name}": panel for panel, names in _PANEL_OPTIONS.items() for name in names.split()}

@@ -7,9 +7,18 @@ from typing import Annotated
 
 import typer
 
+from holdfast.core.extras import import_extra
 from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
 
 NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the user is not met
+
+
+def _require_rerun(path: Path | None) -> Path | None:
+    """Raise before any work is done if a recording is requested and rerun-sdk is not installed."""
+    if path is not None:
+        import_extra("rerun", "rerun", "rerun-sdk")
+    return path
+
 
 ArmArgument = Annotated[
     str,
@@ -39,6 +48,12 @@ KeepOption = Annotated[
     "along this axis) or plane:0,0,1 (tool point stays in the plane with this normal). Default units: rad, m. Repeatable.",
 ]
 MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
+RrdOption = Annotated[
+    Path | None,
+    typer.Option(
+        callback=_require_rerun, help="Recording of the motion (.rrd) for the Rerun viewer (needs the extra 'rerun')."
+    ),
+]
 PlotOption = Annotated[Path | None, "PNG file for the figure."]
 OutOption = Annotated[Path | None, "Folder for report.html and figures."]
 RegionOption = Annotated[Path | None, "Region file (YAML). Default: a box around the first arm's home, 1/4 of its reach wide."]

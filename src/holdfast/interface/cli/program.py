@@ -63,6 +63,7 @@ COMMAND_MODULES = {  # module of each command, in the order of the help; it defi
     "identify": "known.identify",
     "self-motion": "known.self_motion",
     "tolerant-workspace": "known.tolerant_workspace",
+    "reachability-map": "known.reachability_map",
     "free-swing": "known.free_swing",
     "study": "larger.study",
     "teleop": "larger.teleop",

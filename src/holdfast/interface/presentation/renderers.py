@@ -240,6 +240,13 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     return [*files, page.write(build_page(presentation, command, drawn), folder / "report.html")]
 
 
+def write_rrd(result: Result, path: Path) -> Path:
+    """Write the motion of the result as a recording for the Rerun viewer."""
+    from holdfast.interface.presentation.arm import rerun
+
+    return rerun.write_rrd(result, path)
+
+
 def write_json(result: Result, path: Path) -> None:
     """Write the numbers of the result as JSON."""
     replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")

@@ -45,23 +45,27 @@ def place_maps(
     Args:
         plane: Positions.
         rows: (P, C) values of each row of panels, from 0 to ``most``, by title; NaN for a position without a value.
-        columns: (C,) titles of the columns of panels.
+        columns: (C,) titles of the columns of panels, or titles of all panels, row by row;
+            panels without a title are hidden.
         label: Label of the colour bar.
         caption: One or two lines below the figure.
         most: Upper end of the colour scale.
     """
     scale = Scale(0.0, most)
     with style():
-        column_count, row_count = len(columns), len(rows)
+        column_count, row_count = next(iter(rows.values())).shape[1], len(rows)
         panel_edge = min(2.5, max(1.7, WIDTH_IN / column_count))
         figure = Figure(figsize=(panel_edge * column_count + 1.4, (panel_edge + 0.15) * row_count + 0.9))
         panels = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for row, (name, values) in enumerate(rows.items()):
-            for column_index, column in enumerate(columns):
+            for column_index in range(column_count):
                 axes = panels[row, column_index]
+                panel = row * column_count + column_index
+                if panel < len(columns):
+                    axes.set_title(format_label(columns[panel], 22))
+                elif len(columns) > column_count:
+                    axes.set_visible(False)
                 _draw_position_map(axes, plane, values[:, column_index], scale)
-                if row == 0:
-                    axes.set_title(format_label(column, 22))
                 if row == row_count - 1:
                     axes.set_xlabel(plane.labels[0])
                 if column_index == 0:

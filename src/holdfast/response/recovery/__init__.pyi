@@ -1,5 +1,8 @@
 from holdfast.response.recovery.continuation import RestOfPath as RestOfPath
 from holdfast.response.recovery.goals import RelaxedRows as RelaxedRows
+from holdfast.response.recovery.proofs.explanation import PoseExplanation as PoseExplanation
+from holdfast.response.recovery.proofs.explanation import PoseVerdict as PoseVerdict
+from holdfast.response.recovery.proofs.explanation import explain_ik as explain_ik
 from holdfast.response.recovery.recovery import Leg as Leg
 from holdfast.response.recovery.recovery import Recovery as Recovery
 from holdfast.response.recovery.recovery import RecoveryOutcome as RecoveryOutcome

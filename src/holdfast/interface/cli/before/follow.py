@@ -11,7 +11,7 @@ import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions, PathOptions
 from holdfast.interface.cli.measure_options import MaximiseOption, MinimiseOption
-from holdfast.interface.cli.options import ArmArgument, DegreesOption, JsonOption, MotionCsvOption
+from holdfast.interface.cli.options import ArmArgument, DegreesOption, JsonOption, MotionCsvOption, RrdOption
 from holdfast.interface.cli.values import read_configuration, read_objective
 from holdfast.interface.presentation.results import current_command, print_result
 
@@ -47,6 +47,7 @@ def command(
     chain: ArmSourceOptions = ArmSourceOptions(),
     out: Annotated[Path | None, "Folder for trajectory.csv and report.html."] = None,
     csv: MotionCsvOption = None,
+    rrd: RrdOption = None,
     parquet: Annotated[Path | None, "Parquet file for the motion (needs holdfast-arms[parquet])."] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -81,6 +82,8 @@ def command(
         margin=apart.margin or 0.0,
     )
     files = [] if csv is None else [result.to_csv(csv)]
+    if rrd is not None:
+        files.append(result.to_rrd(rrd))
     if parquet is not None:
         files.append(result.to_parquet(parquet))
     if out is not None:

@@ -20,6 +20,7 @@ from holdfast.interface.cli.options import (
     FailureOption,
     JsonOption,
     KeepOption,
+    RrdOption,
 )
 from holdfast.interface.cli.values import (
     check_path_units,
@@ -83,6 +84,7 @@ def command(
         Path | None, "File for the proof that no configuration meets the goal. Default: not written."
     ] = None,
     csv: Annotated[Path | None, "CSV file for the waypoints."] = None,
+    rrd: RrdOption = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,
 ) -> None:
@@ -144,15 +146,18 @@ def command(
         seed=seed,
     )
     files = [result.to_csv(csv)] if csv is not None and len(result.q) else []
+    if rrd is not None and len(result.q):
+        files.append(result.to_rrd(rrd))
     if certificate is not None and not result.ok:
         files.append(result.certificate().write(certificate))
     if out is not None:
         files += result.save(out, command=current_command())
     print_result(result, json_, files)
-    if csv is not None and not len(result.q) and not json_:
-        make_console(stderr=True).print(
-            f"holdfast: no motion was found, so '{csv}' is not written", markup=False, soft_wrap=True
-        )
+    for file in (csv, rrd):
+        if file is not None and not len(result.q) and not json_:
+            make_console(stderr=True).print(
+                f"holdfast: no motion was found, so '{file}' is not written", markup=False, soft_wrap=True
+            )
     if not result.ok:
         raise typer.Exit(NOT_MET_EXIT_CODE)
 

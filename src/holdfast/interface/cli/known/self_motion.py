@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
+import typer
 from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, OutputOptions
 from holdfast.interface.cli.laws import OptionalTargetOption
-from holdfast.interface.cli.options import ArmArgument, SeedOption, TaskOption
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, SeedOption, TaskOption
 from holdfast.interface.cli.values import read_pose, read_target, read_task
 
 if TYPE_CHECKING:
@@ -29,6 +30,9 @@ def command(
     pose: PoseOption = None,
     task: TaskOption = None,
     bounds: Annotated[bool, "Also find the values at which each joint may lock without losing the target."] = False,
+    explain: Annotated[
+        bool, "Instead, find out whether the pose is unreachable or a solver failed. Exit code: 0 if it is reachable, else 3."
+    ] = False,
     degrees: Annotated[bool, "Write --csv in degrees (prismatic joints: m)."] = False,
     spacing: Annotated[float, "Distance between neighbouring configurations in rad."] = 0.05,
     seed: SeedOption = 0,
@@ -45,6 +49,7 @@ def command(
     Example: holdfast self-motion planar-3r --target 1.5,1.5 --bounds --plot self-motion.png
     """
     from holdfast.model.arm.task import as_task
+    from holdfast.response.recovery import PoseVerdict
 
     apart.check_consistency()
     model = chain.resolve_arm(arm)
@@ -54,6 +59,14 @@ def command(
     target_value = read_target(model, rows, target) if target is not None else _read_task_pose(model, rows, str(pose))
     chooses = apart.margin is not None or apart.cell is not None
     clearance = apart.build_clearance(model, chooses_configurations=chooses)
+    if explain:
+        explanation = hf.explain_ik(
+            model, target_value, task=rows, clearance=clearance or False, margin=apart.margin or 0.0, seed=seed
+        )
+        if output.plot is not None:
+            raise InputError("--explain draws no figure; leave --plot out, or use --out for a report")
+        output.print_result(explanation)
+        raise typer.Exit(0 if explanation.verdict == PoseVerdict.REACHABLE else NOT_MET_EXIT_CODE)
     motion = hf.self_motion(
         model, target_value, rows, spacing=spacing, seed=seed, clearance=clearance, margin=apart.margin or 0.0
     )

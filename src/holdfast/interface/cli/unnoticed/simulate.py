@@ -13,7 +13,14 @@ from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities
 from holdfast.interface.cli.groups import ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawOptions, OptionalTargetOption
-from holdfast.interface.cli.options import ArmArgument, FailureOption, JsonOption, MotionCsvOption, StartDegreesOption
+from holdfast.interface.cli.options import (
+    ArmArgument,
+    FailureOption,
+    JsonOption,
+    MotionCsvOption,
+    RrdOption,
+    StartDegreesOption,
+)
 from holdfast.interface.cli.values import read_configuration, read_joint, read_locks, read_numbers, read_target
 from holdfast.interface.presentation.results import print_result, write_outputs
 
@@ -57,6 +64,7 @@ def command(
     stop_at_contact: Annotated[bool, "End the run at the first contact with an object of --cell."] = False,
     degrees: StartDegreesOption = False,
     csv: MotionCsvOption = None,
+    rrd: RrdOption = None,
     plot: Annotated[Path | None, "PNG file for a figure of the motion."] = None,
     out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
@@ -75,7 +83,7 @@ def command(
         execution = _play_motion(
             controlled.resolve_arm(arm), motion, lock or [], error_limit, hf.Servos(bandwidth=servo_bandwidth), touched
         )
-        print_result(execution, json_, write_outputs(execution, plot, out) + ([] if csv is None else [execution.to_csv(csv)]))
+        print_result(execution, json_, write_outputs(execution, plot, out) + _write_motions(execution, csv, rrd))
         return
     if error_limit is not None:
         raise InputError("--error-limit applies to a played motion; add --motion")
@@ -109,9 +117,7 @@ def command(
             servos=hf.Servos(bandwidth=servo_bandwidth, rate=1000.0 if fault_monitor is None else fault_monitor.bounds.rate),
         )
         records = [] if record is None else [fault_run.log().save(record)]
-        print_result(
-            fault_run, json_, write_outputs(fault_run, plot, out) + records + ([] if csv is None else [fault_run.to_csv(csv)])
-        )
+        print_result(fault_run, json_, write_outputs(fault_run, plot, out) + records + _write_motions(fault_run, csv, rrd))
         return
     for name, file in {"--monitor": monitor, "--record": record}.items():
         if file is not None:
@@ -144,8 +150,12 @@ def command(
             raise InputError("--physics has its own control rate; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
         result = hf.simulate_physics(control_law, q0, target_value, servos=servos, **common_options)
-    files = write_outputs(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
+    files = write_outputs(result, plot, out) + _write_motions(runs, csv, rrd)
     print_result(result, json_, files)
+
+
+def _write_motions(result: hf.Runs | hf.FaultRun | hf.Execution, csv: Path | None, rrd: Path | None) -> list[Path]:
+    return ([] if csv is None else [result.to_csv(csv)]) + ([] if rrd is None else [result.to_rrd(rrd)])
 
 
 def _reject_options(options: Mapping[str, object], chosen_option: str = "--faults, --monitor or --record") -> None:

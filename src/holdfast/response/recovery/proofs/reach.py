@@ -87,7 +87,7 @@ def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
 
 
 def enumerate_configurations(
-    degraded: Degraded,
+    failed_arm: Degraded | Arm,
     task: Task,
     pose: FloatArray,
     time_limit: float,
@@ -99,22 +99,25 @@ def enumerate_configurations(
     Configurations in which the arm certainly collides are excluded.
 
     Args:
-        degraded: Failed arm, with the value of every lock.
+        failed_arm: Failed arm, with the value of every lock, or an arm without failures.
         task: Task whose rows must be met.
         pose: (4, 4) pose of the end effector, m.
         time_limit: Time limit, s.
         is_blocked: Test for blocked boxes. None: no test.
         tolerance: Allowed errors of the pose, m and rad.
     """
-    limits = degraded.lo, degraded.hi
+    if isinstance(failed_arm, Degraded):
+        arm, limits = failed_arm.arm, (failed_arm.lo, failed_arm.hi)
+    else:
+        arm, limits = failed_arm, (failed_arm.lower, failed_arm.upper)
     # One full revolution covers an unlimited joint.
-    is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~degraded.arm.prismatic)
+    is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~arm.prismatic)
     if not is_enumerable.all() or not time_limit > 0:
         return None
     time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}
     try:
         return all_configurations(
-            degraded.arm,
+            arm,
             pose,
             task,
             limits=limits,
