@@ -26,7 +26,7 @@ def told(part: str) -> wheels.Packages:
 
 
 def test_the_page_names_what_is_locked_and_every_system():
-    needed, more = PAGE.split("## Packages for every command")[1].split("## Packages of the extras")
+    needed, more = PAGE.split("## Packages for every command and for reports")[1].split("## Packages of the extras")
     assert told(needed) == wheels.locked()
     assert told(more) == wheels.extras()
 
