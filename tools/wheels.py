@@ -64,8 +64,7 @@ Python versions with a wheel. A wheel does not mean that holdfast has run there.
 
 {summary}
 
-{interpreters}
-## Packages for every command and for reports
+{interpreters}## Packages for every command and for reports
 
 {needed}
 
