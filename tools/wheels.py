@@ -68,8 +68,7 @@ Python versions with a wheel. A wheel does not mean that holdfast has run there.
 
 {needed}
 
-contourpy, cycler, fonttools, kiwisolver, matplotlib, packaging, pillow, pyparsing, and python-dateutil belong to the extra
-`figures`, and donfig, google-crc32c, numcodecs, and zarr to the extra `store`. `hatchling`, `editables`, `pathspec`, `pluggy`,
+matplotlib, zarr, and their dependencies belong to the extra `report`. `hatchling`, `editables`, `pathspec`, `pluggy`,
 `tomlkit`, and `trove-classifiers` are needed only to build holdfast. A version in parentheses is the one that this system gets
 instead.
 
