@@ -10,12 +10,14 @@ from typing import Any
 
 from holdfast.core.errors import HoldfastError
 
+REPORT_MODULES = ("matplotlib", "zarr")  # packages of the extra "report", which many modules import
+
 
 class MissingModuleError(HoldfastError):
-    """An optional package that is needed and not installed."""
+    """A package of the extra "report" is not installed, and ``user``, an option or an object, needs it."""
 
-
-EXTRA_OF_MODULE = {"matplotlib": "report", "zarr": "report"}  # packages that many modules import, by their extra
+    def __init__(self, module: str, user: str) -> None:
+        super().__init__(f"{user} needs {module}, which is not installed; install it with: pip install 'holdfast-arms[report]'")
 
 
 def import_extra(module: str, extra: str, title: str | None = None) -> Any:
@@ -39,33 +41,22 @@ def import_extra(module: str, extra: str, title: str | None = None) -> Any:
 
 
 def require_module(module: str, user: str) -> None:
-    """Check, without importing it, that a package of :data:`EXTRA_OF_MODULE` is installed, before work that needs it begins.
-
-    Args:
-        module: Name of the package.
-        user: Option or object that needs the package, for the error message.
+    """Check, without importing it, that a package of the extra "report" is installed, before work that needs it begins.
 
     Raises:
-        MissingModuleError: The package is not installed; the message contains the command that installs it.
+        MissingModuleError: The package is not installed.
     """
     if find_spec(module) is None:
-        raise _missing_module_error(module, user)
+        raise MissingModuleError(module, user)
 
 
 @contextmanager
 def guard_imports(user: str) -> Iterator[None]:
-    """Replace the error of a missing package of :data:`EXTRA_OF_MODULE` by the error of :func:`require_module`."""
+    """Raise :class:`MissingModuleError` if the code in the context imports a package of the extra that is not installed."""
     try:
         yield
     except ModuleNotFoundError as error:
         module = (error.name or "").partition(".")[0]
-        if module not in EXTRA_OF_MODULE:
+        if module not in REPORT_MODULES:
             raise
-        raise _missing_module_error(module, user) from error
-
-
-def _missing_module_error(module: str, user: str) -> MissingModuleError:
-    extra = EXTRA_OF_MODULE[module]
-    return MissingModuleError(
-        f"{user} needs {module}, which is not installed; install it with: pip install 'holdfast-arms[{extra}]'"
-    )
+        raise MissingModuleError(module, user) from error
