@@ -108,8 +108,8 @@ MORE = $(LOCK) --constraint $(VENV)-lock/all $$(sed -nE 's/^([a-z0-9.-]+)==.*/--
 lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
 	$(VENV)-lock/bin/python -m pip install --quiet uv packaging
-	$(LOCK) --group build --group test --group docs --output-file $(VENV)-lock/all
-	$(LOCK) --constraint $(VENV)-lock/all --group build --output-file requirements.lock
+	$(LOCK) --extra report --group build --group test --group docs --output-file $(VENV)-lock/all
+	$(LOCK) --constraint $(VENV)-lock/all --extra report --group build --output-file requirements.lock
 	$(MORE) --group test --output-file requirements-test.lock
 	$(MORE) --group docs --output-file requirements-docs.lock
 	echo uv | $(LOCK:pyproject.toml=-) --output-file requirements-uv.lock

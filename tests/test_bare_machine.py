@@ -28,10 +28,11 @@ def test_page():
 
 
 def asked_for(group: str) -> list[str]:
-    """What pyproject.toml names for running, and for a group."""
+    """What pyproject.toml names for running with reports, and for a group."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     groups = project["dependency-groups"]
-    return [*project["project"]["dependencies"], *groups["build"], *groups.get(group, [])]
+    report = project["project"]["optional-dependencies"]["report"]
+    return [*project["project"]["dependencies"], *report, *groups["build"], *groups.get(group, [])]
 
 
 @pytest.mark.parametrize("group", ["run", "test"])

@@ -113,7 +113,7 @@ def test_the_recipe_needs_what_the_package_needs():
     recipe = yaml.safe_load((ROOT / "conda" / "recipe.yaml").read_text(encoding="utf-8"))
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     needed = {line.replace(" ", "").replace("matplotlib-base", "matplotlib") for line in recipe["requirements"]["run"]}
-    here = [Requirement(line) for line in project["dependencies"]]
+    here = [Requirement(line) for line in [*project["dependencies"], *project["optional-dependencies"]["report"]]]
     linux = [one for one in here if one.marker is None or one.marker.evaluate({"sys_platform": "linux"})]
     assert needed == {*(f"{one.name}{one.specifier}" for one in linux), f"python{project['requires-python']}"}
     assert recipe["build"]["python"]["entry_points"] == [f"holdfast = {project['scripts']['holdfast']}"]

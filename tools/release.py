@@ -140,9 +140,8 @@ def tried(files: list[Path]) -> list[str]:
 
         for file in files:
             wheel = file.suffix == ".whl"
-            _, installing = run(
-                "python", "-m", "pip", "install", "-q", *([] if wheel else ["--no-deps", "--force-reinstall"]), str(file)
-            )
+            options = [f"{file}[report]"] if wheel else ["--no-deps", "--force-reinstall", str(file)]
+            _, installing = run("python", "-m", "pip", "install", "-q", *options)
             home, _ = run("python", "-c", "import holdfast; print(holdfast.__file__)")
             if not home.startswith(str(away)):
                 raise SystemExit(f"holdfast was imported from {home.strip()}, not from {file.name}")

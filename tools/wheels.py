@@ -52,7 +52,7 @@ _TEXT = """\
 orphan: true
 ---
 
-<!-- Written by `python -m tools.wheels`: change that, not this page. -->
+<!-- Written by `python -m tools.wheels`, which keeps the section on interpreters: for the rest, change that, not this page. -->
 
 # Systems and wheels
 
@@ -64,12 +64,13 @@ Python versions with a wheel. A wheel does not mean that holdfast has run there.
 
 {summary}
 
-## Packages for every command
+{interpreters}## Packages for every command and for reports
 
 {needed}
 
-`hatchling`, `editables`, `pathspec`, `pluggy`, `tomlkit`, and `trove-classifiers` are needed only to build holdfast. A
-version in parentheses is the one that this system gets instead.
+matplotlib, zarr, and their dependencies belong to the extra `report`. `hatchling`, `editables`, `pathspec`, `pluggy`,
+`tomlkit`, and `trove-classifiers` are needed only to build holdfast. A version in parentheses is the one that this system gets
+instead.
 
 ## Packages of the extras
 
@@ -94,7 +95,7 @@ def locked(name: str = "requirements.lock") -> Packages:
 
 
 def extras() -> Packages:
-    """What the extras name, beyond what every command needs."""
+    """What the extras name, beyond what every command and a report need."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     named = {Requirement(line).name for lines in project["optional-dependencies"].values() for line in lines}
     every, tests = locked(), locked("requirements-test.lock")
@@ -167,11 +168,13 @@ def summary(wheels: Wheels) -> list[str]:
 def main() -> None:
     """Ask, and write the page."""
     needed, more = locked(), extras()
+    interpreters = re.search(r"^## Interpreters.*?(?=^## )", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     wheels = asked({system: {**needed[system], **more[system]} for system in SYSTEMS})
     page = _TEXT.format(
         day=f"{datetime.now(UTC):%d %B %Y}",
         first=PYTHONS[0],
         last=PYTHONS[-1],
+        interpreters=interpreters.group() if interpreters else "",
         summary="\n".join(summary({system: {name: wheels[system][name] for name in needed[system]} for system in SYSTEMS})),
         needed="\n".join(table(needed, wheels)),
         more="\n".join(table(more, wheels)),

@@ -7,11 +7,14 @@ import json
 import re
 import subprocess
 import sys
+from inspect import signature
 from pathlib import Path
+from typing import Annotated, get_origin
 
 import pytest
 
 from holdfast.interface import cli as package
+from holdfast.interface.cli.declaration import require_matplotlib
 from holdfast.interface.cli.program import COMMAND_MODULES, PANEL_TITLES, build_app
 
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
@@ -93,6 +96,23 @@ def test_a_command_imports_what_it_uses(arguments, heavy, monkeypatch):
 @pytest.mark.parametrize(("arguments", "heavy"), RICHER, ids=label)
 def test_a_command_that_needs_more_imports_no_more_than_that(arguments, heavy, monkeypatch, tmp_path):
     loads_only(modules(*arguments, cwd=tmp_path), heavy)
+
+
+def test_an_option_for_figures_is_refused_without_matplotlib_before_the_command_begins():
+    app = build_app()
+    commands = [
+        *app.registered_commands,
+        *(one for group in app.registered_groups for one in group.typer_instance.registered_commands),
+    ]
+    options = [
+        (f"{command.name or command.callback.__name__} {parameter.name}", parameter.annotation.__metadata__[-1])
+        for command in commands
+        for parameter in signature(command.callback).parameters.values()
+        if get_origin(parameter.annotation) is Annotated
+    ]
+    drawn = {name: option for name, option in options if re.search(r"figure|PNG|picture|bank\.png", option.help or "")}
+    assert len(drawn) > 15
+    assert [name for name, option in drawn.items() if option.callback is not require_matplotlib] == []
 
 
 PATH = """

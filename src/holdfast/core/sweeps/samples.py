@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.errors import StoreError
-from holdfast.core.extras import import_extra
+from holdfast.core.extras import import_extra, require_module
 from holdfast.core.files.output import guard_writing
 from holdfast.core.sweeps.folder import is_valid_folder_name, shorten
 from holdfast.core.typing import Rows
@@ -76,9 +76,13 @@ class SampleArrays:
     Args:
         folder: The results folder.
         columns: Columns of each row.
+
+    Raises:
+        HoldfastError: Zarr is not installed.
     """
 
     def __init__(self, folder: Path, columns: Sequence[Column]) -> None:
+        require_module("zarr", "a results folder")
         self.path = folder / SAMPLES_FOLDER
         self._columns = columns
         self._open_arrays: dict[str, Any] = {}  # open for writing

@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from holdfast.core.errors import InputError
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import FailuresOption, JsonOption, PlotOption, SeedOption
 from holdfast.interface.cli.values import read_numbers, read_numbers_by_joint
@@ -134,7 +135,7 @@ class CertificateOutput:
 
     out: CertificateOption = Path()
     plot: PlotOption = None
-    report: Annotated[Path | None, "HTML file for a report of the proof. Default: not written."] = None
+    report: Annotated[FigurePath, "HTML file for a report of the proof. Default: not written."] = None
     json_: JsonOption = False
 
 

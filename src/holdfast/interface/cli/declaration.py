@@ -1,8 +1,9 @@
 """Conversion of the parameters of a command to typer options.
 
 A parameter of type ``Annotated[int, "Help text."]`` becomes the option of the same name; the help shows a second text as the
-default. A parameter whose type is a dataclass is a group: its fields become options at the same place, with their defaults from
-the default of the parameter, or from the class if the parameter has none.
+default. A function before the texts is the callback of the option. A parameter whose type is a dataclass is a group: its fields
+become options at the same place, with their defaults from the default of the parameter, or from the class if the parameter has
+none.
 """
 
 from __future__ import annotations
@@ -12,11 +13,23 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import wraps
 from inspect import Parameter, Signature, signature
+from pathlib import Path
 from typing import Annotated, Any, get_origin, get_type_hints
 
 import typer
 
+from holdfast.core.extras import require_module
 from holdfast.core.labels import is_number
+
+
+def require_matplotlib(option: typer.CallbackParam, path: Path | None) -> Path | None:
+    """Check that the package that draws figures is installed if ``path`` is given, before the command begins its work."""
+    if path is not None:
+        require_module("matplotlib", option.opts[0])
+    return path
+
+
+FigurePath = Annotated[Path | None, require_matplotlib]
 
 
 def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -46,14 +59,16 @@ def as_typer(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _declare_option(name: str, annotation: Any, default: Any) -> Parameter:
-    if get_origin(annotation) is Annotated and isinstance(annotation.__metadata__[0], str):
-        help_text, *default_text = annotation.__metadata__
+    if get_origin(annotation) is Annotated and isinstance(annotation.__metadata__[-1], str):
+        callback = next(filter(callable, annotation.__metadata__), None)
+        help_text, *default_text = filter(lambda item: item is not callback, annotation.__metadata__)
         number_settings: dict[str, Any] = {}
         if annotation.__origin__ in (int, int | None):
             number_settings = {"parser": read_whole_number, "metavar": "INTEGER"}
         option = typer.Option(
             f"--{name.strip('_').replace('_', '-')}",
             help=help_text,
+            callback=callback,
             show_default=default_text[0] if default_text else True,
             **number_settings,
         )

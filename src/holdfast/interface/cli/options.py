@@ -9,6 +9,7 @@ import typer
 
 from holdfast.core.extras import import_extra
 from holdfast.core.labels import FAILURES_HELP, TASK_SIZES
+from holdfast.interface.cli.declaration import FigurePath
 
 NOT_MET_EXIT_CODE = 3  # exit code: the command worked, and a requirement of the user is not met
 
@@ -54,8 +55,9 @@ RrdOption = Annotated[
         callback=_require_rerun, help="Recording of the motion (.rrd) for the Rerun viewer (needs the extra 'rerun')."
     ),
 ]
-PlotOption = Annotated[Path | None, "PNG file for the figure."]
-OutOption = Annotated[Path | None, "Folder for report.html and figures."]
+PlotOption = Annotated[FigurePath, "PNG file for the figure."]
+OutOption = Annotated[FigurePath, "Folder for report.html and figures."]
+PageOption = Annotated[Path | None, "Folder for report.html."]
 RegionOption = Annotated[Path | None, "Region file (YAML). Default: a box around the first arm's home, 1/4 of its reach wide."]
 ThreadsOption = Annotated[int | None, "Number of threads. Default: all processors."]
 SeedOption = Annotated[int, "Seed of all random numbers."]

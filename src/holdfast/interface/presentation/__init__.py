@@ -6,6 +6,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+from holdfast.core.extras import guard_imports
+
 # Module that presents each class, by the class name with its module.
 PRESENTER_MODULES = {
     "model.arm.model.Arm": "arm.console",
@@ -94,4 +96,5 @@ def find_presenter(presented: type, function: str) -> Callable[..., Any]:
 
 def call_presenter(presented: object, function: str, *arguments: Any, **options: Any) -> Any:
     """Call the function, by name, that presents an object, for example ``show`` or ``present``, and return its result."""
-    return find_presenter(type(presented), function)(presented, *arguments, **options)
+    with guard_imports("the figure"):
+        return find_presenter(type(presented), function)(presented, *arguments, **options)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.core.errors import InputError
+from holdfast.core.extras import MissingModuleError
 from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
@@ -109,7 +110,10 @@ def in_notebook(thing: Presentable) -> str:
     parts.append(
         format_table(facts if facts.rows or not presentation.tables else next(iter(presentation.list_tables())).texts())
     )
-    parts.append(call_presenter(thing, "picture", answer))
+    try:
+        parts.append(call_presenter(thing, "picture", answer))
+    except MissingModuleError as error:
+        parts.append(f"<p>{escape(str(error))}</p>")
     return f'<div class="holdfast" style="max-width:60em">{insert_nonbreaking_spaces("".join(parts), html=True)}</div>'
 
 

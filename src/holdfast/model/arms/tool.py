@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -24,5 +26,7 @@ def format_tool_pose(arm: Arm) -> str:
     from scipy.spatial.transform import Rotation
 
     pose = np.linalg.inv(arm.flange) @ arm.tool
-    yaw, pitch, roll = Rotation.from_matrix(pose[:3, :3]).as_euler("ZYX", degrees=True, suppress_warnings=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # at a pitch of 90 degrees, several triples are valid
+        yaw, pitch, roll = Rotation.from_matrix(pose[:3, :3]).as_euler("ZYX", degrees=True)
     return ",".join(f"{round(float(number), 12) + 0.0:.12g}" for number in (*pose[:3, 3], roll, pitch, yaw))

@@ -202,6 +202,11 @@ def parse_goal(
     return RecoveryGoal(text, poses, None, relaxed)
 
 
+def _has_rank_three(matrix: FloatArray) -> bool:
+    """Return whether a matrix with any number of rows has rank 3; NumPy 2.0 computes no rank without rows."""
+    return len(matrix) >= 3 and int(np.linalg.matrix_rank(matrix)) == 3
+
+
 def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRows | None, pose: FloatArray) -> str:
     """Describe the tool constraint that every configuration of a goal pose (4, 4) violates; empty if none is proved to be.
 
@@ -213,8 +218,8 @@ def describe_goal_violation(constraints: Sequence[ToolConstraint], rows: TaskRow
     fixes_position = fixes_orientation = True  # for a configuration
     if rows is not None:
         linear, angular = (np.abs(rows.matrix[:, columns]).max(axis=1) > 0 for columns in (slice(3), slice(3, 6)))
-        fixes_position = int(np.linalg.matrix_rank(rows.matrix[linear & ~angular])) == 3
-        fixes_orientation = int(np.linalg.matrix_rank(rows.matrix[angular & ~linear])) == 3
+        fixes_position = _has_rank_three(rows.matrix[linear & ~angular])
+        fixes_orientation = _has_rank_three(rows.matrix[angular & ~linear])
     for constraint in constraints:
         applicable = replace(
             constraint,

@@ -18,6 +18,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.kernels.program import SX
+from holdfast.kinematics.regions.region import rpy_from_rotation
 from holdfast.model.arm.machine import Joint
 from holdfast.model.arm.model import Arm
 from holdfast.studies.designs.space import DesignSpace
@@ -114,8 +115,6 @@ class LawOfDesigns(Law):
 
 def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, FloatArray, bool, float, Joint | None]]:
     """Yield name, axis, prismatic flag, value, and joint of the arm (or None) for every step from the base to the tool."""
-    from scipy.spatial.transform import Rotation
-
     for number, (row, joint) in enumerate(zip(space.table.rows, space.arm.joints, strict=True), 1):
         yield f"theta{number}", _Z_AXIS, False, row.theta, None
         yield joint.name, _Z_AXIS, joint.prismatic, 0.0, joint
@@ -123,7 +122,7 @@ def _iterate_steps(space: DesignSpace) -> Iterator[tuple[str, FloatArray, bool, 
         yield f"a{number}", _X_AXIS, True, row.a, None
         yield f"alpha{number}", _X_AXIS, False, row.alpha, None
     tool = space.table.tool
-    yaw, pitch, roll = Rotation.from_matrix(tool[:3, :3]).as_euler("ZYX", suppress_warnings=True)
+    yaw, pitch, roll = rpy_from_rotation(tool[:3, :3])  # in the order of that function: the rotation about z is the first
     for name, axis, value in zip(("x", "y", "z"), np.eye(3), tool[:3, 3], strict=True):
         yield f"tool.{name}", axis, True, float(value), None
     for name, axis, value in (("yaw", _Z_AXIS, yaw), ("pitch", _Y_AXIS, pitch), ("roll", _X_AXIS, roll)):

@@ -421,16 +421,15 @@ class Records:
     def events(self, kind: str | None = None) -> list[dict[str, Any]]:
         """Return all events, or those of the given ``kind``, in the order of their recording."""
         names = ("trial", "subject", "k", "at", "kind", "data")
-        rows = self._db.execute(f"SELECT {', '.join(names)} FROM events WHERE ?1 IS NULL OR kind = ?1 ORDER BY id", (kind,))
+        query = f"SELECT {', '.join(names)} FROM events WHERE :kind IS NULL OR kind = :kind ORDER BY id"
+        rows = self._db.execute(query, {"kind": kind})
         return [dict(zip(names, row, strict=True)) | {"data": json.loads(row[-1])} for row in rows]
 
     def entries(self, subject: str | None = None, kind: TrialKind | None = None) -> list[TrialRecord]:
         """Return all trials, or those of one ``subject`` (code) or one ``kind``, in the order in which they began."""
-        condition = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
-        return [
-            parse_trial_row(row)
-            for row in self._db.execute(f"SELECT {ENTRY_COLUMNS} FROM trials {condition} ORDER BY id", (subject, kind))
-        ]
+        condition = "WHERE (:subject IS NULL OR subject = :subject) AND (:kind IS NULL OR kind = :kind)"
+        query = f"SELECT {ENTRY_COLUMNS} FROM trials {condition} ORDER BY id"
+        return [parse_trial_row(row) for row in self._db.execute(query, {"subject": subject, "kind": kind})]
 
     def entry(self, trial: int) -> TrialRecord | None:
         """Return the trial with the number ``trial``; None if there is no such trial."""

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions
-from holdfast.interface.cli.options import FailuresOption, JsonOption, OutOption, RegionOption, SeedOption, TaskOption
+from holdfast.interface.cli.options import FailuresOption, JsonOption, PageOption, RegionOption, SeedOption, TaskOption
 from holdfast.interface.cli.start.candidates import read_candidates
 from holdfast.interface.cli.values import read_failures, read_task
 from holdfast.interface.presentation.results import print_result, write_outputs
@@ -31,7 +31,7 @@ def command(
     best_limits: Annotated[bool, "Search for the artificial joint limits with the largest tolerant workspace."] = False,
     seed: SeedOption = 0,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
-    out: OutOption = None,
+    out: PageOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Compare arms by global fault-tolerance measures, with confidence intervals.

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.registry import LAW_REGISTRY
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions, TaskOptions
 from holdfast.interface.cli.options import ArmArgument, JsonOption, RegionOption, SeedOption, ThreadsOption
 from holdfast.interface.cli.progress import ProgressBar
@@ -41,7 +41,7 @@ def command(
     local_searches: Annotated[int, "Number of local searches from the best of these designs."] = 8,
     check_poses: Annotated[int, "Number of held-out poses for the final evaluation."] = 2000,
     seed: SeedOption = 0,
-    out: Annotated[Path | None, "Folder for report, best arm and designs; the same command resumes a stopped search."] = None,
+    out: Annotated[FigurePath, "Folder for report, best arm and designs; the same command resumes a stopped search."] = None,
     threads: ThreadsOption = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
     json_: JsonOption = False,

@@ -13,7 +13,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, MountingOptions
 from holdfast.interface.cli.measure_options import MaximiseOption, MinimiseOption
-from holdfast.interface.cli.options import ArmArgument, AtDegreesOption, FailuresOption, JsonOption, OutOption, TaskOption
+from holdfast.interface.cli.options import ArmArgument, AtDegreesOption, FailuresOption, JsonOption, PageOption, TaskOption
 from holdfast.interface.cli.values import (
     check_position_units,
     read_configuration,
@@ -52,7 +52,7 @@ def command(
     apart: ClearanceOptions = ClearanceOptions(),
     placement: MountingOptions = MountingOptions(),
     chain: ArmSourceOptions = ArmSourceOptions(),
-    out: OutOption = None,
+    out: PageOption = None,
     csv: Annotated[Path | None, "CSV file for the configurations."] = None,
     json_: JsonOption = False,
 ) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, JsonOption
 from holdfast.interface.cli.values import read_configuration
@@ -23,7 +23,7 @@ NameArgument = Annotated[str, typer.Argument(metavar="RECORD", help="Id of a rec
 
 @command.command("list")
 def list_(
-    out: Annotated[Path | None, "Folder for an HTML page with pictures, and for each record as YAML and URDF."] = None,
+    out: Annotated[FigurePath, "Folder for an HTML page with pictures, and for each record as YAML and URDF."] = None,
     json_: JsonOption = False,
 ) -> None:
     """List the best known arms with their upper bounds.

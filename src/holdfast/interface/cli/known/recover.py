@@ -11,6 +11,7 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import is_number, parse_quantities
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions
 from holdfast.interface.cli.options import (
     AT_HELP,
@@ -79,7 +80,7 @@ def command(
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random numbers.")] = 0,
     apart: ClearanceOptions = ClearanceOptions(),
     check: Annotated[Path | None, "CSV file of waypoints to check by a replay, instead of planning."] = None,
-    out: Annotated[Path | None, "Folder for report.html, recovery.json, waypoints.csv and figures."] = None,
+    out: Annotated[FigurePath, "Folder for report.html, recovery.json, waypoints.csv and figures."] = None,
     certificate: Annotated[
         Path | None, "File for the proof that no configuration meets the goal. Default: not written."
     ] = None,

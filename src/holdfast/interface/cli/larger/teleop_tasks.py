@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions
 from holdfast.interface.cli.options import JsonOption
 from holdfast.interface.cli.progress import show_status
@@ -33,7 +33,7 @@ def tasks(
         ),
     ] = True,
     task: Annotated[str | None, "Task of the joystick: planar or position.", "planar for a planar arm, else position"] = None,
-    out: Annotated[Path | None, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
+    out: Annotated[FigurePath, "Folder for bank.csv, protocol.yaml and bank.png."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Generate and select tasks.

@@ -10,6 +10,7 @@ import typer
 
 from holdfast.core.errors import InputError, StoreError
 from holdfast.core.files import reading
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmsArgument, ArmSourcesOptions, ClearanceOptions
 from holdfast.interface.cli.measure_options import IndexOption
 from holdfast.interface.cli.options import (
@@ -62,7 +63,7 @@ def command(
     failure_rate: FailureRateOption = None,
     apart: ClearanceOptions = ClearanceOptions(),
     at_least: AtLeastOption = None,
-    out: Annotated[Path | None, "Folder for results and report; the same command resumes a stopped run."] = None,
+    out: Annotated[FigurePath, "Folder for results and report; the same command resumes a stopped run."] = None,
     threads: ThreadsOption = None,
     chains: ArmSourcesOptions = ArmSourcesOptions(),
     json_: JsonOption = False,

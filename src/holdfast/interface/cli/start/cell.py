@@ -9,7 +9,7 @@ import typer
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, JsonOption, OutOption
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, JsonOption, PageOption
 from holdfast.interface.presentation.results import print_result, write_outputs
 
 command = typer.Typer(name="cell", help="Inspect the environment around an arm.", no_args_is_help=True)
@@ -20,7 +20,7 @@ def check(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Environment file (YAML), URDF or MJCF file.")],
     arm: Annotated[str | None, "Arm whose contacts are checked: built-in name or arm file. Default: none."] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
-    out: OutOption = None,
+    out: PageOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Check an environment file: unreadable shapes, permanent contacts, grid resolution.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
@@ -10,6 +9,7 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_count
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawsOption, read_laws, read_position_sampling, read_targets
 from holdfast.interface.cli.options import ArmArgument, JsonOption, StartDegreesOption, TaskOption
@@ -51,7 +51,7 @@ def command(
     touched: ContactOptions = ContactOptions(),
     degrees: StartDegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
-    out: Annotated[Path | None, "Folder for report.html and tables (CSV)."] = None,
+    out: Annotated[FigurePath, "Folder for report.html and tables (CSV)."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Compare control laws on the same motions, healthy and with an undetected lock.

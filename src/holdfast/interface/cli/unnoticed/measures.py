@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
-FolderOption = Annotated[Path | None, "Folder for report, figures, table and summary."]
+from holdfast.interface.cli.declaration import FigurePath
+
+FolderOption = Annotated[FigurePath, "Folder for report, figures, table and summary."]
 MeasureTimeOption = Annotated[float | None, "Time limit of each motion in s.", "2000/gain s"]
 PlacesOption = Annotated[Literal["starts", "targets"], "Positions of the map: starts or targets."]
 MapTimeOption = Annotated[float | None, "Time limit of each motion in s.", "500/gain s"]

@@ -11,6 +11,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.core.labels import parse_quantities
+from holdfast.interface.cli.declaration import FigurePath
 from holdfast.interface.cli.groups import ContactOptions
 from holdfast.interface.cli.laws import ClosedLoopOptions, LawOptions, OptionalTargetOption
 from holdfast.interface.cli.options import (
@@ -65,8 +66,8 @@ def command(
     degrees: StartDegreesOption = False,
     csv: MotionCsvOption = None,
     rrd: RrdOption = None,
-    plot: Annotated[Path | None, "PNG file for a figure of the motion."] = None,
-    out: Annotated[Path | None, "Folder for report.html with an animation, run.png and run.csv."] = None,
+    plot: Annotated[FigurePath, "PNG file for a figure of the motion."] = None,
+    out: Annotated[FigurePath, "Folder for report.html with an animation, run.png and run.csv."] = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate a control law with joint locks of which the controller is not informed, except by --monitor.
