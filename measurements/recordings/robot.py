@@ -50,10 +50,13 @@ def write_model(masses: FloatArray | None = None, play: bool = False) -> str:
     """Return the MJCF text of the arm; with ``play``, each servo has a second joint behind it."""
     opening, closing = "", ""
     for index, (name, mass) in enumerate(zip(JOINTS, _MASSES if masses is None else masses, strict=True)):
-        opening += f'<body name="{name}_link" pos="{_ORIGINS[index]}"><joint name="{name}" axis="{_AXES[index]}" damping="0.6" limited="true" range="-1.75 1.75"/>'
+        opening += f'<body name="{name}_link" pos="{_ORIGINS[index]}"><joint name="{name}" axis="{_AXES[index]}" damping="0.6" '
+        opening += 'limited="true" range="-1.75 1.75"/>'
         if play:  # between the servo and the link
             opening += '<inertial pos="0 0 0" mass="0.002" diaginertia="1e-6 1e-6 1e-6"/>'
-            opening += f'<body name="{name}_play"><joint name="{name}_play" axis="{_AXES[index]}" damping="0.02" limited="true" '
+            opening += (
+                f'<body name="{name}_play"><joint name="{name}_play" axis="{_AXES[index]}" damping="0.02" limited="true" '
+            )
             opening += 'range="-0.01 0.01" solreflimit="0.01 1"/>'
             closing += "</body>"
         opening += f'<geom type="capsule" fromto="0 0 0 {_ENDS[index]}" size="0.02" mass="{mass}" contype="0" conaffinity="0"/>'
@@ -157,15 +160,16 @@ class Robot:
                     data.qpos[2 * fault.joint] += np.radians(fault.size)
             measured = np.degrees(data.qpos[0::2] + data.qpos[1::2])
             wanted = leader(time)
-            rows.append((np.round(measured / TICK_DEG) * TICK_DEG, np.round(wanted / TICK_DEG) * TICK_DEG))
+            ticks = [np.round(values / TICK_DEG) * TICK_DEG for values in (measured, wanted)]
+            rows.append((*ticks, data.actuator_force.copy()))
             data.ctrl[:] = np.radians(wanted + self._zero)
             data.xfrc_applied[self._tip, :3] = push[2] if push[0] <= time < push[1] else 0.0
             mujoco.mj_step(model, data, max(1, round((time + max(step, _STEP_S) - (data.time - start)) / _STEP_S)))
             time = float(data.time) - start
-        q, reference = (np.array(part) for part in zip(*rows, strict=True))
+        q, reference, torque = (np.array(part) for part in zip(*rows, strict=True))
         if fault is not None:
-            q, reference = _corrupt(fault, fps, q, reference, rng)
-        return RecordedEpisode(index=index, t=np.arange(len(q)) / fps, q=q, q_ref=reference, clock="computed")
+            q, reference, torque = _corrupt(fault, fps, [q, reference, torque], rng)
+        return RecordedEpisode(index=index, t=np.arange(len(q)) / fps, q=q, q_ref=reference, tau=torque, clock="computed")
 
     def _reset(self, rng: np.random.Generator) -> None:
         model = self._model
@@ -225,20 +229,18 @@ def _draw_push(rng: np.random.Generator) -> tuple[float, float, FloatArray]:
     return (start, start + length, force) if rng.random() < 0.25 else (np.inf, np.inf, force)
 
 
-def _corrupt(
-    fault: Fault, fps: float, q: FloatArray, reference: FloatArray, rng: np.random.Generator
-) -> tuple[FloatArray, FloatArray]:
+def _corrupt(fault: Fault, fps: float, signals: list[FloatArray], rng: np.random.Generator) -> list[FloatArray]:
     """Insert a fault of the sensors or of the recording program."""
     joint, first = fault.joint, int(np.ceil(fault.onset * fps))
-    last = first + int(min(fault.duration, LENGTH_S) * fps)
+    last, q = first + int(min(fault.duration, LENGTH_S) * fps), signals[0]
     if fault.kind == "stale joint":
         q[first:last, joint] = q[first - 1, joint]
     elif fault.kind == "stale":
         q[first:last] = q[first - 1]
     elif fault.kind == "dropped":
-        q, reference = np.delete(q, slice(first, last), axis=0), np.delete(reference, slice(first, last), axis=0)
+        return [np.delete(values, slice(first, last), axis=0) for values in signals]
     elif fault.kind == "spike":
         q[first : first + int(rng.integers(1, 4)), joint] += fault.size
     elif fault.kind in ("offset", "drift"):
         q[first:, joint] += fault.size
-    return q, reference
+    return signals

@@ -302,7 +302,8 @@ def test_fast_recordings_are_reduced(rng):
         for e in slow
     ]
     results = [
-        examine(replace(make_recording(episodes), fps=fps), healthy=range(20)) for episodes, fps in ((slow, 30.0), (fast, 120.0))
+        examine(replace(make_recording(episodes), fps=fps), healthy=range(20))
+        for episodes, fps in ((slow, 30.0), (fast, 120.0))
     ]
     assert results[0].calibration.threshold == pytest.approx(results[1].calibration.threshold)
 
@@ -310,11 +311,15 @@ def test_fast_recordings_are_reduced(rng):
 def test_bad_input(rng, small_arm):
     episodes = [make_episode(rng, k) for k in range(21)]
     recording = make_recording(episodes)
+    unknown = replace(recording, unit=None)
     hollow = replace(episodes[3], q_ref=np.where(np.arange(2) == 1, np.nan, episodes[3].q_ref))
     for call, message in (
         (lambda: examine(recording, healthy=[0, 21]), "healthy episode 21 is not in the recording; it has episodes 0 to 20"),
         (lambda: examine(recording, healthy=range(20), arm=small_arm), "has 5 joints and the recording 2"),
-        (lambda: examine(replace(recording, unit=None), healthy=[], arm=hf.arms.load("planar-2r")), "the unit of the recording is unknown"),
+        (
+            lambda: examine(unknown, healthy=[], arm=hf.arms.load("planar-2r")),
+            "the unit of the recording is unknown",
+        ),
         (lambda: examine(recording, healthy=range(20), rate=0.0), "rate is 0; it must be above 0"),
         (
             lambda: examine(make_recording([*episodes[:3], hollow, *episodes[4:]]), healthy=range(20)),

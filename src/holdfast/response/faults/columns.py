@@ -47,7 +47,7 @@ class Columns(Strict):
     quat: _Column = _Column(column="quat_*")
 
 
-# Source of libfranka's names: logToCSV in libfranka 0.5 to 0.15. Source of RTDE's names: the client library of Universal Robots.
+# Source: logToCSV in libfranka 0.5 to 0.15, and the recipes of the RTDE client library of Universal Robots.
 _KNOWN_LAYOUTS = [
     Columns(),
     Columns.model_validate(

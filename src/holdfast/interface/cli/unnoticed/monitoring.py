@@ -22,10 +22,11 @@ LatencyOption = Annotated[float, "Latency of the tool-pose measurement in s."]
 
 def diagnose(
     log: Annotated[
-        Path, typer.Argument(metavar="RECORDING", help="Log, LeRobot data set, ROS 2 bag, MCAP file, or folder of logs or bags.")
+        Path,
+        typer.Argument(metavar="RECORDING", help="Log, LeRobot data set, ROS 2 bag, MCAP file, or folder of logs or bags."),
     ],
     arm: Annotated[str | None, "Arm: as in other commands. Needed for --bounds, to check limits, and to name a fall."] = None,
-    bounds: Annotated[Path | None, "Threshold file (JSON) of 'holdfast calibrate', for a log with 40 or more samples/s."] = None,
+    bounds: Annotated[Path | None, "Threshold file (JSON) of 'holdfast calibrate', for one log of at least 40 Hz."] = None,
     healthy: Annotated[str | None, "Numbers of healthy episodes, at least 20, such as 0:50 (0 to 49) or 0:40,45."] = None,
     rate: Annotated[float | None, "False alarms per hour (extrapolated). Default: the rate that --healthy guarantees."] = None,
     unit: Annotated[str | None, "Unit of a data set: deg, rad, or a calibration file of LeRobot. Default: unknown."] = None,
@@ -58,7 +59,12 @@ def diagnose(
         has_alarm = diagnosis.verdict.alarm
     else:
         recording = hf.diagnosis.read_recording(
-            log, state=state, reference=reference, joints=None if joints is None else joints.split(","), unit=unit, columns=columns
+            log,
+            state=state,
+            reference=reference,
+            joints=None if joints is None else joints.split(","),
+            unit=unit,
+            columns=columns,
         )
         episodes = [] if healthy is None else read_episode_numbers("--healthy", healthy, len(recording.episodes))
         examination = hf.diagnosis.examine(recording, healthy=episodes, arm=model, rate=rate)

@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count, format_number, list_alternatives
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
-from holdfast.response.diagnosis.recordings.examination import ExaminedEpisode, Examination, StatedRate
+from holdfast.response.diagnosis.recordings.examination import Examination, ExaminedEpisode, StatedRate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -54,7 +54,9 @@ def present(examination: Examination) -> Presentation:
     """Present the alarms, the stated rate, the joints that hardly moved, and the findings."""
     recording, alarms = examination.recording, examination.alarms
     examined = [episode for episode in examination.episodes if episode.role == "examined"]
-    notices = [Notice(capitalise_first(examination.inconclusive) + ".", title="Inconclusive")] if examination.inconclusive else []
+    notices = (
+        [Notice(capitalise_first(examination.inconclusive) + ".", title="Inconclusive")] if examination.inconclusive else []
+    )
     figures = {}
     if np.isfinite([episode.held_error for episode in examination.episodes]).any():
         figures["errors"] = FigureSpec(
@@ -118,8 +120,8 @@ def describe_rate(stated: StatedRate) -> str:
     if stated.limit is None:
         return f"{sets}; the threshold is extrapolated to {hourly}, which is not guaranteed"
     return (
-        f"{sets}: 1 of {stated.threshold_count + 1} healthy episodes alarms on average ({hourly}), and with 95 % confidence fewer "
-        f"than 1 of {int(1 / stated.limit)} for this calibration, if robot, task and operator do not change"
+        f"{sets}: 1 of {stated.threshold_count + 1} healthy episodes alarms on average ({hourly}), and with 95 % confidence "
+        f"fewer than 1 of {int(1 / stated.limit)} for this calibration, if robot, task and operator do not change"
     )
 
 

@@ -151,9 +151,7 @@ class Examination(Result):
 
 
 @check_arguments
-def examine(
-    recording: Recording, *, healthy: Sequence[int], arm: Arm | None = None, rate: float | None = None
-) -> Examination:
+def examine(recording: Recording, *, healthy: Sequence[int], arm: Arm | None = None, rate: float | None = None) -> Examination:
     """Compare the episodes of a recording with healthy ones of the same robot and kind of task.
 
     Half of the healthy episodes fit a model of each joint, and the other half set the threshold. If healthy episodes are
@@ -177,13 +175,12 @@ def examine(
     roles = _assign_roles(recording, healthy)
     if rate is not None and not rate > 0:
         raise InputError(f"rate is {rate:g}; it must be above 0 false alarms per hour")
-    if arm is not None and (recording.unit is None or arm.n != len(recording.joints)):
-        problem = (
-            f"arm '{arm.name}' has {arm.n} joints and the recording {len(recording.joints)}; name the joints of the arm in order"
-            if arm.n != len(recording.joints)
-            else "the unit of the recording is unknown, so it cannot be compared with an arm; give the unit"
+    if arm is not None and arm.n != len(recording.joints):
+        raise InputError(
+            f"arm '{arm.name}' has {arm.n} joints and the recording {len(recording.joints)}; name those of the arm, in order"
         )
-        raise InputError(problem)
+    if arm is not None and recording.unit is None:
+        raise InputError("the unit of the recording is unknown, so it cannot be compared with an arm; give the unit")
     findings = find_conspicuous(recording, arm)
     has_reference = all(episode.q_ref is not None for episode in recording.episodes)
     if not has_reference:

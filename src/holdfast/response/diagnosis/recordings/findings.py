@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -56,8 +56,8 @@ def _reference_ranges(recording: Recording) -> FloatArray:
     return np.asarray(np.nan_to_num(np.fmax.reduce(np.concatenate(references)) - np.fmin.reduce(np.concatenate(references))))
 
 
-def _add_standstills(episode: RecordedEpisode, joints: Sequence[str], ranges: FloatArray, add: object) -> None:
-    assert callable(add) and episode.q_ref is not None
+def _add_standstills(episode: RecordedEpisode, joints: Sequence[str], ranges: FloatArray, add: Callable[[str], None]) -> None:
+    assert episode.q_ref is not None
     reference, q = episode.q_ref, episode.q
     asked = np.nan_to_num(np.fmax.reduce(reference) - np.fmin.reduce(reference))
     for joint in np.flatnonzero((np.fmax.reduce(q) == np.fmin.reduce(q)) & (asked > _CONSTANT_FRACTION * ranges)):
@@ -74,8 +74,7 @@ def _add_standstills(episode: RecordedEpisode, joints: Sequence[str], ranges: Fl
         )
 
 
-def _add_limits(episode: RecordedEpisode, arm: Arm, to_rad: float, add: object) -> None:
-    assert callable(add)
+def _add_limits(episode: RecordedEpisode, arm: Arm, to_rad: float, add: Callable[[str], None]) -> None:
     speeds = np.abs(np.diff(episode.q, axis=0)) / np.maximum(np.median(np.diff(episode.t)), 1e-9) * to_rad
     for joint, values, speed in zip(arm.joints, episode.q.T * to_rad, speeds.T, strict=True):
         excess = max(joint.lower - np.fmin.reduce(values), np.fmax.reduce(values) - joint.upper)

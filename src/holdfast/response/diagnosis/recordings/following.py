@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -150,7 +151,8 @@ def _resolutions(episodes: Sequence[Frames]) -> FloatArray:
 def _moving_mean(values: FloatArray, frames: int) -> FloatArray:
     """Return the mean (T, n) of the last ``frames`` values; before the beginning, values are 0."""
     sums = np.cumsum(values, axis=0)
-    return (sums - np.concatenate([np.zeros((min(frames, len(sums)), values.shape[1])), sums[:-frames]])) / frames
+    earlier = np.concatenate([np.zeros((min(frames, len(sums)), values.shape[1])), sums[:-frames]])
+    return np.asarray((sums - earlier) / frames)
 
 
 def _pulses(residual: FloatArray) -> FloatArray:
@@ -182,7 +184,7 @@ def _ranges_since(restarts: NDArray[np.bool_], values: FloatArray) -> FloatArray
     for joint in range(values.shape[1]):
         column = restarts[:, min(joint, restarts.shape[1] - 1)]
         edges = np.flatnonzero(np.concatenate([[True], column[1:], [True]]))
-        for first, last in zip(edges[:-1], edges[1:], strict=True):
+        for first, last in pairwise(edges.tolist()):
             if last - first > 1:
                 run = values[first:last, joint]
                 ranges[first:last, joint] = np.maximum.accumulate(run) - np.minimum.accumulate(run)

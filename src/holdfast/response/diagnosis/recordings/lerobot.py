@@ -51,13 +51,13 @@ def read_data_set(folder: Path, state: str | None, reference: str | None, episod
         if is_required and name not in vectors:
             content = {"state": "joint positions", "reference": "references"}[option]
             raise InputError(
-                f"'{folder}' has no '{name}'; its vectors of numbers are {list_names(list(vectors)) or 'none'}: name the one with "
-                f"the {content} by --{option}"
+                f"'{folder}' has no '{name}'; its vectors of numbers are {list_names(list(vectors)) or 'none'}: name the one "
+                f"with the {content} by --{option}"
             )
     columns = _read_columns(folder, [state_name, *[reference_name] * (reference_name in vectors)], episodes)
     entries = _name_entries(vectors[state_name], columns[state_name].shape[1])
     joints = {name.removesuffix(".pos"): column for name, column in entries.items() if not name.endswith((".vel", ".torque"))}
-    torque_columns = [entries.get(f"{name}.torque") for name in joints]
+    torque_columns = [entries[f"{name}.torque"] for name in joints if f"{name}.torque" in entries]
     action, notes = columns.get(reference_name), list[str]()
     chosen_columns = None
     if action is None:
@@ -77,7 +77,7 @@ def read_data_set(folder: Path, state: str | None, reference: str | None, episod
                 t=columns["timestamp"][rows],
                 q=values[:, list(joints.values())],
                 q_ref=None if action is None or chosen_columns is None else action[rows][:, chosen_columns],
-                tau=None if None in torque_columns else values[:, torque_columns],
+                tau=values[:, torque_columns] if len(torque_columns) == len(joints) else None,
                 clock="measured" if has_measured_clock else "computed",
             )
         )
@@ -130,7 +130,9 @@ def _read_columns(folder: Path, vectors: Sequence[str], episodes: Collection[int
         except Exception as error:  # damaged files raise errors of many types
             raise InputError(f"'{file}' cannot be read ({error}); download it again") from error
     try:
-        columns = {name: np.concatenate([part[index] for part in parts if len(part[index])]) for index, name in enumerate(names)}
+        columns = {
+            name: np.concatenate([part[index] for part in parts if len(part[index])]) for index, name in enumerate(names)
+        }
     except ValueError as error:  # nothing to concatenate, or vectors of different sizes
         raise InputError(f"'{folder}' has no rows of the requested episodes, or vectors of different sizes") from error
     order = np.argsort(columns["episode_index"], kind="stable")
@@ -155,8 +157,8 @@ def _list_names(feature: Mapping[str, Any], size: int) -> list[str] | None:
     if isinstance(names, dict):
         groups = list(names.values())
         names = [name for group in groups for name in group] if all(isinstance(g, list) for g in groups) else list(names)
-    has_all = isinstance(names, list) and len(names) == size == len(set(map(str, names)))
-    return list(map(str, names)) if has_all else None
+    texts = list(map(str, names)) if isinstance(names, list) else []
+    return texts if len(texts) == size == len(set(texts)) else None
 
 
 def _name_entries(feature: Mapping[str, Any], size: int) -> dict[str, int]:

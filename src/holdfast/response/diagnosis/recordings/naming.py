@@ -24,10 +24,14 @@ CANDIDATES = {
 """Possible causes of each kind, as far as references and positions can distinguish them."""
 
 NAMING_TIME_S = 2.0
-_LEAP, _PULSE, _HOLD, _DROP = *map(JOINT_STATISTICS.index, ("leap", "pulse")), *map(ARM_STATISTICS.index, ("hold", "drop"))
+_PULSE = JOINT_STATISTICS.index("pulse")
+_HOLD = ARM_STATISTICS.index("hold")
+_DROP = ARM_STATISTICS.index("drop")
 _PULSE_FRAMES = 4  # after the alarm, within which a pulse ends
 _RETURN_FRACTION = 0.35  # of a leap: a smaller residual afterwards means that the joint is back
 _MIN_LEAP_DEG = 2.0
+_LEAP_TIME_S = 1 / 6  # before the alarm
+_LEAP_FRACTION = 0.6  # of the residual: a leap that explains most of it
 _MIN_FALL_DEG = 3.0
 _MIN_EXCESS_FALL_DEG = 5.0
 _MIN_FALL_RESIDUAL_DEG = 8.0
@@ -35,7 +39,7 @@ _MIN_WEIGHT_TORQUE_NM = 0.15
 _MAX_STANDING_DEG = 2.2
 _MAX_STANDING_FRACTION = 0.15
 _MIN_ASKED_DEG = 3.0
-_LOOK_BACK_S = 0.5  # before the alarm, for the motion that the reference asked for
+_LOOK_BACK_S = 0.5  # before the alarm: the memory of the model
 _SLOPE_TOLERANCE = 0.25
 
 
@@ -71,18 +75,21 @@ class Alarm:
         """Return the kind of the fault, and all causes that remain possible."""
         end = self.frame + max(2, round(NAMING_TIME_S * self.fps))
         window, ending = slice(self.frame, end), slice(self.frame, self.frame + _PULSE_FRAMES + 1)
-        if (self.arm_scores[self.frame - 1 : self.frame + 2, _DROP] > self.threshold).any():
+        # A leap of the references acts on the prediction for half a second, so it can precede the alarm.
+        recent = slice(max(0, self.frame - round(_LOOK_BACK_S * self.fps)), self.frame + 2)
+        if (self.arm_scores[recent, _DROP] > self.threshold / 2).any():
             return "dropped", CANDIDATES["dropped"]
         if (self.arm_scores[window, _HOLD] > self.threshold).any():
             return "stale", CANDIDATES["stale"]
         residual = self.position - self.predicted
-        leap = abs(residual[self.frame] - residual[self.frame - 1])
         if (self.joint_scores[ending, _PULSE, self.joint] > self.threshold).any():
             return "spike", CANDIDATES["spike"]
         if self._returns_from_frozen_reading(residual, window):
             return "stale joint", CANDIDATES["stale joint"]
         at_end = float(np.abs(residual[window][-max(2, round(self.fps / 2)) :]).mean())
-        if self.joint_scores[self.frame, _LEAP, self.joint] > self.threshold and leap > _MIN_LEAP_DEG:
+        before_alarm = residual[max(0, self.frame - round(_LEAP_TIME_S * self.fps)) : self.frame + 1]
+        leap = float(np.abs(np.diff(before_alarm)).max())
+        if leap > max(_MIN_LEAP_DEG, _LEAP_FRACTION * np.abs(before_alarm).max()):
             kind = "slip" if at_end < _RETURN_FRACTION * leap else "offset"
             return kind, CANDIDATES[kind]
         return self._classify_motion(window, residual, at_end)
@@ -90,7 +97,7 @@ class Alarm:
     def _returns_from_frozen_reading(self, residual: FloatArray, window: slice) -> bool:
         """Return whether a constant reading leaps back to the prediction, within the window or at the alarm."""
         for frame in range(window.start, min(window.stop, len(residual))):
-            before, change = abs(residual[frame - 1]), abs(residual[frame] - residual[frame - 1])
+            before, change = abs(residual[frame - 1]), abs(self.position[frame] - self.position[frame - 1])
             if before > _MIN_LEAP_DEG and abs(residual[frame]) < _RETURN_FRACTION * before and change > before / 2:
                 run = self.position[max(0, frame - max(3, round(self.fps / 6))) : frame]
                 return bool(np.ptp(run) <= 1.2 * self.tick)
@@ -113,5 +120,5 @@ class Alarm:
         spread = predicted - predicted.mean()
         rests = np.ptp(predicted) < _MIN_ASKED_DEG
         if rests or abs(float(spread @ position) / float(spread @ spread) - 1) < _SLOPE_TOLERANCE:
-            return "offset", (*CANDIDATES["offset"], *(("weak", "friction", "play") if rests else ()))
+            return "offset", (*CANDIDATES["offset"], "weak", "friction", "play")  # without a leap, these are not excluded
         return "not following", CANDIDATES["not following"]

@@ -6,8 +6,6 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from holdfast.core.errors import InputError
 from holdfast.core.files.reading import path_exists
 from holdfast.core.formatting import list_names
@@ -100,8 +98,8 @@ def _read_folder(folder: Path, state: str | None, reference: str | None, columns
     if not items:
         names = list_names([item.name for item in content], 8) or "nothing"
         raise InputError(
-            f"'{folder}' is a folder without {INFO_FILE} (LeRobot) or {BAG_INFO_FILE} (ROS 2 bag); it contains {names}; give the "
-            "folder that has one of them, a folder of logs, or one file"
+            f"'{folder}' is a folder without {INFO_FILE} (LeRobot) or {BAG_INFO_FILE} (ROS 2 bag); it contains {names}; give "
+            "the folder that has one of them, a folder of logs, or one file"
         )
     parts = [_read_path(item, state, reference, None, columns) for item in items]
     first = parts[0]

@@ -111,9 +111,8 @@ def _choose_state(path: Path, types: dict[str, str], state: str | None) -> str:
     if state is not None and state in topics:
         return state
     if not topics or state is not None:
-        raise InputError(
-            f"'{path}' has no joint states{f' in {state!r}' if state else ''}; its topics are {list_names(list(types)) or 'none'}"
-        )
+        place = f" in '{state}'" if state else ""
+        raise InputError(f"'{path}' has no joint states{place}; its topics are {list_names(list(types)) or 'none'}")
     controllers = [topic for topic in topics if types[topic] == _CONTROLLER_STATE]
     for choice in (controllers, [_USUAL_STATE_TOPIC] if _USUAL_STATE_TOPIC in topics else topics):
         if len(choice) == 1:
