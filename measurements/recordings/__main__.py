@@ -87,8 +87,8 @@ def main() -> None:
         f"{chosen.faults}` on {datetime.now():%Y-%m-%d} with {made}. The simulation took {simulated_s:.0f} s.",
         "",
         f"Everything is **simulated**: an arm like the SO-101 (`robot.py`), {chosen.robots} robots, {_CALIBRATION} healthy "
-        f"episodes of {LENGTH_S:g} s for the calibration of each, {chosen.healthy} further healthy ones, and {chosen.faults} of "
-        "each fault, with onsets from 4 to 9 s. Parentheses contain Clopper-Pearson intervals of 95 %. The columns *specified* "
+        f"episodes of {LENGTH_S:g} s for the calibration of each, {chosen.healthy} further healthy ones, and {chosen.faults} "
+        "of each fault, with onsets from 4 to 9 s. Parentheses contain Clopper-Pearson intervals of 95 %. The columns *specified* "
         "are numbers of an earlier simulation of ten robots with other geometry and disturbances, from which the method was "
         "designed. No parameter was changed to reach them.",
         "",
@@ -142,7 +142,7 @@ def table_of_faults(
         f"({format_interval(alarms, healthy)}), {alarms / hours:.2g} per hour in {hours:.3g} h. {early} of {faulty} faulty "
         "episodes alarm before the onset and count as not detected.",
         "",
-        "| fault | detected | specified | joint right | delay, s, median / 90 % | kind or candidate right | specified | named |",
+        "| fault | detected | specified | joint right | delay, s: median / 90 % | kind or cause right | specified | named |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for kind in FAULTS:

@@ -43,7 +43,7 @@ def test_exit_codes_text_and_page(cli, data_set, tmp_path):
     assert "11 healthy episodes fit the model, and 11 others set the threshold" in out
     assert "1 of 12 healthy episodes alarms on average" in out
     page = (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
-    for text in ("error held for 0.5 s", "prediction of the healthy joint", "healthy (threshold)"):
+    for text in ("error held for 0.5 s", "prediction of the healthy joint", "roles fit and threshold: healthy"):
         assert text in page
     code, out, _ = cli("diagnose", data_set, "--healthy", "0:22", "--unit", "deg", "--json")
     assert code == 3

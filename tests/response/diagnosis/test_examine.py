@@ -243,13 +243,13 @@ def test_findings(rng, small_arm):
     assert examination.calibration is None
     assert "there are 0 healthy episodes; 20 are needed to state a rate" in examination.inconclusive
     for index, expected in (
-        (1, "all positions repeat while a reference moves, 1 times; the longest is 9 frames at 1.6"),
+        (1, "all positions repeat while a reference moves (1 time; the longest is 9 frames at 1.6"),
         (2, "wrist_flex is constant while its reference moves"),
         (3, "the position has no finite number in 1 of 240 frames"),
         (3, "the time does not increase at 1 of 240 frames"),
         (4, "0.733 s without a frame at 3.3 s"),
         (5, "it equals episode 0"),
-        (6, "shoulder_lift leaps and returns faster than its speed limit, 1 times"),
+        (6, "shoulder_lift leaps and returns faster than its speed limit (1 time)"),
         (6, "elbow_flex is up to"),
         (2, "wrist_flex starts"),
     ):

@@ -28,7 +28,6 @@ _KIND_PHRASES = {
     "standing": "the position does not change",
     "not following": "the position does not follow its reference",
 }
-_ROLES = {"fit": "healthy (fit)", "threshold": "healthy (threshold)", "examined": "examined"}
 
 
 def to_dict(examination: Examination) -> dict[str, Any]:
@@ -85,7 +84,8 @@ def present(examination: Examination) -> Presentation:
 def _compose_answer(examination: Examination, examined_count: int) -> str:
     if examination.calibration is None:
         count = sum(bool(episode.findings) for episode in examination.episodes)
-        return f"No test was possible; {format_count(count, 'episode')} of {len(examination.episodes)} have findings."
+        verb = "has" if count == 1 else "have"
+        return f"No test was possible; {count} of {format_count(len(examination.episodes), 'episode')} {verb} findings."
     if not examination.alarms:
         return f"No alarm in {format_count(examined_count, 'examined episode')}."
     return f"{len(examination.alarms)} of {format_count(examined_count, 'examined episode')} alarm."
@@ -104,7 +104,7 @@ def _list_lines(examination: Examination, examined: list[ExaminedEpisode]) -> li
             for name, count in unheard.items()
         ]
     if count := sum(bool(episode.findings) for episode in examination.episodes):
-        lines.append(f"{format_count(count, 'episode')} have findings, which need no calibration and have no stated rate")
+        lines.append(f"episodes with findings, which need no calibration and have no stated rate: {count}")
     if examination.recording.unit is None:
         lines.append("the unit of the positions is unknown, so limits are not checked and names of kinds assume degrees")
     lines += examination.recording.notes
@@ -159,7 +159,7 @@ def _tabulate(examination: Examination) -> list[TableSpec]:
     episodes = [
         [
             str(episode.index),
-            _ROLES[episode.role],
+            episode.role,
             "–" if episode.alarm is None else episode.alarm,
             " ".join(filter(None, [episode.joint, episode.kind])) or "–",
             episode.score if np.isfinite(episode.score) else "–",
@@ -170,7 +170,9 @@ def _tabulate(examination: Examination) -> list[TableSpec]:
         for episode in examination.episodes
     ]
     calibration = examination.calibration
-    title = f"All episodes (an episode alarms above a score of {calibration.threshold:.3g})" if calibration else "All episodes"
+    title = "All episodes"
+    if calibration is not None:
+        title += f" (roles fit and threshold: healthy; an examined episode alarms above a score of {calibration.threshold:.3g})"
     return [
         TableSpec("Alarms", alarm_columns, rows, on_page=bool(rows)),
         TableSpec("Findings", finding_columns, findings, on_page=bool(findings)),
@@ -229,8 +231,9 @@ def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> Figure:
         axes.plot(t, predicted[:, joint], color=style.BLUE, linewidth=1.2, label="prediction of the healthy joint")
         axes.plot(t, frames.position[:, joint], color=style.ORANGE, linewidth=1.6, label="position")
         axes.axvline(alarm.alarm or 0.0, color=style.INK, linewidth=1.0)
-        axes.text(alarm.alarm or 0.0, 1.02, f" alarm, {alarm.alarm:.2f} s", transform=axes.get_xaxis_transform(), fontsize=8)
+        label = f" alarm, {alarm.alarm:.2f} s"
+        axes.text(alarm.alarm or 0.0, 0.98, label, transform=axes.get_xaxis_transform(), fontsize=8, va="top")
         name = style.format_label(joints[joint])
         axes.set(xlabel="time, s", ylabel=f"{name}{f', {unit}' if unit else ''}", title=f"Episode {alarm.index}")
-        axes.legend(loc="best")
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
         return style.settle_layout(figure)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from holdfast.core.formatting import format_count
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode, Recording
@@ -69,8 +70,8 @@ def _add_standstills(episode: RecordedEpisode, joints: Sequence[str], ranges: Fl
     if moving:
         first, last = max(moving, key=lambda run: run[1] - run[0])
         add(
-            f"all positions repeat while a reference moves, {len(moving)} times; the longest is {last - first} frames at "
-            f"{episode.t[first] - episode.t[0]:.3g} s"
+            f"all positions repeat while a reference moves ({format_count(len(moving), 'time')}; the longest is {last - first} "
+            f"frames at {episode.t[first] - episode.t[0]:.3g} s)"
         )
 
 
@@ -82,7 +83,7 @@ def _add_limits(episode: RecordedEpisode, arm: Arm, to_rad: float, add: Callable
             add(f"{joint.name} is up to {excess / to_rad:.3g} beyond its limit")
         is_pulse = (speed[:-1] > joint.velocity) & (speed[1:] > joint.velocity) if len(speed) > 1 else np.zeros(0, dtype=bool)
         if is_pulse.any():
-            add(f"{joint.name} leaps and returns faster than its speed limit, {int(is_pulse.sum())} times")
+            add(f"{joint.name} leaps and returns faster than its speed limit ({format_count(int(is_pulse.sum()), 'time')})")
 
 
 def _add_equal_episodes(recording: Recording, findings: dict[int, list[str]]) -> None:

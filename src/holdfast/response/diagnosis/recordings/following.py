@@ -26,6 +26,7 @@ _MEMORY_S = 0.5
 _DIRECTION_FRAMES = 4  # over which the direction of motion is computed
 _RIDGE = 1e-3
 _RESOLUTION_FACTOR = 1.2  # ticks: a smaller change is no motion
+_TICK_QUANTILE = 0.05  # the smallest change of a reading with noise would be accidental
 _RELATIVE_TICK = 1e-5  # of the range of a joint: smaller differences are rounding
 _LEAN_LIMIT_DEG = 8.0
 _LONGEST_PULSE = 3  # frames
@@ -139,12 +140,13 @@ def _features(reference: FloatArray, joint: int, fps: float, degree: float) -> F
 
 
 def _resolutions(episodes: Sequence[Frames]) -> FloatArray:
-    """Return the smallest change (n,) of each position that is not rounding."""
+    """Return the resolution (n,) of each position: the 5 % quantile of its changes, without those that are rounding."""
     ticks = []
     for joint in range(episodes[0].position.shape[1]):
         changes = np.concatenate([np.abs(np.diff(frames.position[:, joint])) for frames in episodes])
         span = max(np.ptp(frames.position[:, joint]) for frames in episodes)
-        ticks.append(min(changes[changes > _RELATIVE_TICK * span], default=span or 1.0))
+        changes = changes[changes > _RELATIVE_TICK * span]
+        ticks.append(np.quantile(changes, _TICK_QUANTILE, method="lower") if changes.size else span or 1.0)
     return np.array(ticks)
 
 

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.errors import InputError
+from holdfast.core.extras import import_extra
 from holdfast.core.files.reading import guard_reading, read_json
 from holdfast.core.formatting import list_names
 from holdfast.core.typing import FloatArray
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode, Recording
-from holdfast.response.faults.columns import import_pyarrow
 
 INFO_FILE = Path("meta", "info.json")
 _VERSIONS = ("v2.0", "v2.1", "v3.0")
@@ -118,7 +118,7 @@ def _read_columns(folder: Path, vectors: Sequence[str], episodes: Collection[int
             f"'{folder}' has no data/*/*.parquet; download the data set first, for example with hf download NAME --repo-type "
             "dataset --exclude 'videos/*' --local-dir FOLDER"
         )
-    _, parquet = import_pyarrow()
+    parquet = import_extra("pyarrow.parquet", "records", "pyarrow")
     names, parts = [*vectors, *_INDEX_COLUMNS], []
     chosen = None if episodes is None else [("episode_index", "in", list(episodes))]
     for file in files:
