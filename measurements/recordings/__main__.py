@@ -12,10 +12,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.core.probability import Interval
-from holdfast.core.typing import FloatArray
 from holdfast.response.diagnosis import Recording, examine
 from holdfast.response.diagnosis.recordings.examination import Examination
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode
@@ -88,9 +88,9 @@ def main() -> None:
         "",
         f"Everything is **simulated**: an arm like the SO-101 (`robot.py`), {chosen.robots} robots, {_CALIBRATION} healthy "
         f"episodes of {LENGTH_S:g} s for the calibration of each, {chosen.healthy} further healthy ones, and {chosen.faults} "
-        "of each fault, with onsets from 4 to 9 s. Parentheses contain Clopper-Pearson intervals of 95 %. The columns *specified* "
-        "are numbers of an earlier simulation of ten robots with other geometry and disturbances, from which the method was "
-        "designed. No parameter was changed to reach them.",
+        "of each fault, with onsets from 4 to 9 s. Parentheses contain Clopper-Pearson intervals of 95 %. The columns "
+        "*specified* are numbers of an earlier simulation of ten robots with other geometry and disturbances, from which "
+        "the method was designed. No parameter was changed to reach them.",
         "",
     ]
     for rate, examinations in results.items():
@@ -167,7 +167,7 @@ def format_interval(count: int, total: int) -> str:
 # ---- rules by hand -----------------------------------------------------------------------------------------------
 
 
-def first_frame(flags: FloatArray, frames: int) -> float | None:
+def first_frame(flags: NDArray[np.bool_], frames: int) -> float | None:
     """Return the time in s at which one of the conditions (T, n) has held for some frames."""
     held = np.lib.stride_tricks.sliding_window_view(flags, frames, axis=0).all(axis=-1).any(axis=1)
     rows = np.flatnonzero(held)

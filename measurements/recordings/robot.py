@@ -151,7 +151,7 @@ class Robot:
         data.ctrl[:] = data.qpos[0::2]
         mujoco.mj_step(model, data, int(0.5 / _STEP_S))
         start, time, is_faulty = float(data.time), 0.0, False
-        rows = []
+        rows: list[tuple[FloatArray, ...]] = []
         for step in steps:
             if fault is not None and not is_faulty and len(rows) >= fault.onset * fps:
                 is_faulty = True

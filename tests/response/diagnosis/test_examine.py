@@ -11,8 +11,7 @@ from measurements.recordings import robot as simulated
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.response.diagnosis import Recording, examine
-from holdfast.response.diagnosis.recordings.examination import Calibration
-from holdfast.response.diagnosis.recordings.following import FollowingModel, Frames
+from holdfast.response.diagnosis.recordings.following import Frames, HealthyBehaviour
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode
 
 FPS = 30.0
@@ -38,12 +37,12 @@ def make_recording(episodes, unit="deg", joints=("a", "b")):
 
 @pytest.fixture
 def model(rng):
-    return FollowingModel.fit([Frames(e.q_ref, e.q) for e in (make_episode(rng, k) for k in range(6))], FPS, 1.0)
+    return HealthyBehaviour.fit([Frames(e.q_ref, e.q) for e in (make_episode(rng, k) for k in range(6))], FPS, 1.0)
 
 
 def test_the_model_learns_the_answer_of_a_joint(rng, model):
     episode = make_episode(rng, 0, noise=0.1)
-    residual = (episode.q - model.predict(episode.q_ref))[model.start :]
+    residual = (episode.q - model.predict(episode.q_ref))[15:]
     assert residual.std() == pytest.approx(np.hypot(0.1, 0.05 / np.sqrt(12)), rel=0.15)
     np.testing.assert_allclose(model.ticks, 0.05)
 
@@ -52,7 +51,7 @@ def statistics_by_loops(model, frames, k, joint):
     """The nine statistics at frame k from their definitions."""
     r, q = frames
     w = q - model.predict(r)
-    w[: model.start] = 0.0
+    w[:15] = 0.0
     mean = lambda length, values: sum(values[i, joint] for i in range(max(0, k - length + 1), k + 1)) / length  # noqa: E731
     pulse = 0.0
     for length in (1, 2, 3):
@@ -67,18 +66,17 @@ def statistics_by_loops(model, frames, k, joint):
     while first and (q[first] == q[first - 1]).all():
         first -= 1
     second = lambda values: abs(values[k] - 2 * values[k - 1] + values[k - 2])  # noqa: E731
-    return (
-        [
-            abs(mean(5, w)),
-            abs(mean(30, w)),
-            abs(mean(120, np.clip(w, -8, 8))),
-            np.sqrt(mean(120, w**2)),
-            abs(w[k, joint] - w[k - 1, joint]),
-            pulse,
-            np.ptp(y[anchor : k + 1, joint]),
-        ],
-        [np.ptp(y[first : k + 1], axis=0).sum(), np.minimum(second(r), second(q)).sum()],
-    )
+    return [
+        abs(mean(5, w)),
+        abs(mean(30, w)),
+        abs(mean(120, np.clip(w, -8, 8))),
+        np.sqrt(mean(120, w**2)),
+        abs(w[k, joint] - w[k - 1, joint]),
+        pulse,
+        np.ptp(y[anchor : k + 1, joint]),
+        np.ptp(y[first : k + 1], axis=0).sum(),
+        np.minimum(second(r), second(q)).sum(),
+    ]
 
 
 def test_statistics_follow_their_definitions(rng, model):
@@ -88,17 +86,15 @@ def test_statistics_follow_their_definitions(rng, model):
     q[150:152, 1] += 20
     q[180:, 0] -= 15
     frames = Frames(episode.q_ref, q)
-    of_joints, of_arm = model.statistics(frames)
+    found = model.statistics(frames)
     for k in (20, 60, 101, 109, 110, 150, 152, 153, 180, 181, 239):
         for joint in range(2):
-            expected_joint, expected_arm = statistics_by_loops(model, frames, k, joint)
-            np.testing.assert_allclose(of_joints[k, :, joint], expected_joint, atol=1e-9, err_msg=f"frame {k}")
-        np.testing.assert_allclose(of_arm[k], expected_arm, atol=1e-9, err_msg=f"frame {k}")
+            expected = statistics_by_loops(model, frames, k, joint)
+            np.testing.assert_allclose(found[k, :, joint], expected, atol=1e-9, err_msg=f"frame {k}")
     later = Frames(episode.q_ref.copy(), q.copy())
     later.reference[200:] += 30
     later.position[200:] -= 30
-    for before, after in zip(model.statistics(frames), model.statistics(later), strict=True):
-        np.testing.assert_array_equal(before[:200], after[:200])  # nothing depends on later frames
+    np.testing.assert_array_equal(found[:200], model.statistics(later)[:200])  # nothing depends on later frames
 
 
 def test_the_stated_rate_holds_on_average(rng):
@@ -124,8 +120,7 @@ def test_the_threshold_is_the_largest_healthy_score(rng):
     examination = examine(make_recording(episodes), healthy=range(20))
     by_role = {role: [e.score for e in examination.episodes if e.role == role] for role in ("fit", "threshold", "examined")}
     assert list(map(len, by_role.values())) == [10, 10, 4]
-    assert isinstance(examination.calibration, Calibration)
-    assert examination.calibration.threshold == max(by_role["threshold"])
+    assert examination.threshold == max(by_role["threshold"])
     assert len(examination.alarms) == sum(score > max(by_role["threshold"]) for score in by_role["examined"])
 
 
@@ -136,7 +131,7 @@ def test_a_lower_rate_is_extrapolated_and_marked(rng):
         examination = examine(recording, healthy=range(40), rate=rate)
         stated = examination.false_alarms
         assert stated.kind == kind
-        thresholds.append(examination.calibration.threshold)
+        thresholds.append(examination.threshold)
         if kind == "extrapolated":
             assert stated.limit is None
             assert stated.per_hour == pytest.approx(rate, rel=0.05)
@@ -203,7 +198,7 @@ def test_stopped_and_lost_frames_are_named(healthy_episodes):
         q[first : first + 18] = q[first - 1]
         kept = np.delete(np.arange(len(q)), slice(first, first + 18))
         kinds += [("stale", replace(source, q=q))]
-        kinds += [("dropped", replace(source, t=source.t[: len(kept)], q=source.q[kept], q_ref=source.q_ref[kept]))]
+        kinds += [("dropped", replace(source, t=source.t[: len(kept)], q=source.q[kept], q_ref=source.q_ref[kept], tau=None))]
     faulty = [replace(episode, index=100 + number) for number, (_, episode) in enumerate(kinds)]
     examination = examine(make_recording([*episodes[6:], *faulty], joints=simulated.JOINTS), healthy=range(6, 40))
     named = [episode.kind for episode in examination.episodes if episode.role == "examined"]
@@ -240,7 +235,7 @@ def test_findings(rng, small_arm):
     change(6, q=q)
     limited = replace(small_arm, joints=tuple(replace(joint, velocity=6.0) for joint in small_arm.joints))
     examination = examine(make_recording(episodes, joints=simulated.JOINTS), healthy=[], arm=limited)
-    assert examination.calibration is None
+    assert examination.healthy is None
     assert "there are 0 healthy episodes; 20 are needed to state a rate" in examination.inconclusive
     for index, expected in (
         (1, "all positions repeat while a reference moves (1 time; the longest is 9 frames at 1.6"),
@@ -258,7 +253,7 @@ def test_findings(rng, small_arm):
             examination.episodes[index].findings,
         )
     assert not examination.episodes[7].findings
-    assert "No test was possible" in examination.describe()[0]
+    assert "No test for faults was possible" in examination.describe()[0]
 
 
 def test_inconclusive_cases(rng):
@@ -305,7 +300,7 @@ def test_fast_recordings_are_reduced(rng):
         examine(replace(make_recording(episodes), fps=fps), healthy=range(20))
         for episodes, fps in ((slow, 30.0), (fast, 120.0))
     ]
-    assert results[0].calibration.threshold == pytest.approx(results[1].calibration.threshold)
+    assert results[0].threshold == pytest.approx(results[1].threshold)
 
 
 def test_bad_input(rng, small_arm):

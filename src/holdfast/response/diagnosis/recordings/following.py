@@ -1,13 +1,11 @@
-"""Model of healthy joints that follow their references, and statistics of the residuals.
+"""Model of healthy joints that follow their references, and statistics of its residuals.
 
-The model has static gain 1 and predicts each position from earlier references only, because a model that uses earlier positions
-would follow a fault and forget it. In units of one degree, with reference r, frame k, half a second of L frames, and
-``v = r[k-1] - r[k-5]``::
+The model predicts positions from earlier references only, because a model that uses earlier positions would follow a fault and
+forget it. In units of one degree, with reference r, frame k, half a second of L frames, and ``v = r[k-1] - r[k-5]``::
 
     y[k] = r[k-1] + sum over i = 2..L of h[i] (r[k-i] - r[k-1]) + a tanh(v) + c . sag + b
 
-``sag`` are sines and cosines of partial sums of the joints after the first one, which represent the effect of gravity without a
-model of the arm.
+``sag`` are sines and cosines of partial sums of the joints after the first one, in place of gravity torques.
 """
 
 from __future__ import annotations
@@ -22,16 +20,16 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 
+STATISTICS = ("fast", "slow", "lean", "rough", "leap", "pulse", "frozen", "hold", "drop")
 _MEMORY_S = 0.5
 _DIRECTION_FRAMES = 4  # over which the direction of motion is computed
-_RIDGE = 1e-3
+_RIDGE_PENALTY = 1e-3
 _RESOLUTION_FACTOR = 1.2  # ticks: a smaller change is no motion
 _TICK_QUANTILE = 0.05  # the smallest change of a reading with noise would be accidental
-_RELATIVE_TICK = 1e-5  # of the range of a joint: smaller differences are rounding
+_RELATIVE_TICK = 1e-5  # of the range of a joint: smaller changes are rounding
 _LEAN_LIMIT_DEG = 8.0
 _LONGEST_PULSE = 3  # frames
-JOINT_STATISTICS = ("fast", "slow", "lean", "rough", "leap", "pulse", "frozen")
-ARM_STATISTICS = ("hold", "drop")
+_MIN_SPREAD = 0.3  # of the logarithm of a statistic
 
 
 class Frames(NamedTuple):
@@ -42,78 +40,76 @@ class Frames(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class FollowingModel:
-    """Prediction of healthy positions from references.
+class HealthyBehaviour:
+    """Model of the healthy joints of a robot, and the distribution of nine statistics of its residuals.
 
     Attributes:
         fps: Frames per second.
         degree: One degree in the unit of the recording.
-        angle: One radian in the unit of the recording.
         ticks: (n,) resolution of the positions.
-        weights: (features, n) coefficients, fitted to healthy episodes.
+        weights: (features, n) coefficients of the model.
+        level: (9, n) means of the logarithm of the largest value of each statistic in an episode.
+        spread: (9,) standard deviations of this logarithm, pooled over the joints. A joint that no fitting episode disturbed
+            would otherwise have a spread close to 0.
     """
 
     fps: float
     degree: float
     ticks: FloatArray
     weights: FloatArray
+    level: FloatArray | float = 0.0
+    spread: FloatArray | float = 1.0
 
     @classmethod
-    def fit(cls, episodes: Sequence[Frames], fps: float, degree: float) -> FollowingModel:
-        """Fit the model to healthy episodes, with a small ridge penalty on all coefficients but the constant one."""
-        joint_count = episodes[0].position.shape[1]
-        start = _count_frames(_MEMORY_S, fps)
-        weights = []
-        for joint in range(joint_count):
-            normal: FloatArray | float = 0.0
-            product: FloatArray | float = 0.0
-            for reference, position in episodes:
-                features = _features(reference, joint, fps, degree)[start:]
-                residual = position[start:, joint] - _delay(reference, 1)[start:, joint]
-                normal, product = normal + features.T @ features, product + features.T @ residual
-            penalty = _RIDGE * np.diag(normal).copy()
-            penalty[-1] = 0.0
-            weights.append(np.linalg.lstsq(normal + np.diag(penalty), product, rcond=None)[0])
-        return cls(fps, degree, _resolutions(episodes), np.stack(weights, axis=1))
-
-    @property
-    def start(self) -> int:
-        """First frame with a prediction from recorded references alone."""
-        return _count_frames(_MEMORY_S, self.fps)
+    def fit(cls, episodes: Sequence[Frames], fps: float, degree: float) -> HealthyBehaviour:
+        """Fit the model to healthy episodes with a ridge penalty, and compute the distribution of the statistics."""
+        weights, start = [], _count_frames(_MEMORY_S, fps)
+        for joint in range(episodes[0].position.shape[1]):
+            features = np.concatenate([_features(each.reference, joint, fps, degree)[start:] for each in episodes])
+            steps = [(each.position - _delay(each.reference, 1))[start:, joint] for each in episodes]
+            normal = features.T @ features
+            penalty = _RIDGE_PENALTY * normal.diagonal() * (np.arange(len(normal)) < len(normal) - 1)  # not of the constant
+            weights.append(np.linalg.lstsq(normal + np.diag(penalty), features.T @ np.concatenate(steps), rcond=None)[0])
+        model = cls(fps, degree, _resolutions(episodes), np.stack(weights, axis=1))
+        peaks = np.array([model.score(each).max(axis=0) for each in episodes])
+        spread = np.sqrt(peaks.var(axis=0, ddof=1).mean(axis=1, keepdims=True))
+        return cls(fps, degree, model.ticks, model.weights, peaks.mean(axis=0), np.maximum(spread, _MIN_SPREAD))
 
     def predict(self, reference: FloatArray) -> FloatArray:
         """Return the healthy positions (T, n) for references (T, n)."""
-        corrections = [
-            _features(reference, joint, self.fps, self.degree) @ self.weights[:, joint] for joint in range(reference.shape[1])
-        ]
+        features = [_features(reference, joint, self.fps, self.degree) for joint in range(reference.shape[1])]
+        corrections = [part @ weights for part, weights in zip(features, self.weights.T, strict=True)]
         return np.asarray(_delay(reference, 1) + np.stack(corrections, axis=1))
 
-    def statistics(self, frames: Frames) -> tuple[FloatArray, FloatArray]:
-        """Return the statistics of joints (T, 7, n) and of the arm (T, 2), in the unit of the recording.
+    def score(self, frames: Frames) -> FloatArray:
+        """Return the scores (T, 9, n) of the statistics: their logarithms relative to healthy episodes."""
+        return np.asarray((np.log(np.maximum(self.statistics(frames), self.ticks)) - self.level) / self.spread)
 
-        They are 0 in the first half second, and at frame k they depend on frames up to k only.
+    def statistics(self, frames: Frames) -> FloatArray:
+        """Return the statistics (T, 9, n); ``hold`` and ``drop`` are of the whole arm, and the same for all joints.
+
+        At frame k they depend on frames up to k only. They are 0 in the first half second.
         """
-        predicted = self.predict(frames.reference)
+        predicted, start = self.predict(frames.reference), _count_frames(_MEMORY_S, self.fps)
         residual = frames.position - predicted
-        residual[: self.start] = 0.0
+        residual[:start] = 0.0
         clipped = np.clip(residual, -_LEAN_LIMIT_DEG * self.degree, _LEAN_LIMIT_DEG * self.degree)
-        of_joints = [
+        repeats = (_step(frames.position) == 0).all(axis=1, keepdims=True)
+        jumps = np.minimum(*(np.abs(_step(_step(values))) for values in frames))
+        values = [
             np.abs(_moving_mean(residual, _count_frames(1 / 6, self.fps))),
             np.abs(_moving_mean(residual, _count_frames(1.0, self.fps))),
             np.abs(_moving_mean(clipped, _count_frames(4.0, self.fps))),
             np.sqrt(np.maximum(_moving_mean(residual**2, _count_frames(4.0, self.fps)), 0.0)),
-            np.abs(_step(residual, 1)),
+            np.abs(_step(residual)),
             _pulses(residual),
-            _frozen_ranges(frames.position, predicted, self.ticks),
+            _ranges_since(_find_motion(frames.position, _RESOLUTION_FACTOR * self.ticks), predicted),
+            np.broadcast_to(_ranges_since(~repeats, predicted).sum(axis=1, keepdims=True), residual.shape),
+            np.broadcast_to(jumps.sum(axis=1, keepdims=True), residual.shape),
         ]
-        repeats = (_step(frames.position, 1) == 0).all(axis=1)
-        repeats[0] = False
-        jumps = np.minimum(*(np.abs(_step(_step(values, 1), 1)) for values in frames))
-        of_arm = [_ranges_since(~repeats[:, None], predicted).sum(axis=1), jumps.sum(axis=1)]
-        joints, arm = np.stack(of_joints, axis=1), np.stack(of_arm, axis=1)
-        # The first frames include the padded references of the time before the episode.
-        joints[: self.start + 1], arm[:3] = 0.0, 0.0
-        return joints, arm
+        series = np.stack(values, axis=1)
+        series[: start + 1] = 0.0
+        return series
 
 
 def _count_frames(seconds: float, fps: float) -> int:
@@ -125,16 +121,15 @@ def _delay(values: FloatArray, frames: int) -> FloatArray:
     return np.concatenate([np.repeat(values[:1], min(frames, len(values)), axis=0), values[:-frames]])
 
 
-def _step(values: FloatArray, frames: int) -> FloatArray:
-    return values - _delay(values, frames)
+def _step(values: FloatArray) -> FloatArray:
+    return values - _delay(values, 1)
 
 
 def _features(reference: FloatArray, joint: int, fps: float, degree: float) -> FloatArray:
     """Return the features (T, features) of one joint; the last one is constant."""
-    last = _delay(reference, 1)
-    own = last[:, joint]
-    history = [_delay(reference[:, joint], lag) - own for lag in range(2, _count_frames(_MEMORY_S, fps) + 1)]
-    direction = np.tanh((own - _delay(reference[:, joint], 1 + _DIRECTION_FRAMES)) / degree)
+    last, own = _delay(reference, 1), reference[:, joint]
+    history = [_delay(own, lag) - last[:, joint] for lag in range(2, _count_frames(_MEMORY_S, fps) + 1)]
+    direction = np.tanh((last[:, joint] - _delay(own, 1 + _DIRECTION_FRAMES)) / degree)
     sums = np.cumsum(last[:, min(1, reference.shape[1] - 1) :], axis=1) / np.degrees(degree)
     return np.column_stack([*history, direction, np.sin(sums), np.cos(sums), np.ones(len(reference))])
 
@@ -142,9 +137,9 @@ def _features(reference: FloatArray, joint: int, fps: float, degree: float) -> F
 def _resolutions(episodes: Sequence[Frames]) -> FloatArray:
     """Return the resolution (n,) of each position: the 5 % quantile of its changes, without those that are rounding."""
     ticks = []
-    for joint in range(episodes[0].position.shape[1]):
-        changes = np.concatenate([np.abs(np.diff(frames.position[:, joint])) for frames in episodes])
-        span = max(np.ptp(frames.position[:, joint]) for frames in episodes)
+    for columns in zip(*(each.position.T for each in episodes), strict=True):
+        span = max(map(np.ptp, columns))
+        changes = np.abs(np.concatenate(list(map(np.diff, columns))))
         changes = changes[changes > _RELATIVE_TICK * span]
         ticks.append(np.quantile(changes, _TICK_QUANTILE, method="lower") if changes.size else span or 1.0)
     return np.array(ticks)
@@ -152,42 +147,36 @@ def _resolutions(episodes: Sequence[Frames]) -> FloatArray:
 
 def _moving_mean(values: FloatArray, frames: int) -> FloatArray:
     """Return the mean (T, n) of the last ``frames`` values; before the beginning, values are 0."""
-    sums = np.cumsum(values, axis=0)
-    earlier = np.concatenate([np.zeros((min(frames, len(sums)), values.shape[1])), sums[:-frames]])
-    return np.asarray((sums - earlier) / frames)
+    sums = np.concatenate([np.zeros((frames, values.shape[1])), np.cumsum(values, axis=0)])
+    return np.asarray((sums[frames:] - sums[:-frames]) / frames)
 
 
 def _pulses(residual: FloatArray) -> FloatArray:
     """Return the height (T, n) of the pulse of at most three frames that ended with each frame."""
     heights = np.zeros_like(residual)
     for length in range(1, _LONGEST_PULSE + 1):
-        inside = [_delay(residual, lag) for lag in range(1, length + 1)]
-        for sign in (1, -1):
-            lowest = np.min([sign * values for values in inside], axis=0)
-            edges = np.maximum(sign * residual, sign * _delay(residual, length + 1))
-            heights = np.maximum(heights, lowest - edges)
+        inside, before = [_delay(residual, lag) for lag in range(1, length + 1)], _delay(residual, length + 1)
+        upward = np.min(inside, axis=0) - np.maximum(residual, before)
+        heights = np.maximum(heights, np.maximum(upward, np.minimum(residual, before) - np.max(inside, axis=0)))
     return heights
 
 
-def _frozen_ranges(position: FloatArray, predicted: FloatArray, ticks: FloatArray) -> FloatArray:
-    """Return the range (T, n) of the prediction since each position last changed by more than 1.2 ticks."""
+def _find_motion(position: FloatArray, resolution: FloatArray) -> NDArray[np.bool_]:
+    """Return where (T, n) each position left the one of its last motion by more than the resolution."""
     has_moved = np.ones(position.shape, dtype=bool)
-    for joint, tick in enumerate((_RESOLUTION_FACTOR * ticks).tolist()):
+    for joint, limit in enumerate(resolution.tolist()):
         anchor = np.inf
         for frame, value in enumerate(position[:, joint].tolist()):
-            has_moved[frame, joint] = abs(value - anchor) > tick
+            has_moved[frame, joint] = abs(value - anchor) > limit
             anchor = value if has_moved[frame, joint] else anchor
-    return _ranges_since(has_moved, predicted)
+    return has_moved
 
 
 def _ranges_since(restarts: NDArray[np.bool_], values: FloatArray) -> FloatArray:
     """Return the range (T, n) of values since the last restart, where ``restarts`` has shape (T, n) or (T, 1)."""
     ranges = np.zeros_like(values)
-    for joint in range(values.shape[1]):
-        column = restarts[:, min(joint, restarts.shape[1] - 1)]
-        edges = np.flatnonzero(np.concatenate([[True], column[1:], [True]]))
-        for first, last in pairwise(edges.tolist()):
+    for column, series, result in zip(np.broadcast_to(restarts, values.shape).T, values.T, ranges.T, strict=True):
+        for first, last in pairwise([0, *(np.flatnonzero(column[1:]) + 1).tolist(), len(series)]):
             if last - first > 1:
-                run = values[first:last, joint]
-                ranges[first:last, joint] = np.maximum.accumulate(run) - np.minimum.accumulate(run)
+                result[first:last] = np.maximum.accumulate(series[first:last]) - np.minimum.accumulate(series[first:last])
     return ranges
