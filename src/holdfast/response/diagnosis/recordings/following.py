@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 
-STATISTICS = ("fast", "slow", "lean", "rough", "leap", "pulse", "frozen", "hold", "drop")
+STATISTIC_NAMES = ("fast", "slow", "lean", "rough", "leap", "pulse", "frozen", "hold", "drop")
 _MEMORY_S = 0.5
 _DIRECTION_FRAMES = 4  # over which the direction of motion is computed
 _RIDGE_PENALTY = 1e-3

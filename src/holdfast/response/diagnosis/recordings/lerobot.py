@@ -20,7 +20,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode, Recording
 
 INFO_FILE = Path("meta", "info.json")
-_VERSIONS = ("v2.0", "v2.1", "v3.0")
+_KNOWN_VERSIONS = ("v2.0", "v2.1", "v3.0")
 _INDEX_COLUMNS = ("timestamp", "frame_index", "episode_index")
 _CLOCK_TOLERANCE_S = 1e-4  # single precision of a computed time
 _MOTOR_TICKS = 4095  # of a full turn: the resolution by which LeRobot converts Feetech and Dynamixel positions
@@ -46,39 +46,36 @@ def read_data_set(folder: Path, state: str | None, reference: str | None, episod
         for name, feature in info["features"].items()
         if str(feature.get("dtype")).startswith("float") and len(feature.get("shape", ())) == 1
     }
-    state_name, reference_name = state or "observation.state", reference or "action"
-    for option, name, is_required in (("state", state_name, True), ("reference", reference_name, reference is not None)):
-        if is_required and name not in vectors:
-            content = {"state": "joint positions", "reference": "references"}[option]
+    options = {"state": state or "observation.state", "reference": reference or "action"}
+    for option, name in options.items():
+        if name not in vectors and (option == "state" or reference is not None):
             raise InputError(
-                f"'{folder}' has no '{name}'; its vectors of numbers are {list_names(list(vectors)) or 'none'}: name the one "
-                f"with the {content} by --{option}"
+                f"'{folder}' has no '{name}'; its vectors of numbers are {list_names(list(vectors)) or 'none'}: name one by "
+                f"--{option}"
             )
-    columns = _read_columns(folder, [state_name, *[reference_name] * (reference_name in vectors)], episodes)
-    entries = _name_entries(vectors[state_name], columns[state_name].shape[1])
+    columns = _read_columns(folder, [name for name in options.values() if name in vectors], episodes)
+    state_values, action = columns[options["state"]], columns.get(options["reference"])
+    entries = _name_entries(vectors[options["state"]], state_values.shape[1])
     joints = {name.removesuffix(".pos"): column for name, column in entries.items() if not name.endswith((".vel", ".torque"))}
     torque_columns = [entries[f"{name}.torque"] for name in joints if f"{name}.torque" in entries]
-    action, notes = columns.get(reference_name), list[str]()
-    chosen_columns = None
-    if action is None:
-        notes.append(f"the data set has no '{reference_name}', so positions are not compared with a reference")
-    else:
-        chosen_columns, note = _match_action(vectors[reference_name], action.shape[1], list(joints))
-        notes += [note] if note else []
-    fps, clock_error = float(info["fps"]), np.abs(columns["timestamp"] - columns["frame_index"] / float(info["fps"]))
-    recorded_episodes = []
+    action_columns, note = None, f"the data set has no '{options['reference']}'"
+    if action is not None:
+        action_columns, note = _match_action(vectors[options["reference"]], action.shape[1], list(joints))
+    if action_columns is None:
+        note += ", so positions are not compared with a reference"
+    fps, times = float(info["fps"]), columns["timestamp"]
+    is_measured = np.abs(times - columns["frame_index"] / fps) > _CLOCK_TOLERANCE_S + 1e-6 * np.abs(times)
+    recorded = []
     for number in np.unique(columns["episode_index"]).astype(int):
-        rows = np.flatnonzero(columns["episode_index"] == number)
-        has_measured_clock = clock_error[rows].max() > _CLOCK_TOLERANCE_S + 1e-6 * np.abs(columns["timestamp"][rows]).max()
-        values = columns[state_name][rows]
-        recorded_episodes.append(
+        rows = columns["episode_index"] == number
+        recorded.append(
             RecordedEpisode(
                 index=int(number),
-                t=columns["timestamp"][rows],
-                q=values[:, list(joints.values())],
-                q_ref=None if action is None or chosen_columns is None else action[rows][:, chosen_columns],
-                tau=values[:, torque_columns] if len(torque_columns) == len(joints) else None,
-                clock="measured" if has_measured_clock else "computed",
+                t=times[rows],
+                q=state_values[rows][:, list(joints.values())],
+                q_ref=None if action is None or action_columns is None else action[rows][:, action_columns],
+                tau=state_values[rows][:, torque_columns] if len(torque_columns) == len(joints) else None,
+                clock="measured" if is_measured[rows].any() else "computed",
             )
         )
     return Recording(
@@ -88,8 +85,8 @@ def read_data_set(folder: Path, state: str | None, reference: str | None, episod
         joints=tuple(joints),
         unit=None,
         fps=fps,
-        episodes=tuple(recorded_episodes),
-        notes=tuple(notes),
+        episodes=tuple(recorded),
+        notes=(note,) if note else (),
     )
 
 
@@ -105,60 +102,42 @@ def _read_info(folder: Path) -> dict[str, Any]:
             f"'{folder / INFO_FILE}' is not the description of a LeRobot data set ({error}); it must have codebase_version, "
             "features and fps"
         ) from error
-    if version not in _VERSIONS:
+    if version not in _KNOWN_VERSIONS:
         raise InputError(f"'{folder}' has LeRobot's format {version}; 2.0, 2.1 and 3.0 are read: convert it with LeRobot")
     return dict(info)
 
 
 def _read_columns(folder: Path, vectors: Sequence[str], episodes: Collection[int] | None) -> dict[str, FloatArray]:
-    """Return the rows of all files, vectors (rows, size) and numbers (rows,), ordered by episode."""
+    """Return the rows of all files: vectors (rows, size) and numbers (rows,)."""
+    parquet = import_extra("pyarrow.parquet", "records", "pyarrow")
     files = sorted(folder.glob("data/*/*.parquet"))
     if not files:
         raise InputError(
             f"'{folder}' has no data/*/*.parquet; download the data set first, for example with hf download NAME --repo-type "
             "dataset --exclude 'videos/*' --local-dir FOLDER"
         )
-    parquet = import_extra("pyarrow.parquet", "records", "pyarrow")
     names, parts = [*vectors, *_INDEX_COLUMNS], []
     chosen = None if episodes is None else [("episode_index", "in", list(episodes))]
     for file in files:
         try:  # one thread: threads of pyarrow that still run when Python exits would crash the process
             table = parquet.read_table(file, columns=names, filters=chosen, use_threads=False, pre_buffer=False)
-            if missing := [name for name in names if name not in table.column_names]:
-                raise ValueError(f"it has no column '{missing[0]}'")
-            parts.append([_column_values(table[name], len(table)) for name in names])
-        except Exception as error:  # damaged files raise errors of many types
+            if len(table):
+                parts.append({name: np.array(table[name].to_pylist(), dtype=np.float64) for name in names})
+        except Exception as error:  # missing columns, vectors of different sizes, damaged files: errors of many types
             raise InputError(f"'{file}' cannot be read ({error}); download it again") from error
-    try:
-        columns = {
-            name: np.concatenate([part[index] for part in parts if len(part[index])]) for index, name in enumerate(names)
-        }
-    except ValueError as error:  # nothing to concatenate, or vectors of different sizes
-        raise InputError(f"'{folder}' has no rows of the requested episodes, or vectors of different sizes") from error
-    order = np.argsort(columns["episode_index"], kind="stable")
-    return {name: values[order] for name, values in columns.items()}
+    if not parts or any(len({part[name].shape[1:] for part in parts}) > 1 for name in names):
+        raise InputError(f"'{folder}' has no rows of the requested episodes, or vectors of different sizes")
+    return {name: np.concatenate([part[name] for part in parts]) for name in names}
 
 
-def _column_values(column: Any, row_count: int) -> FloatArray:
-    values = column.combine_chunks()
-    if hasattr(values, "flatten") and column.type.num_fields:
-        if not row_count:
-            return np.empty((0, 0))
-        numbers = np.asarray(values.flatten(), dtype=np.float64)
-        if column.null_count or numbers.size % row_count or len(set(values.value_lengths().to_pylist())) > 1:
-            raise ValueError("its vectors differ in size")
-        return numbers.reshape(row_count, -1)
-    return np.asarray(values, dtype=np.float64)
-
-
-def _list_names(feature: Mapping[str, Any], size: int) -> list[str] | None:
-    """Return the names of the entries of a vector; None if the data set does not have one name for each."""
+def _list_names(feature: Mapping[str, Any], size: int) -> list[str]:
+    """Return the names of the entries of a vector; none if the data set does not have one name for each."""
     names = feature.get("names")
     if isinstance(names, dict):
-        groups = list(names.values())
-        names = [name for group in groups for name in group] if all(isinstance(g, list) for g in groups) else list(names)
+        groups = [group if isinstance(group, list) else [name] for name, group in names.items()]
+        names = [name for group in groups for name in group]
     texts = list(map(str, names)) if isinstance(names, list) else []
-    return texts if len(texts) == size == len(set(texts)) else None
+    return texts if len(texts) == size == len(set(texts)) else []
 
 
 def _name_entries(feature: Mapping[str, Any], size: int) -> dict[str, int]:
@@ -169,12 +148,11 @@ def _name_entries(feature: Mapping[str, Any], size: int) -> dict[str, int]:
 def _match_action(feature: Mapping[str, Any], size: int, joints: Sequence[str]) -> tuple[list[int] | None, str]:
     """Return the columns of an action that are the references of the joints, or None, and a note."""
     names = _list_names(feature, size)
-    if names is None and size == len(joints):
+    if not names and size == len(joints):
         return list(range(size)), "the entries of the action have no names and are used in the order of the joints"
-    by_name = {name.removesuffix(".pos"): index for index, name in enumerate(names or [])}
+    by_name = {name.removesuffix(".pos"): index for index, name in enumerate(names)}
     if missing := [name for name in joints if name not in by_name]:
-        content = list_names(names) if names else f"{size} entries without names"
-        return None, f"the action has {content} and no '{missing[0]}', so positions are not compared with a reference"
+        return None, f"the action has {list_names(names) or f'{size} entries without names'} and no '{missing[0]}'"
     return [by_name[name] for name in joints], ""
 
 

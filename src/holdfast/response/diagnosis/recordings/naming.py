@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.core.typing import FloatArray
-from holdfast.response.diagnosis.recordings.following import STATISTICS, Frames, HealthyBehaviour
+from holdfast.response.diagnosis.recordings.following import STATISTIC_NAMES, Frames, HealthyBehaviour
 
 POSSIBLE_CAUSES = {
     "stale": ("stale",),
@@ -49,7 +49,7 @@ def name_fault(
     """
     scores, fps = healthy.score(frames), healthy.fps
     joint = int(scores[frame].max(axis=0).argmax())
-    of_statistic = dict(zip(STATISTICS, scores[:, :, joint].T, strict=True))
+    of_statistic = dict(zip(STATISTIC_NAMES, scores[:, :, joint].T, strict=True))
     q, predicted = (values[:, joint] / healthy.degree for values in (frames.position, healthy.predict(frames.reference)))
     residual, window = q - predicted, slice(frame, frame + max(2, round(_NAMING_TIME_S * fps)))
     earlier = max(0, frame - round(_MEMORY_S * fps))

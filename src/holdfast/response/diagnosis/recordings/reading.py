@@ -17,7 +17,7 @@ from holdfast.response.faults.log import read_log_arrays
 
 _LOG_ENDINGS = (".csv", ".npz", ".parquet", ".txt")
 _BAG_ENDINGS = (".mcap", ".db3")
-_UNITS = ("deg", "rad")
+_KNOWN_UNITS = ("deg", "rad")
 _RATE_TOLERANCE = 0.05  # largest relative difference between the rates of the files of one recording
 
 
@@ -110,35 +110,22 @@ def _read_folder(folder: Path, state: str | None, reference: str | None, columns
                 f"{len(first.joints)} at {first.fps:.4g} Hz; give a folder with logs of one robot"
             )
     episodes = [episode for part in parts for episode in part.episodes]
-    notes = tuple(dict.fromkeys(note for part in parts for note in part.notes))
     numbered = tuple(replace(episode, index=index) for index, episode in enumerate(episodes))
-    return replace(first, source=str(folder), format=f"{len(items)} files, {first.format}", episodes=numbered, notes=notes)
+    return replace(first, source=str(folder), format=f"{len(items)} files, {first.format}", episodes=numbered)
 
 
 def _select_joints(recording: Recording, joints: Sequence[str] | None) -> Recording:
+    """Keep joints by name; by default, leave out grippers."""
     if joints is None:
-        kept = [name for name in recording.joints if "gripper" not in name.lower()]
-        if len(kept) in (0, len(recording.joints)):
-            return recording
-        left_out = list_names([name for name in recording.joints if name not in kept])
-        recording = replace(recording, notes=(*recording.notes, f"{left_out} is left out, because a gripper stops at objects"))
-    else:
-        kept = list(joints)
-        if missing := [name for name in kept if name not in recording.joints]:
-            raise InputError(
-                f"'{recording.source}' has no joint '{missing[0]}'; its joints are {list_names(list(recording.joints))}"
-            )
-    order = [recording.joints.index(name) for name in kept]
-    episodes = tuple(
-        replace(
-            episode,
-            q=episode.q[:, order],
-            q_ref=None if episode.q_ref is None else episode.q_ref[:, order],
-            tau=None if episode.tau is None else episode.tau[:, order],
-        )
-        for episode in recording.episodes
-    )
-    return replace(recording, joints=tuple(kept), episodes=episodes)
+        joints = [name for name in recording.joints if "gripper" not in name.lower()] or recording.joints
+        if left_out := [name for name in recording.joints if name not in joints]:
+            note = f"{list_names(left_out)} is left out, because a gripper stops at objects"
+            recording = replace(recording, notes=(*recording.notes, note))
+    if missing := [name for name in joints if name not in recording.joints]:
+        names = list_names(list(recording.joints))
+        raise InputError(f"'{recording.source}' has no joint '{missing[0]}'; its joints are {names}")
+    order = [recording.joints.index(name) for name in joints]
+    return replace(recording.change_arrays(("q", "q_ref", "tau"), lambda values: values[:, order]), joints=tuple(joints))
 
 
 def _apply_unit(recording: Recording, unit: str | Path) -> Recording:
@@ -147,11 +134,7 @@ def _apply_unit(recording: Recording, unit: str | Path) -> Recording:
         if str(unit) != recording.unit:
             raise InputError(f"'{recording.source}' is in {recording.unit}, and unit is '{unit}'; leave it out")
         return recording
-    if str(unit) in _UNITS:
+    if str(unit) in _KNOWN_UNITS:
         return replace(recording, unit=str(unit))
     scale = degrees_per_unit(Path(unit), recording.joints)
-    episodes = tuple(
-        replace(episode, q=episode.q * scale, q_ref=None if episode.q_ref is None else episode.q_ref * scale)
-        for episode in recording.episodes
-    )
-    return replace(recording, unit="deg", episodes=episodes)
+    return replace(recording.change_arrays(("q", "q_ref"), lambda values: values * scale), unit="deg")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from holdfast.core.errors import InputError
+from holdfast.core.formatting import format_count
 from holdfast.core.typing import FloatArray
 
 Clock = Literal["measured", "computed"]
@@ -73,9 +75,19 @@ class Recording:
     def title(self) -> str:
         """Robot, format, and size of the recording, in one line."""
         is_computed = any(episode.clock == "computed" for episode in self.episodes)
-        parts = [self.robot, self.format, f"{len(self.episodes)} episodes", f"{len(self.joints)} joints"]
+        counts = [format_count(len(self.episodes), "episode"), format_count(len(self.joints), "joint")]
+        parts = [self.robot, self.format, *counts]
         rate = f"{self.fps:.4g} frames per second" + " (times computed from the frame number)" * is_computed
         return ", ".join([*filter(None, parts), rate])
+
+    def change_arrays(self, names: Sequence[str], change: Callable[[FloatArray], FloatArray]) -> Recording:
+        """Return the recording with changed arrays (``q``, ``q_ref``, ``tau``) of all episodes; ``names`` selects them."""
+        episodes = []
+        for episode in self.episodes:
+            arrays = {name: getattr(episode, name) for name in names}
+            changed = {name: change(values) for name, values in arrays.items() if values is not None}
+            episodes.append(replace(episode, **changed))
+        return replace(self, episodes=tuple(episodes))
 
 
 def median_rate(t: FloatArray) -> float:

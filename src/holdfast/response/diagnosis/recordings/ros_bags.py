@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,28 +18,26 @@ BAG_INFO_FILE = "metadata.yaml"
 _JOINT_STATE = "sensor_msgs/msg/JointState"
 _CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
 _FLOAT_COMMAND = "std_msgs/msg/Float64MultiArray"
-_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 _USUAL_STATE_TOPIC = "/joint_states"
-_LONGEST_PAUSE_S = 1.0  # a longer pause separates two runs
-_NANOSECONDS = 1e9
+_LONGEST_PAUSE_S = 1.0  # a longer pause separates two episodes
+_SECONDS_PER_NANOSECOND = 1e-9
 
 
-@dataclass(frozen=True)
-class _Sample:
-    """Joint values of one message, by joint name; ``joints`` is empty for commands without names."""
+class _Sample(NamedTuple):
+    """Joint values of one message; ``names`` is empty for commands without names."""
 
     time: float  # s
-    joints: tuple[str, ...]
-    values: Sequence[float]
+    names: tuple[str, ...]
+    positions: Sequence[float]
     references: Sequence[float] = ()
     torques: Sequence[float] = ()
 
 
 def read_bag(path: Path, state: str | None, reference: str | None) -> Recording:
-    """Read a bag folder or an MCAP file; pauses of more than 1 s separate episodes.
+    """Read a bag folder or a file of a bag; pauses of more than 1 s separate episodes.
 
     Args:
-        path: Folder with ``metadata.yaml``, or an MCAP file.
+        path: Folder with ``metadata.yaml``, or an MCAP or SQLite file.
         state: Topic with the joint states. Default: the only one, or ``/joint_states``.
         reference: Topic with the references. Default: that of the states, or the only topic with commands.
 
@@ -48,42 +45,38 @@ def read_bag(path: Path, state: str | None, reference: str | None) -> Recording:
         InputError: The bag cannot be read, or the topics are not in it.
         HoldfastError: The package ``rosbags`` is not installed.
     """
-    highlevel = import_extra("rosbags.highlevel", "records", "rosbags")
+    any_reader = import_extra("rosbags.highlevel", "records", "rosbags").AnyReader
     stores = import_extra("rosbags.typesys", "records", "rosbags")
     try:
         store = stores.get_typestore(stores.Stores.ROS2_HUMBLE)  # for bags that do not contain their message types
-        with highlevel.AnyReader([path], default_typestore=store) as reader:
+        with any_reader([path], default_typestore=store) as reader:
             types = {connection.topic: connection.msgtype for connection in reader.connections}
             state_topic = _choose_state(path, types, state)
             reference_topic, notes = _choose_reference(path, types, state_topic, reference)
-
-            def read_samples(topic: str, read: Callable[[Any, float], _Sample]) -> list[_Sample]:
-                connections = [connection for connection in reader.connections if connection.topic == topic]
-                messages = reader.messages(connections=connections)
-                return [read(reader.deserialize(raw, c.msgtype), time / _NANOSECONDS) for c, time, raw in messages]
-
-            states = read_samples(state_topic, _read_state)
-            read_command = _read_state if types.get(reference_topic or "") == _JOINT_STATE else _read_command
-            commands = [] if reference_topic in (None, state_topic) else read_samples(str(reference_topic), read_command)
-            trajectories = types.get(reference_topic or "") == _TRAJECTORY
+            samples: dict[str | None, list[_Sample]] = {state_topic: [], reference_topic: []}
+            connections = [connection for connection in reader.connections if connection.topic in samples]
+            for connection, time, raw in reader.messages(connections=connections):
+                message = reader.deserialize(raw, connection.msgtype)
+                samples[connection.topic].append(_read_message(message, time * _SECONDS_PER_NANOSECOND))
     except HoldfastError:
         raise
     except Exception as error:  # SQLite, the decoders, and the metadata raise errors of many types
         raise InputError(f"'{path}' cannot be read as a ROS 2 bag or MCAP file ({error})") from error
-    joints = max((sample.joints for sample in states), key=len, default=())
-    states = [sample for sample in states if set(joints) <= set(sample.joints)]
+    joints = max((sample.names for sample in samples[state_topic]), key=len, default=())
+    states = [sample for sample in samples[state_topic] if set(joints) <= set(sample.names)]
     if len(states) < 2 or not joints:
         raise InputError(f"'{path}' has {len(states)} joint states in topic '{state_topic}'; at least 2 are needed")
-    t = np.array([sample.time for sample in states])
-    q = np.array([_select(sample, sample.values, joints) for sample in states])
-    q_ref = None
-    if reference_topic == state_topic:
-        q_ref = np.array([_select(sample, sample.references, joints) for sample in states])
-    elif commands:
-        q_ref, note = _hold_commands(commands, t, q, joints, trajectories)
-        notes += [note] if note else []
-    has_torques = all(len(sample.torques) == len(sample.joints) for sample in states)
-    tau = np.array([_select(sample, sample.torques, joints) for sample in states]) if has_torques else None
+    t, q, tau = np.array([each.time for each in states]), _stack(states, joints, "positions"), _stack(states, joints, "torques")
+    q_ref = _stack(states, joints, "references") if reference_topic == state_topic else None
+    if reference_topic not in (None, state_topic):
+        commands = samples[reference_topic]
+        if all(not command.names and len(command.positions) == len(joints) for command in commands):
+            commands = [command._replace(names=joints) for command in commands]
+            notes.append(f"the commands have no names and are used in the order {list_names(list(joints))}")
+        last = np.searchsorted([command.time for command in commands], t, side="right") - 1
+        q_ref = np.where(last[:, None] >= 0, _stack(commands, joints, "positions")[last], np.nan)
+        if not np.isfinite(q_ref).any(axis=0).all():
+            q_ref, notes = None, [*notes, "the commands lack joints, so positions are not compared with a reference"]
     runs = np.split(np.arange(len(t)), np.flatnonzero(np.diff(t) > _LONGEST_PAUSE_S) + 1)
     episodes = [
         RecordedEpisode(
@@ -91,13 +84,13 @@ def read_bag(path: Path, state: str | None, reference: str | None) -> Recording:
             t=t[rows] - t[rows[0]],
             q=q[rows],
             q_ref=None if q_ref is None else q_ref[rows],
-            tau=None if tau is None else tau[rows],
+            tau=tau[rows] if np.isfinite(tau).all() else None,
         )
         for index, rows in enumerate(runs)
     ]
     return Recording(
         source=str(path),
-        format="ROS 2 bag" if path.is_dir() else "MCAP file",
+        format="ROS 2 bag" if path.is_dir() else f"ROS 2 file ({path.suffix})",
         joints=joints,
         unit="rad",
         fps=median_rate(t),
@@ -108,13 +101,12 @@ def read_bag(path: Path, state: str | None, reference: str | None) -> Recording:
 
 def _choose_state(path: Path, types: dict[str, str], state: str | None) -> str:
     topics = [topic for topic, kind in types.items() if kind in (_JOINT_STATE, _CONTROLLER_STATE)]
-    if state is not None and state in topics:
-        return state
-    if not topics or state is not None:
-        place = f" in '{state}'" if state else ""
-        raise InputError(f"'{path}' has no joint states{place}; its topics are {list_names(list(types)) or 'none'}")
     controllers = [topic for topic in topics if types[topic] == _CONTROLLER_STATE]
-    for choice in (controllers, [_USUAL_STATE_TOPIC] if _USUAL_STATE_TOPIC in topics else topics):
+    if state is not None:
+        topics = controllers = [state] if state in topics else []
+    if not topics:
+        raise InputError(f"'{path}' has no joint states; its topics are {list_names(list(types)) or 'none'}")
+    for choice in (controllers, [topic for topic in topics if topic == _USUAL_STATE_TOPIC], topics):
         if len(choice) == 1:
             return choice[0]
     raise InputError(f"'{path}' has several topics with joint states: {list_names(topics)}; name one by --state")
@@ -123,74 +115,35 @@ def _choose_state(path: Path, types: dict[str, str], state: str | None) -> str:
 def _choose_reference(
     path: Path, types: dict[str, str], state_topic: str, reference: str | None
 ) -> tuple[str | None, list[str]]:
-    if reference is not None:
-        if types.get(reference) in (_FLOAT_COMMAND, _TRAJECTORY, _JOINT_STATE, _CONTROLLER_STATE):
-            return reference, []
+    """Return the topic with the references, or None, and notes."""
+    if reference is not None and types.get(reference) not in (_FLOAT_COMMAND, _JOINT_STATE):
         raise InputError(f"'{path}' has no joint commands in '{reference}'; its topics are {list_names(list(types))}")
-    if types[state_topic] == _CONTROLLER_STATE:
-        return state_topic, []
-    commands = [topic for topic, kind in types.items() if kind in (_FLOAT_COMMAND, _TRAJECTORY)]
+    if reference is not None or types[state_topic] == _CONTROLLER_STATE:
+        return reference or state_topic, []
+    commands = [topic for topic, kind in types.items() if kind == _FLOAT_COMMAND]
     if len(commands) == 1:
         return commands[0], []
     reason = f"several topics with commands ({list_names(commands)}): name one by --reference" if commands else "no commands"
     return None, [f"the bag has {reason}, so positions are not compared with a reference"]
 
 
-def _stamp(message: Any, recorded: float) -> float:
-    """Return the time of the header in s, or the time of recording if the header has none."""
+def _read_message(message: Any, recorded_time: float) -> _Sample:
+    """Return the joint values of a message, at the time of its header if that is given."""
+    if hasattr(message, "data"):
+        return _Sample(recorded_time, (), message.data)
     stamp = message.header.stamp
-    return float(stamp.sec + stamp.nanosec / _NANOSECONDS) or recorded
-
-
-def _read_state(message: Any, recorded: float) -> _Sample:
-    time = _stamp(message, recorded)
+    time = float(stamp.sec + stamp.nanosec * _SECONDS_PER_NANOSECOND) or recorded_time
     if hasattr(message, "name"):
         return _Sample(time, tuple(message.name), message.position, torques=message.effort)
-    measured = message.feedback if hasattr(message, "feedback") else message.actual
-    wanted = message.reference if hasattr(message, "reference") else message.desired
+    is_new = hasattr(message, "feedback")  # the fields have other names since ROS 2 Iron
+    measured, wanted = (message.feedback, message.reference) if is_new else (message.actual, message.desired)
     return _Sample(time, tuple(message.joint_names), measured.positions, wanted.positions, measured.effort)
 
 
-def _read_command(message: Any, recorded: float) -> _Sample:
-    if hasattr(message, "data"):
-        return _Sample(recorded, (), message.data)
-    if not hasattr(message, "points"):
-        state = _read_state(message, recorded)
-        return _Sample(state.time, state.joints, state.references)
-    points = [(point.time_from_start, point.positions) for point in message.points]
-    delays = [delay.sec + delay.nanosec / _NANOSECONDS for delay, _ in points]
-    return _Sample(_stamp(message, recorded), tuple(message.joint_names), [positions for _, positions in points], delays)
-
-
-def _select(sample: _Sample, values: Sequence[float], joints: Sequence[str]) -> FloatArray:
-    """Return values in the order of the joints; NaN if the message has none."""
-    if len(values) != len(sample.joints):
-        return np.full(len(joints), np.nan)
-    return np.array([values[sample.joints.index(name)] for name in joints], dtype=np.float64)
-
-
-def _hold_commands(
-    commands: Sequence[_Sample], t: FloatArray, q: FloatArray, joints: Sequence[str], trajectories: bool
-) -> tuple[FloatArray | None, str]:
-    """Return the references (T, n) at times ``t``: the last command, or the point of the last trajectory; and a note."""
-    names, note = commands[0].joints, ""
-    if not names:
-        if any(len(command.values) != len(joints) for command in commands):
-            return None, f"the commands do not have {len(joints)} values, so positions are not compared with a reference"
-        names, note = tuple(joints), f"the commands have no names and are used in the order {list_names(list(joints))}"
-    elif missing := [name for name in joints if name not in names]:
-        return None, f"the commands have no '{missing[0]}', so positions are not compared with a reference"
-    order = [names.index(name) for name in joints]
-    references = np.full(q.shape, np.nan)
-    last = np.searchsorted([command.time for command in commands], t, side="right") - 1
-    for number in np.unique(last[last >= 0]):
-        rows, command = np.flatnonzero(last == number), commands[number]
-        values = np.asarray(command.values, dtype=np.float64)
-        if not trajectories:
-            references[rows] = values[order]
-            continue
-        before = references[rows[0] - 1] if rows[0] and np.isfinite(references[rows[0] - 1]).all() else q[rows[0]]
-        knots = np.concatenate([[command.time], command.time + np.asarray(command.references)])
-        points = np.vstack([before, values[:, order]])
-        references[rows] = np.stack([np.interp(t[rows], knots, column) for column in points.T], axis=1)
-    return references, note
+def _stack(samples: Sequence[_Sample], joints: Sequence[str], field: str) -> FloatArray:
+    """Return values (T, n) of one field in the order of the joints; NaN where a message has none."""
+    rows = []
+    for sample in samples:
+        values = dict(zip(sample.names, getattr(sample, field), strict=False))
+        rows.append([values.get(name, np.nan) for name in joints])
+    return np.array(rows, dtype=np.float64)
