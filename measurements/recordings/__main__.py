@@ -169,8 +169,8 @@ def format_interval(count: int, total: int) -> str:
 
 def first_frame(flags: NDArray[np.bool_], frames: int) -> float | None:
     """Return the time in s at which one of the conditions (T, n) has held for some frames."""
-    held = np.lib.stride_tricks.sliding_window_view(flags, frames, axis=0).all(axis=-1).any(axis=1)
-    rows = np.flatnonzero(held)
+    windows = np.lib.stride_tricks.sliding_window_view(flags, frames, axis=0)
+    rows = np.flatnonzero(windows.min(axis=-1).max(axis=1))
     return float((rows[0] + frames) / FPS) if rows.size else None
 
 

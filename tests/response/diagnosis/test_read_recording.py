@@ -147,6 +147,7 @@ def test_bags(rng, tmp_path, storage):
     with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin[storage]) as writer:
         state = writer.add_connection("/joint_states", "sensor_msgs/msg/JointState", typestore=store)
         goal = writer.add_connection("/position/commands", "std_msgs/msg/Float64MultiArray", typestore=store)
+        leader = writer.add_connection("/leader", "sensor_msgs/msg/JointState", typestore=store)
         hand = writer.add_connection("/hand", "sensor_msgs/msg/JointState", typestore=store)
         for k, t in enumerate(times):
             names, values = (JOINTS, q[k]) if k % 7 != 3 else ([JOINTS[j] for j in order], q[k, order])
@@ -154,6 +155,8 @@ def test_bags(rng, tmp_path, storage):
             writer.write(state, int((t + 0.003) * 1e9), store.serialize_cdr(message, state.msgtype))
             fingers = joint_state(store, t, ["finger"], [0.1])
             writer.write(hand, int(t * 1e9), store.serialize_cdr(fingers, hand.msgtype))
+            wish = joint_state(store, t, [JOINTS[j] for j in order], command[k, order] + 1)
+            writer.write(leader, int((t - 0.001) * 1e9), store.serialize_cdr(wish, leader.msgtype))
             layout = store.types["std_msgs/msg/MultiArrayLayout"]([], 0)
             array = store.types["std_msgs/msg/Float64MultiArray"](layout, command[k])
             writer.write(goal, int((t - 0.002) * 1e9), store.serialize_cdr(array, goal.msgtype))
@@ -166,6 +169,8 @@ def test_bags(rng, tmp_path, storage):
         np.testing.assert_array_equal(np.concatenate([episode.q for episode in recording.episodes]), q)
         np.testing.assert_array_equal(np.concatenate([episode.q_ref for episode in recording.episodes]), command)
         np.testing.assert_allclose(recording.episodes[1].t, np.arange(25) / 20, atol=1e-6)
+        by_leader = read_recording(path, reference="/leader")
+        np.testing.assert_array_equal(np.concatenate([episode.q_ref for episode in by_leader.episodes]), command + 1)
     assert len(paths) == 2
     assert read_recording(tmp_path / "bag", state="/hand").joints == ("finger",)
     with pytest.raises(InputError, match=r"has no joint states; its topics are .*/joint_states"):

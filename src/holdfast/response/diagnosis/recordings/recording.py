@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -85,7 +85,7 @@ class Recording:
         episodes = []
         for episode in self.episodes:
             arrays = {name: getattr(episode, name) for name in names}
-            changed = {name: change(values) for name, values in arrays.items() if values is not None}
+            changed: dict[str, Any] = {name: change(values) for name, values in arrays.items() if values is not None}
             episodes.append(replace(episode, **changed))
         return replace(self, episodes=tuple(episodes))
 
