@@ -25,7 +25,7 @@ def diagnose(
         Path,
         typer.Argument(metavar="RECORDING", help="Log, LeRobot data set, ROS 2 bag, MCAP file, or folder of logs or bags."),
     ],
-    arm: Annotated[str | None, "Arm: as in other commands. Needed for --bounds, to check limits, and to name a fall."] = None,
+    arm: Annotated[str | None, "Arm: built-in name or file. Required for --bounds, and to name falls and check limits."] = None,
     bounds: Annotated[Path | None, "Threshold file (JSON) of 'holdfast calibrate', for one log of at least 40 Hz."] = None,
     healthy: Annotated[str | None, "Numbers of healthy episodes, at least 20, such as 0:50 (0 to 49) or 0:40,45."] = None,
     rate: Annotated[float | None, "False alarms per hour (extrapolated). Default: the rate that --healthy guarantees."] = None,
@@ -44,9 +44,9 @@ def diagnose(
 
     Exit code: 0 if no fault is detected, 3 if there is an alarm.
 
-    Examples:
-    holdfast diagnose faulty/000000.npz --arm panda --bounds bounds.json --out diagnosis
-    holdfast diagnose dataset --healthy 0:50 --unit deg --out examination
+    Example: holdfast diagnose faulty/000000.npz --arm panda --bounds bounds.json --out diagnosis
+
+    Example: holdfast diagnose dataset --healthy 0:50 --unit deg --out examination
     """
     model = None if arm is None else chain.resolve_arm(arm)
     if bounds is not None:
@@ -62,7 +62,7 @@ def diagnose(
             log,
             state=state,
             reference=reference,
-            joints=None if joints is None else joints.split(","),
+            joints=None if joints is None else joints.replace(" ", "").split(","),
             unit=unit,
             columns=columns,
         )
