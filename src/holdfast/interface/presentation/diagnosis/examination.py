@@ -167,10 +167,7 @@ def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> Figure:
         ):
             axes.plot(t - t[0], values[:, joint], color=color, linewidth=width, label=label)
         axes.axvline(alarm.alarm, color=style.INK, linewidth=1.0)
-        axes.text(alarm.alarm, 0.98, f" alarm, {alarm.alarm:.2f} s", transform=axes.get_xaxis_transform(), fontsize=8, va="top")
-        unit = f", {recording.unit}" if recording.unit else ""
-        axes.set(
-            xlabel="time, s", ylabel=f"{style.format_label(recording.joints[joint])}{unit}", title=f"Episode {alarm.index}"
-        )
+        label = style.format_label(recording.joints[joint]) + (f", {recording.unit}" if recording.unit else "")
+        axes.set(xlabel="time, s", ylabel=label, title=f"Episode {alarm.index}, alarm at {alarm.alarm:.2f} s")
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
         return style.settle_layout(figure)

@@ -8,10 +8,10 @@ from holdfast.core.typing import FloatArray
 from holdfast.response.diagnosis.recordings.following import STATISTIC_NAMES, Frames, HealthyBehaviour
 
 POSSIBLE_CAUSES = {
-    "stale": ("stale",),
-    "dropped": ("dropped",),
+    "stale": ("all readings stopped",),
+    "dropped": ("lost frames",),
     "spike": ("spike",),
-    "stale joint": ("stale joint",),
+    "stale joint": ("reading stopped",),
     "slip": ("slip", "contact"),
     "leap": ("offset", "contact"),
     "limp": ("limp",),
