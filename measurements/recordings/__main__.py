@@ -16,9 +16,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.core.probability import Interval
-from holdfast.response.diagnosis import Recording, examine
-from holdfast.response.diagnosis.recordings.examination import Examination
-from holdfast.response.diagnosis.recordings.recording import RecordedEpisode
+from holdfast.response.diagnosis import Examination, RecordedEpisode, Recording, examine
 from measurements.recordings.robot import FAULTS, FPS, JOINTS, LENGTH_S, WITHOUT_JOINT, Fault, Robot, draw_fault, load_arm
 
 HERE = Path(__file__).parent

@@ -17,7 +17,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.core.typing import FloatArray
-from holdfast.response.diagnosis.recordings.recording import RecordedEpisode
+from holdfast.response.diagnosis import RecordedEpisode
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll")
 FAULTS = (

@@ -10,9 +10,8 @@ from measurements.recordings import robot as simulated
 
 import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.response.diagnosis import Recording, examine
+from holdfast.response.diagnosis import RecordedEpisode, Recording, examine
 from holdfast.response.diagnosis.recordings.following import Frames, HealthyBehaviour
-from holdfast.response.diagnosis.recordings.recording import RecordedEpisode
 
 FPS = 30.0
 
@@ -268,9 +267,22 @@ def test_inconclusive_cases(rng):
     assert examination.episodes[24].unheard == ("b",)
     held = examination.episodes[3]
     source = episodes[3]
-    error = np.abs(source.q[1:] - source.q_ref[:-1])
+    error = np.abs(source.q - np.vstack([source.q_ref[:1], source.q_ref[:-1]]))
     by_loop = max(error[k : k + 15, j].min() for k in range(len(error) - 14) for j in range(2))
     assert held.held_error == pytest.approx(by_loop)
+
+
+def test_short_long_and_hollow_episodes(rng):
+    """Episodes of one frame, of five seconds more than the healthy ones, and with missing values are examined."""
+    episodes = [make_episode(rng, k) for k in range(20)]
+    gaps = make_episode(rng, 22)
+    gaps.q[:3, 0], gaps.q[50:52, 1] = np.nan, np.nan
+    odd = [make_episode(rng, 20, frames=1), make_episode(rng, 21, frames=390), gaps]
+    results = examine(make_recording([*episodes, *odd]), healthy=range(20)).episodes[20:]
+    assert results[0].alarm is None
+    assert "it is longer than every healthy episode" in results[1].findings[0]
+    assert "the position has no finite number in 5 of 240 frames" in results[2].findings
+    assert all(np.isfinite(result.score) for result in results)
 
 
 def test_the_unit_does_not_change_the_alarms(rng):

@@ -352,7 +352,9 @@ def test_other_bad_input(rng, tmp_path):
     (tmp_path / "named.csv").write_text("when,angle\n0,1\n")
     (tmp_path / "short.json").write_text('{"pan": {"range_min": 1}}')
     (tmp_path / "empty.npz").write_bytes(b"")
+    (tmp_path / "one.csv").write_text("t,q_1,q_ref_1\n0,1,1\n")
     for arguments, message in (
+        (("one.csv",), "has no two frames between which the time increases"),
         (("nowhere",), "'.*nowhere' does not exist"),
         (
             ("other",),

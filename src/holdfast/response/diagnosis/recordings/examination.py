@@ -23,6 +23,7 @@ _CONFIDENCE_LEVEL = 0.95
 _HELD_ERROR_S = 0.5
 _EXAMINED_FPS = 30.0
 _MAX_FPS = 60.0  # faster recordings are reduced to about 30 frames per second
+_MAX_LENGTH_RATIO = 1.1  # of an episode to the longest healthy one
 _MIN_MOTION_DEG = 5.0  # of a reference: below, nothing can be said of its joint
 _EULER_GAMMA = 0.5772156649015329
 
@@ -151,7 +152,10 @@ def examine(recording: Recording, *, healthy: Sequence[int], arm: Arm | None = N
     else:
         behaviour, threshold, stated = _calibrate(recording, roles, rate)
     findings, results = find_conspicuous(recording, arm), []
+    longest = max((len(each.t) for each in recording.episodes if roles[each.index] != "examined"), default=0)
     for episode in recording.episodes:
+        if behaviour is not None and len(episode.t) > _MAX_LENGTH_RATIO * longest:
+            findings[episode.index] += ("it is longer than every healthy episode, so the stated rate does not hold for it",)
         known: dict[str, Any] = {} if episode.q_ref is None else _measure_motion(recording, episode)
         if behaviour is not None:
             scores = behaviour.score(examined_frames(recording, episode)).max(axis=(1, 2))
@@ -196,7 +200,7 @@ def frame_stride(fps: float) -> int:
 
 def _degree(recording: Recording) -> float:
     """Return one degree in the unit of the recording; if it is unknown, positions beyond a full turn cannot be in rad."""
-    is_large = max(float(np.nanmax(np.abs(episode.q))) for episode in recording.episodes) > 2 * np.pi
+    is_large = max(float(np.nanmax(np.abs(episode.q), initial=0.0)) for episode in recording.episodes) > 2 * np.pi
     return 1.0 if recording.unit == "deg" or (recording.unit is None and is_large) else np.pi / 180
 
 
@@ -225,10 +229,10 @@ def _measure_motion(recording: Recording, episode: RecordedEpisode) -> dict[str,
     frames = examined_frames(recording, episode)
     moves = np.ptp(frames.reference, axis=0) >= _MIN_MOTION_DEG * _degree(recording)
     unheard = tuple(name for name, has_moved in zip(recording.joints, moves, strict=True) if not has_moved)
-    error = np.abs(frames.position[1:] - frames.reference[:-1])
+    error = np.abs(frames.position - np.concatenate([frames.reference[:1], frames.reference[:-1]]))
     window = min(max(1, round(_HELD_ERROR_S * recording.fps / frame_stride(recording.fps))), len(error))
     held = np.lib.stride_tricks.sliding_window_view(error, window, axis=0).min(axis=-1)
-    return {"unheard": unheard, "held_error": float(held.max(initial=0.0))}
+    return {"unheard": unheard, "held_error": float(held.max())}
 
 
 def _describe_alarm(

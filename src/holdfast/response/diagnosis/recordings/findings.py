@@ -30,7 +30,7 @@ def find_conspicuous(recording: Recording, arm: Arm | None) -> dict[int, tuple[s
     for episode, deviation in zip(recording.episodes, deviations, strict=True):
         sentences = [*_check_samples(episode), *_check_motion(recording, episode, ranges)]
         if arm is not None and recording.unit is not None:
-            sentences += _check_limits(episode, arm, 1.0 if recording.unit == "rad" else np.pi / 180)
+            sentences += _check_limits(episode, arm, recording.fps, 1.0 if recording.unit == "rad" else np.pi / 180)
         first = first_index_by_content.setdefault(episode.q.tobytes(), episode.index)
         sentences += [f"it equals episode {first}"] if first != episode.index else []
         sentences += [
@@ -79,8 +79,8 @@ def _check_motion(recording: Recording, episode: RecordedEpisode, ranges: FloatA
         yield f"all positions repeat while a reference moves ({times}; the longest is {last - first} frames at {start:.3g} s)"
 
 
-def _check_limits(episode: RecordedEpisode, arm: Arm, to_rad: float) -> Iterator[str]:
-    speeds = np.abs(np.diff(episode.q, axis=0)) * to_rad / max(float(np.median(np.diff(episode.t))), 1e-9)
+def _check_limits(episode: RecordedEpisode, arm: Arm, fps: float, to_rad: float) -> Iterator[str]:
+    speeds = np.abs(np.diff(episode.q, axis=0)) * to_rad * fps
     for joint, values, speed in zip(arm.joints, episode.q.T * to_rad, speeds.T, strict=True):
         excess = max(joint.lower - np.fmin.reduce(values), np.fmax.reduce(values) - joint.upper)
         if excess > _LIMIT_TOLERANCE_RAD:

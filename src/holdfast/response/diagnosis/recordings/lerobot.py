@@ -6,7 +6,7 @@ recording program passes its own, the unit is not stated, and the names of a vec
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,7 @@ _FULL_TURN_DEG = 360.0
 _NORMALISED_SPAN = 200.0  # from -100 to 100
 
 
-def read_data_set(folder: Path, state: str | None, reference: str | None, episodes: Collection[int] | None) -> Recording:
+def read_data_set(folder: Path, state: str | None, reference: str | None, episodes: Sequence[int] | None) -> Recording:
     """Read a data set of LeRobot 2.0, 2.1 or 3.0.
 
     Args:
@@ -107,7 +107,7 @@ def _read_info(folder: Path) -> dict[str, Any]:
     return dict(info)
 
 
-def _read_columns(folder: Path, vectors: Sequence[str], episodes: Collection[int] | None) -> dict[str, FloatArray]:
+def _read_columns(folder: Path, vectors: Sequence[str], episodes: Sequence[int] | None) -> dict[str, FloatArray]:
     """Return the rows of all files: vectors (rows, size) and numbers (rows,)."""
     parquet = import_extra("pyarrow.parquet", "records", "pyarrow")
     files = sorted(folder.glob("data/*/*.parquet"))

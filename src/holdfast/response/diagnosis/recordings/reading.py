@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,7 +29,7 @@ def read_recording(
     reference: str | None = None,
     joints: Sequence[str] | None = None,
     unit: str | Path | None = None,
-    episodes: Collection[int] | None = None,
+    episodes: Sequence[int] | None = None,
     columns: str | Path | None = None,
 ) -> Recording:
     """Read the episodes of a recording, whose format is recognised from its files.
@@ -67,7 +67,7 @@ def read_recording(
 
 
 def _read_path(
-    path: Path, state: str | None, reference: str | None, episodes: Collection[int] | None, columns: str | Path | None
+    path: Path, state: str | None, reference: str | None, episodes: Sequence[int] | None, columns: str | Path | None
 ) -> Recording:
     if not path_exists(path):
         raise InputError(f"'{path}' does not exist; give a data set, a bag, or a log")

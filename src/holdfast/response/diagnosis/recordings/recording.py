@@ -71,6 +71,10 @@ class Recording:
     episodes: tuple[RecordedEpisode, ...]
     notes: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        if not self.fps > 0:
+            raise InputError(f"'{self.source}' has no two frames between which the time increases; check its times")
+
     @property
     def title(self) -> str:
         """Robot, format, and size of the recording, in one line."""
