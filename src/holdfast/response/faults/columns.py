@@ -20,8 +20,8 @@ from holdfast.core.typing import FloatArray
 _TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
 _JOINT_UNITS = {"rad": 1.0, "deg": np.pi / 180, **_LENGTH_UNITS}
-# The first unit of each array is the default.
 _REQUIRED_ARRAYS = ("t", "q_ref", "q")
+# The first unit of each array is the default.
 _ARRAY_UNITS = {"t": _TIME_UNITS, "q_ref": _JOINT_UNITS, "q": _JOINT_UNITS, "tau": {"N m": 1.0}, "x": _LENGTH_UNITS, "quat": {}}
 
 
@@ -36,9 +36,7 @@ class _Column(Strict):
         return {"column": data} if isinstance(data, (str, list)) else data
 
 
-class Columns(Strict):
-    """Columns of the arrays of a log; the defaults are those of :meth:`holdfast.response.faults.Log.save`."""
-
+class _Columns(Strict):
     t: _Column = _Column(column="t")
     q_ref: _Column = _Column(column="q_ref_*")
     q: _Column = _Column(column="q_*")
@@ -49,12 +47,12 @@ class Columns(Strict):
 
 # Source: logToCSV in libfranka 0.5 to 0.15, and the recipes of the RTDE client library of Universal Robots.
 _KNOWN_LAYOUTS = [
-    Columns(),
-    Columns.model_validate(
+    _Columns(),
+    _Columns.model_validate(
         {"t": {"column": "time", "unit": "ms"}, "q": "state.q[*]", "q_ref": "state.q_d[*]", "tau": "state.tau_J[*]"}
     ),
-    Columns.model_validate({"t": {"column": "duration", "unit": "ms"}, "q": "q[*]", "q_ref": "q_d[*]", "tau": "tau_J[*]"}),
-    Columns.model_validate({"t": "timestamp", "q": "actual_q_*", "q_ref": "target_q_*", "tau": "target_moment_*"}),
+    _Columns.model_validate({"t": {"column": "duration", "unit": "ms"}, "q": "q[*]", "q_ref": "q_d[*]", "tau": "tau_J[*]"}),
+    _Columns.model_validate({"t": "timestamp", "q": "actual_q_*", "q_ref": "target_q_*", "tau": "target_moment_*"}),
 ]
 
 
@@ -90,7 +88,7 @@ def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]
     return {**arrays, "t": arrays["t"][:, 0]}
 
 
-def _find_layout(column_names: Sequence[str]) -> Columns:
+def _find_layout(column_names: Sequence[str]) -> _Columns:
     """Return the known layout whose columns are in a table, or the default one."""
     for layout in _KNOWN_LAYOUTS:
         required = [_expand_columns(getattr(layout, name).column, column_names) for name in _REQUIRED_ARRAYS]
@@ -99,15 +97,15 @@ def _find_layout(column_names: Sequence[str]) -> Columns:
     return _KNOWN_LAYOUTS[0]
 
 
-def _read_layout(columns: str | Path) -> Columns:
+def _read_layout(columns: str | Path) -> _Columns:
     try:
-        layout = Columns.model_validate(read_mapping(Path(columns), "holdfast.response.faults.Log.load", "q and q_ref"))
+        layout = _Columns.model_validate(read_mapping(Path(columns), "holdfast.response.faults.Log.load", "q and q_ref"))
         for name, column in layout:
             if column.unit is not None and column.unit not in _ARRAY_UNITS[name]:
                 raise InputError(f"{name}: unit '{column.unit}' is not known; use {', '.join(_ARRAY_UNITS[name]) or 'none'}")
         return layout
     except ValidationError as error:
-        raise InputError(f"columns '{columns}': {describe_validation_error(error, Columns, ('str', 'list[str]'))}") from error
+        raise InputError(f"columns '{columns}': {describe_validation_error(error, _Columns, ('str', 'list[str]'))}") from error
     except InputError as error:
         raise InputError(f"columns '{columns}': {error}") from error
 
