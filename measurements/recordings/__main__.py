@@ -21,7 +21,7 @@ from measurements.recordings.robot import FAULTS, FPS, JOINTS, LENGTH_S, WITHOUT
 
 HERE = Path(__file__).parent
 _CALIBRATION = 100  # healthy episodes of each robot: 50 fit, 50 set the threshold
-_SPLITS = 10  # of the healthy episodes of each robot
+_SPLITS = 5  # of the healthy episodes of each robot
 # What the specification measured with its own simulation of 10 robots: detected, and right kind or among the candidates.
 _SPECIFIED = {
     "locked": (0.987, 0.95),
