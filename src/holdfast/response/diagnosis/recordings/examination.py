@@ -28,7 +28,7 @@ _MIN_MOTION_DEG = 5.0  # of a reference: below, nothing can be said of its joint
 _EULER_GAMMA = 0.5772156649015329
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StatedRate:
     """Rate of false alarms that the calibration supports.
 
@@ -216,12 +216,18 @@ def _calibrate(recording: Recording, roles: dict[int, str], rate: float | None) 
     hours = sum(len(frames.position) for frames in others) / fps / 3600 / len(others)
     guaranteed, limit = 1 / (len(others) + 1), 1 - (1 - _CONFIDENCE_LEVEL) ** (1 / len(others))
     wanted = guaranteed if rate is None else float(-np.expm1(-rate * hours))
-    if wanted >= guaranteed:
-        stated = StatedRate("conformal", guaranteed, limit, guaranteed / hours, len(fit), len(others))
-        return behaviour, float(scores.max()), stated
+    is_guaranteed = wanted >= guaranteed
     scale = scores.std(ddof=1) * np.sqrt(6) / np.pi  # of a Gumbel law with the mean and variance of the scores
-    threshold = scores.mean() - scale * (_EULER_GAMMA + np.log(-np.log1p(-wanted)))
-    return behaviour, float(threshold), StatedRate("extrapolated", wanted, None, wanted / hours, len(fit), len(others))
+    threshold = scores.max() if is_guaranteed else scores.mean() - scale * (_EULER_GAMMA + np.log(-np.log1p(-wanted)))
+    stated = StatedRate(
+        kind="conformal" if is_guaranteed else "extrapolated",
+        per_episode=min(wanted, guaranteed),
+        limit=limit if is_guaranteed else None,
+        per_hour=min(wanted, guaranteed) / hours,
+        fit_count=len(fit),
+        threshold_count=len(others),
+    )
+    return behaviour, float(threshold), stated
 
 
 def _measure_motion(recording: Recording, episode: RecordedEpisode) -> dict[str, Any]:
