@@ -81,6 +81,18 @@ def read_numbers(option: str, text: str, expected: str) -> NDArray[np.float64]:
         raise InputError(f"{option}: '{invalid}' is not a number; give {expected} separated by commas or spaces") from error
 
 
+def read_episode_numbers(option: str, text: str, count: int) -> list[int]:
+    """Read numbers and ranges such as ``0:50,60``, in which the end of a range is excluded, for ``count`` episodes."""
+    numbers: list[int] = []
+    for part in text.split(","):
+        try:
+            ends = [int(end) if end.strip() else None for end in part.split(":")]
+            numbers += range(count)[slice(*ends)] if len(ends) == 2 else [int(part)]
+        except ValueError as error:
+            raise InputError(f"{option} is '{text}'; give episodes such as 0:50 or 0:40,45") from error
+    return numbers
+
+
 def check_joint_units(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
     """Raise for joint values, rad and m, so far beyond the limits that they must be degrees or millimetres.
 

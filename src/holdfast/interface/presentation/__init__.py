@@ -44,6 +44,7 @@ PRESENTER_MODULES = {
     "response.diagnosis.detectability.observability.Observability": "diagnosis.detectability",
     "response.diagnosis.detectability.probe.Identification": "diagnosis.detectability",
     "response.diagnosis.detectability.probe.ProbingMotion": "diagnosis.detectability",
+    "response.diagnosis.recordings.examination.Examination": "diagnosis.examination",
     "kinematics.interval_search.search.Configurations": "interval_search.configurations",
     "response.lock_survival.planning.LockSurvival": "lock_survival.lock_survival",
     "core.sweeps.study.Study": "studies.study",

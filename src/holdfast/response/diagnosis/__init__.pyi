@@ -17,6 +17,13 @@ from holdfast.response.diagnosis.export import export_c as export_c
 from holdfast.response.diagnosis.kinds import FaultVerdict as FaultVerdict
 from holdfast.response.diagnosis.monitor import Monitor as Monitor
 from holdfast.response.diagnosis.monitor import diagnose as diagnose
+from holdfast.response.diagnosis.recordings.examination import Examination as Examination
+from holdfast.response.diagnosis.recordings.examination import ExaminedEpisode as ExaminedEpisode
+from holdfast.response.diagnosis.recordings.examination import StatedRate as StatedRate
+from holdfast.response.diagnosis.recordings.examination import examine as examine
+from holdfast.response.diagnosis.recordings.reading import read_recording as read_recording
+from holdfast.response.diagnosis.recordings.recording import RecordedEpisode as RecordedEpisode
+from holdfast.response.diagnosis.recordings.recording import Recording as Recording
 from holdfast.response.diagnosis.sensors import Sensors as Sensors
 from holdfast.response.diagnosis.signals import EXCESS_LIMITS_S as EXCESS_LIMITS_S
 from holdfast.response.diagnosis.simulated_logs import ExternalForce as ExternalForce

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from holdfast.core.typing import FloatArray
 _TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _LENGTH_UNITS = {"m": 1.0, "mm": 1e-3}
 _JOINT_UNITS = {"rad": 1.0, "deg": np.pi / 180, **_LENGTH_UNITS}
+_REQUIRED_ARRAYS = ("t", "q_ref", "q")
 # The first unit of each array is the default.
 _ARRAY_UNITS = {"t": _TIME_UNITS, "q_ref": _JOINT_UNITS, "q": _JOINT_UNITS, "tau": {"N m": 1.0}, "x": _LENGTH_UNITS, "quat": {}}
 
@@ -44,20 +45,33 @@ class _Columns(Strict):
     quat: _Column = _Column(column="quat_*")
 
 
+# Source: logToCSV in libfranka 0.5 to 0.15, and the recipes of the RTDE client library of Universal Robots.
+_KNOWN_LAYOUTS = [
+    _Columns(),
+    _Columns.model_validate(
+        {"t": {"column": "time", "unit": "ms"}, "q": "state.q[*]", "q_ref": "state.q_d[*]", "tau": "state.tau_J[*]"}
+    ),
+    _Columns.model_validate({"t": {"column": "duration", "unit": "ms"}, "q": "q[*]", "q_ref": "q_d[*]", "tau": "tau_J[*]"}),
+    _Columns.model_validate({"t": "timestamp", "q": "actual_q_*", "q_ref": "target_q_*", "tau": "target_moment_*"}),
+]
+
+
 def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]:
     """Read the arrays of a table (.csv, .parquet) in SI units, by their names in a log; missing optional columns are left out.
 
     Args:
         path: Path of the table.
-        columns: YAML file of columns, see :meth:`holdfast.response.faults.Log.load`. None: names and units of a log.
+        columns: YAML file of columns, see :meth:`holdfast.response.faults.Log.load`. None: names and units of a log, of
+            libfranka, or of an RTDE client.
 
     Raises:
         InputError: A file cannot be read, a column is missing, or a column contains other data than numbers.
     """
-    layout = _Columns() if columns is None else _read_layout(columns)
+    stated = None if columns is None else _read_layout(columns)
     with reading.guard_reading(advice="give an .npz, .csv or .parquet file"):
         content_bytes = reading.read_bytes(path)
     column_names, numbers = (_parse_parquet if path.suffix.lower() == ".parquet" else _parse_csv)(content_bytes)
+    layout = stated or _find_layout(column_names)
     arrays = {}
     for name, column in layout:
         selected = _expand_columns(column.column, column_names)
@@ -65,13 +79,22 @@ def read_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]
         if not missing:
             unit_factor = _ARRAY_UNITS[name][column.unit] if column.unit else 1.0
             arrays[name] = np.column_stack([numbers(column_name) for column_name in selected]) * unit_factor
-        elif name in layout.model_fields_set or name in ("t", "q_ref", "q"):
+        elif (stated and name in stated.model_fields_set) or name in _REQUIRED_ARRAYS:
             available = ", ".join(f"'{shown}'" for shown in column_names[:8])
             available += f" and {len(column_names) - 8} more" if len(column_names) > 8 else ""
             raise InputError(
                 f"it has no column '{missing[0]}' for {name}, but {available}; name them in a file of columns (--columns)"
             )
     return {**arrays, "t": arrays["t"][:, 0]}
+
+
+def _find_layout(column_names: Sequence[str]) -> _Columns:
+    """Return the known layout whose columns are in a table, or the default one."""
+    for layout in _KNOWN_LAYOUTS:
+        required = [_expand_columns(getattr(layout, name).column, column_names) for name in _REQUIRED_ARRAYS]
+        if all(selected and set(selected) <= set(column_names) for selected in required):
+            return layout
+    return _KNOWN_LAYOUTS[0]
 
 
 def _read_layout(columns: str | Path) -> _Columns:
@@ -102,8 +125,11 @@ def _expand_columns(column: str | list[str], names: Collection[str]) -> list[str
 def _parse_csv(raw: bytes) -> tuple[list[str], Callable[[str], FloatArray]]:
     """Return the column names and a function that returns the numbers of a column; empty cells are NaN."""
     lines = raw.decode("utf-8-sig", "replace").splitlines()
-    delimiter = max(",;\t", key=(lines[0] if lines else "").count)  # the most frequent one in the first line
+    first_line = lines[0] if lines else ""
+    delimiter = max(",;\t", key=first_line.count) if any(mark in first_line for mark in ",;\t") else " "
     try:
+        if delimiter == " ":  # RTDE clients separate cells by blanks
+            lines = [" ".join(line.split()) for line in lines]
         rows = [(line_number, row) for line_number, row in enumerate(csv.reader(lines, delimiter=delimiter), start=1) if row]
     except csv.Error as error:  # a cell of more than 131,072 characters, or a NUL character
         raise InputError(f"it is not a table of numbers ({error}); give one with columns t, q_ref_1, ..., q_1, ...") from error

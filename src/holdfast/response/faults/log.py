@@ -167,18 +167,8 @@ class Log:
             InputError: The file cannot be read, or an array is missing or wrong; the message names it.
         """
         path = Path(file)
+        arrays = read_log_arrays(path, columns)
         try:
-            if path.suffix.lower() in (".csv", ".parquet"):
-                arrays = dict(tables.read_arrays(path, columns))
-            else:
-                if columns is not None:
-                    raise InputError("a file of columns is for .csv and .parquet")
-                arrays = _read_npz(path)
-            missing = [name for name in _REQUIRED_ARRAYS if name not in arrays]
-            if missing:
-                raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
-            if arrays["t"].ndim == 1 and (arrays["t"][:1] > _MIN_CLOCK_TIME_S).any():
-                arrays["t"] = arrays["t"] - arrays["t"][0]
             return cls(**arrays)._shift_pose(latency)
         except InputError as error:
             raise InputError(f"log '{path}': {error}") from error
@@ -222,6 +212,29 @@ class Log:
         with guard_writing(path, "log", "choose another path"), path.open("wb") as stream:
             np.savez_compressed(stream, **arrays)
         return path
+
+
+def read_log_arrays(path: Path, columns: str | Path | None) -> dict[str, FloatArray]:
+    """Read the arrays of a log from a file, as they are; ``columns`` as in :meth:`Log.load`.
+
+    Raises:
+        InputError: As :meth:`Log.load`.
+    """
+    try:
+        if path.suffix.lower() in (".csv", ".parquet", ".txt"):
+            arrays = dict(tables.read_arrays(path, columns))
+        else:
+            if columns is not None:
+                raise InputError("a file of columns is for .csv and .parquet")
+            arrays = _read_npz(path)
+        missing = [name for name in _REQUIRED_ARRAYS if name not in arrays]
+        if missing:
+            raise InputError(f"it has no {' and no '.join(missing)}; a log has at least t, q_ref and q")
+        if arrays["t"].ndim == 1 and (arrays["t"][:1] > _MIN_CLOCK_TIME_S).any():
+            arrays["t"] = arrays["t"] - arrays["t"][0]
+        return arrays
+    except InputError as error:
+        raise InputError(f"log '{path}': {error}") from error
 
 
 def _assign_even_rows(t: FloatArray) -> NDArray[np.int64]:

@@ -8,9 +8,11 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
+from holdfast.core.errors import InputError
 from holdfast.core.files.output import make_folder
 from holdfast.interface.cli.groups import ArmSourceOptions, OutputOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, ArmOption, JsonOption, SeedOption
+from holdfast.interface.cli.values import read_episode_numbers
 from holdfast.interface.presentation.printing import make_console, print_written_files
 from holdfast.interface.presentation.results import print_result
 
@@ -19,26 +21,56 @@ LatencyOption = Annotated[float, "Latency of the tool-pose measurement in s."]
 
 
 def diagnose(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="Log (.npz, .csv or .parquet); see --columns.")],
-    arm: ArmOption,
-    bounds: Annotated[Path, "Threshold file (JSON) written by 'holdfast calibrate'."],
+    log: Annotated[
+        Path,
+        typer.Argument(metavar="RECORDING", help="Log, LeRobot data set, ROS 2 bag, MCAP file, or folder of logs or bags."),
+    ],
+    arm: Annotated[str | None, "Arm: built-in name or file. Required for --bounds, and to name falls and check limits."] = None,
+    bounds: Annotated[Path | None, "Threshold file (JSON) of 'holdfast calibrate', for one log of at least 40 Hz."] = None,
+    healthy: Annotated[str | None, "Numbers of healthy episodes, at least 20, such as 0:50 (0 to 49) or 0:40,45."] = None,
+    rate: Annotated[float | None, "False alarms per hour (extrapolated). Default: the rate that --healthy guarantees."] = None,
+    unit: Annotated[str | None, "Unit of a data set: deg, rad, or a calibration file of LeRobot. Default: unknown."] = None,
+    joints: Annotated[str | None, "Joints to examine, with commas, in the order of the arm. Default: all but grippers."] = None,
+    state: Annotated[str | None, "Vector or topic of the positions. Default: observation.state, or the only topic."] = None,
+    reference: Annotated[str | None, "Vector or topic of the references. Default: action, or the only topic."] = None,
     columns: ColumnsOption = None,
     latency: LatencyOption = 0.0,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),
 ) -> None:
-    """Detect and identify a joint fault in a log.
+    """Detect and identify joint faults in a log, or in the episodes of a recording.
+
+    A log is compared with thresholds (--bounds), and a recording with its healthy episodes (--healthy).
 
     Exit code: 0 if no fault is detected, 3 if there is an alarm.
 
     Example: holdfast diagnose faulty/000000.npz --arm panda --bounds bounds.json --out diagnosis
+
+    Example: holdfast diagnose dataset --healthy 0:50 --unit deg --out examination
     """
-    model = chain.resolve_arm(arm)
-    diagnosis = hf.diagnosis.diagnose(
-        model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds)
-    )
-    output.print_result(diagnosis)
-    if diagnosis.verdict.alarm:
+    model = None if arm is None else chain.resolve_arm(arm)
+    if bounds is not None:
+        if model is None or healthy is not None:
+            raise InputError("--bounds needs --arm and excludes --healthy; give --arm and --bounds for a log")
+        diagnosis = hf.diagnosis.diagnose(
+            model, hf.faults.Log.load(log, columns=columns, latency=latency), hf.diagnosis.load(bounds)
+        )
+        output.print_result(diagnosis)
+        has_alarm = diagnosis.verdict.alarm
+    else:
+        recording = hf.diagnosis.read_recording(
+            log,
+            state=state,
+            reference=reference,
+            joints=None if joints is None else joints.replace(" ", "").split(","),
+            unit=unit,
+            columns=columns,
+        )
+        episodes = [] if healthy is None else read_episode_numbers("--healthy", healthy, len(recording.episodes))
+        examination = hf.diagnosis.examine(recording, healthy=episodes, arm=model, rate=rate)
+        output.print_result(examination)
+        has_alarm = bool(examination.alarms)
+    if has_alarm:
         raise typer.Exit(NOT_MET_EXIT_CODE)
 
 

@@ -1,0 +1,1 @@
+"""Faults in simulated recordings of a small arm at 30 frames per second."""
