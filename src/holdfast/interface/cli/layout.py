@@ -12,7 +12,8 @@ from holdfast.interface.cli.completion import offer_names
 
 _MIN_OPTIONS_FOR_PANELS = 8  # without --help
 _PANEL_OPTIONS = {
-    "Arm and environment": "base tip hold group xacro packages name tool mount gravity payload capsules radius meshes margin clearance cell",
+    "Arm and environment": "base tip hold group xacro packages name tool mount gravity payload capsules radius meshes "
+    "margin clearance cell",
     "Computation": "seed poses samples sampling restarts starts tries configurations points angles method time-limit threads "
     "workers local-searches check-poses designs chunk halvings store spacing metric",
     "Output": "out json csv rrd parquet plot report at-least",

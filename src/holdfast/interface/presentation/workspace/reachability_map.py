@@ -28,7 +28,7 @@ def present(reachability: ReachabilityMap) -> Presentation:
     from holdfast.interface.presentation.arm.view import choose_views
 
     arm, count, remaining = reachability.arm, reachability.lock_values.shape[1], reachability.harmless_locks
-    unit, cells = ("m²", "squares") if reachability.is_planar else ("m³", "cubes")
+    unit, cells = ("m²", "square cells") if reachability.is_planar else ("m³", "cubic cells")
     lock_text = "at the given values" if count == 1 else f"at {count} values of its range"
     index, remaining_index = reachability.index, reachability.locked_index.sum(axis=0) / reachability.index.sum()
     worst = int(remaining_index.argmin())
