@@ -64,7 +64,7 @@ VALUES = named(
         "response.lock_survival": "Approach BaselineMotion SearchBounds LockTests VelocityJump",
         "core.sweeps": "CellStatus DamagedChunk ChunkResult",
         "control.equilibria": "EquilibriumCurve Segment",
-        "response.diagnosis": "ExaminedEpisode FaultVerdict StatedRate",
+        "response.diagnosis": "ExaminedEpisode FaultVerdict HealthyBehaviour StatedRate",
         "response.faults": "Episode Feasibility SuccessRate",
         "kinematics.indices": "IndexEvaluation ObjectivePart WorstCase",
         "kinematics.indices.susceptibility": "SusceptibilityEvaluation",

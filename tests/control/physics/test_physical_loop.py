@@ -179,7 +179,7 @@ def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, k, at):
     np.testing.assert_array_equal(standing, standing[0])
     assert abs(standing[0] - run.kinematic.q_final[k]) < 1e-3
     assert run.tracking_error.max() < 2e-3
-    assert (run.saturated_fraction == 0).all()
+    assert run.saturated_fraction.max() < 1e-3  # at most at the first instant, when the command leaps
 
 
 def test_softer_servos_go_farther_astray(law, home, goal):

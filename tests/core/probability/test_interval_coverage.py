@@ -23,15 +23,15 @@ finally:
     sys.path.pop(0)
 
 HARD = {
-    "share of starts (Clopper-Pearson)": ("share 0.1", (5, 30)),
+    "fraction of starts (Clopper-Pearson)": ("fraction 0.1", (5, 30)),
     "mean of fractions (betting)": ("skewed, Beta(0.05, 1)", (5, 30)),
-    "difference of fractions (betting)": ("all or nothing, 0.7", (5,)),
-    "difference of paired shares (Newcombe)": ("opposite", (5, 30)),
+    "difference of fractions (betting)": ("0 or 1, mean 0.7", (5,)),
+    "difference of paired fractions (Newcombe)": ("never equal", (5, 30)),
     "mean of unbounded values (Student)": ("normal", (5,)),
-    "band of a CDF (Dvoretzky-Kiefer-Wolfowitz)": ("all alike", (5, 100)),
-    "band of a weighted CDF": ("the worst 2 % weigh 50", (5, 300)),
-    "weighted share": ("the worst 10 % weigh 20, at least 0.05", (5, 300)),
-    "what a share of the poses keeps (order statistics)": ("95%", (5, 100)),
+    "band of a distribution curve (Dvoretzky-Kiefer-Wolfowitz)": ("equal weights", (5, 100)),
+    "band of a weighted distribution curve": ("weight 50 for the lowest 2 %", (5, 300)),
+    "weighted fraction": ("weight 20 for the lowest 10 %, at least 0.05", (5, 300)),
+    "value that a fraction of the poses reaches (order statistics)": ("95%", (5, 100)),
 }
 
 
@@ -144,7 +144,7 @@ def test_differences_of_fractions_mirror_means_and_test(rng):
 
 def test_a_weighted_share_scatters_no_more_than_the_effective_samples_say(rng):
     """The variance of the weighted share, by simulation, against ``p (1 - p) / effective``; Kish's size fails here."""
-    weight, at, size = table.WEIGHTS["the worst 2 % weigh 50"], 0.01, 2000
+    weight, at, size = table.WEIGHTS["weight 50 for the lowest 2 %"], 0.01, 2000
     truth = 1 - float(weight.below(np.array(at)))
     shares, sizes, kish = [], [], []
     for _ in range(600):

@@ -145,6 +145,9 @@ WITHOUT_FIGURE |= {
 }
 WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
+    "Examination",
+    "PoseExplanation",
+    "ReachabilityMap",
     "BisectionResult",
     "Analysis",
     "Bounds",

@@ -41,6 +41,7 @@ LATEST_ONSET_S = 4.0  # latest onset of a fault, s
 SPEED_LIMIT_M_S = 0.25
 LAW_GAIN_PER_S = 2.0
 MOTION_TIME_LIMIT_S = 8.0
+MAX_LIMIT_EXCESS = 0.45  # of a reference beyond a joint limit, at which a motion ends, rad or m
 # HEALTHY_MOTIONS and THRESHOLD_FACTOR: number of motions for the thresholds, and factor on their largest residuals, which is
 # large because the motions are few
 HEALTHY_MOTIONS = 4
@@ -130,15 +131,16 @@ def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable
     monitor = hf.diagnosis.Monitor(arm, _last_thresholds[calibration_key])
     progress(HEALTHY_MOTIONS, HEALTHY_MOTIONS + 1)
     faults = [] if kind == "none" else [hf.faults.FaultEvent(kind, joint, onset, parameters=FAULT_PARAMETERS[kind])]
-    run = hf.simulate_faults(
-        law,
-        q,
-        _to_task_target(machine, target_pose),
-        faults=faults,
-        body=robot,
-        seed=HEALTHY_MOTIONS,
-        time_limit=MOTION_TIME_LIMIT_S,
-    )
+
+    def simulate(time_limit: float) -> FaultRun:
+        motion_target = _to_task_target(machine, target_pose)
+        return hf.simulate_faults(law, q, motion_target, faults=faults, body=robot, seed=HEALTHY_MOTIONS, time_limit=time_limit)
+
+    run = simulate(MOTION_TIME_LIMIT_S)
+    # A law that ignores joint limits can run away from a limp joint, and a monitor rejects such references.
+    excess = np.maximum(arm.lower - run.reference, run.reference - arm.upper).max(axis=1)
+    if (excess > MAX_LIMIT_EXCESS).any():
+        run = simulate(float(run.time[np.argmax(excess > MAX_LIMIT_EXCESS)]))
     return _evaluate_monitor(run, monitor.run(run.log()), onset if faults else np.inf, state.names)
 
 

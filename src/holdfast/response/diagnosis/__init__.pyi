@@ -21,6 +21,7 @@ from holdfast.response.diagnosis.recordings.examination import Examination as Ex
 from holdfast.response.diagnosis.recordings.examination import ExaminedEpisode as ExaminedEpisode
 from holdfast.response.diagnosis.recordings.examination import StatedRate as StatedRate
 from holdfast.response.diagnosis.recordings.examination import examine as examine
+from holdfast.response.diagnosis.recordings.following import HealthyBehaviour as HealthyBehaviour
 from holdfast.response.diagnosis.recordings.reading import read_recording as read_recording
 from holdfast.response.diagnosis.recordings.recording import RecordedEpisode as RecordedEpisode
 from holdfast.response.diagnosis.recordings.recording import Recording as Recording

@@ -35,8 +35,8 @@ def read_recording(
     """Read the episodes of a recording, whose format is recognised from its files.
 
     The formats are LeRobot data sets (2.0, 2.1, 3.0), ROS 2 bags and MCAP files, logs of libfranka and of RTDE clients, and
-    :class:`holdfast.faults.Log` files. Any other folder is read as one recording of all bags and logs in it, in the order of
-    their names.
+    :class:`~holdfast.response.faults.Log` files. Any other folder is read as one recording of all bags and logs in it, in the
+    order of their names.
 
     Args:
         path: File or folder.
@@ -47,10 +47,10 @@ def read_recording(
         unit: Unit of a file that states none: ``deg``, ``rad``, or the path of a calibration file of LeRobot for positions from
             -100 to 100, which are then converted to degrees. Default: the unit remains unknown.
         episodes: Numbers of the episodes to read. Default: all.
-        columns: YAML file with names and units of the columns of a log, see :meth:`holdfast.faults.Log.load`.
+        columns: YAML file with names and units of the columns of a log, see :meth:`holdfast.response.faults.Log.load`.
 
     Returns:
-        The recording, with its episodes as arrays in the unit of the file (logs: rad and m).
+        The recording with its episodes as arrays in the unit of the file. Logs are in rad and m.
 
     Raises:
         InputError: The recording cannot be read; the message states the file, the problem, and the alternatives.
