@@ -11,7 +11,7 @@ forget it. In units of one degree, with reference r, frame k, half a second of L
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -39,7 +39,7 @@ class Frames(NamedTuple):
     position: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class HealthyBehaviour:
     """Model of the healthy joints of a robot, and the distribution of nine statistics of its residuals.
 
@@ -70,10 +70,10 @@ class HealthyBehaviour:
             normal = features.T @ features
             penalty = _RIDGE_PENALTY * normal.diagonal() * (np.arange(len(normal)) < len(normal) - 1)  # not of the constant
             weights.append(np.linalg.lstsq(normal + np.diag(penalty), features.T @ np.concatenate(steps), rcond=None)[0])
-        model = cls(fps, degree, _resolutions(episodes), np.stack(weights, axis=1))
+        model = cls(fps=fps, degree=degree, ticks=_resolutions(episodes), weights=np.stack(weights, axis=1))
         peaks = np.array([model.score(each).max(axis=0) for each in episodes])
         spread = np.sqrt(peaks.var(axis=0, ddof=1).mean(axis=1, keepdims=True))
-        return cls(fps, degree, model.ticks, model.weights, peaks.mean(axis=0), np.maximum(spread, _MIN_SPREAD))
+        return replace(model, level=peaks.mean(axis=0), spread=np.maximum(spread, _MIN_SPREAD))
 
     def predict(self, reference: FloatArray) -> FloatArray:
         """Return the healthy positions (T, n) for references (T, n)."""
