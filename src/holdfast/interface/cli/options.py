@@ -21,13 +21,12 @@ def _require_rerun(path: Path | None) -> Path | None:
     return path
 
 
+ARM_HELP = "Arm: built-in name, URDF, xacro, or MJCF file, DH table (YAML), or name of robot_descriptions."
 ArmArgument = Annotated[
     str,
-    typer.Argument(
-        metavar="ARM", help="Arm: built-in name, URDF, xacro, or MJCF file, DH table (YAML), or name of robot_descriptions."
-    ),
+    typer.Argument(metavar="ARM", help=ARM_HELP),
 ]
-ArmOption = Annotated[str, "Arm: built-in name, URDF or MJCF file, or DH table (YAML)."]
+ArmOption = Annotated[str, ARM_HELP]
 FailureOption = Annotated[Path | None, "Failure file (YAML) with locked, range-limited or slowed joints; replaces --lock."]
 JsonOption = Annotated[bool, "Print the result as JSON."]
 TASK_NAMES_HELP = f"Task: {', '.join(TASK_SIZES)}, or components such as vx,vy,wz (world axes) or tool:vz (tool axes)."
@@ -50,10 +49,7 @@ KeepOption = Annotated[
 ]
 MotionCsvOption = Annotated[Path | None, "CSV file for the motion."]
 RrdOption = Annotated[
-    Path | None,
-    typer.Option(
-        callback=_require_rerun, help="Recording of the motion (.rrd) for the Rerun viewer (needs the extra 'rerun')."
-    ),
+    Path | None, _require_rerun, "Recording of the motion (.rrd) for the Rerun viewer (needs the extra 'rerun')."
 ]
 PlotOption = Annotated[FigurePath, "PNG file for the figure."]
 OutOption = Annotated[FigurePath, "Folder for report.html and figures."]

@@ -17,6 +17,7 @@ from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.model.arm.poses import pose_from_quaternion
 from holdfast.response.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
+from holdfast.response.faults.log import MAX_LIMIT_EXCESS
 
 if TYPE_CHECKING:
     from holdfast.response.diagnosis.answer import Diagnosis
@@ -41,7 +42,6 @@ LATEST_ONSET_S = 4.0  # latest onset of a fault, s
 SPEED_LIMIT_M_S = 0.25
 LAW_GAIN_PER_S = 2.0
 MOTION_TIME_LIMIT_S = 8.0
-MAX_LIMIT_EXCESS = 0.45  # of a reference beyond a joint limit, at which a motion ends, rad or m
 # HEALTHY_MOTIONS and THRESHOLD_FACTOR: number of motions for the thresholds, and factor on their largest residuals, which is
 # large because the motions are few
 HEALTHY_MOTIONS = 4
@@ -137,10 +137,10 @@ def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable
         return hf.simulate_faults(law, q, motion_target, faults=faults, body=robot, seed=HEALTHY_MOTIONS, time_limit=time_limit)
 
     run = simulate(MOTION_TIME_LIMIT_S)
-    # A law that ignores joint limits can run away from a limp joint, and a monitor rejects such references.
+    # If a joint is limp, a law that ignores joint limits can command values far beyond them, and a monitor rejects such a log.
     excess = np.maximum(arm.lower - run.reference, run.reference - arm.upper).max(axis=1)
     if (excess > MAX_LIMIT_EXCESS).any():
-        run = simulate(float(run.time[np.argmax(excess > MAX_LIMIT_EXCESS)]))
+        run = simulate(float(run.time[np.argmax(excess > MAX_LIMIT_EXCESS) - 1]))
     return _evaluate_monitor(run, monitor.run(run.log()), onset if faults else np.inf, state.names)
 
 

@@ -22,7 +22,7 @@ _MIN_CLOCK_TIME_S = 1e6  # s: later times are clock times
 _MIN_RATE_HZ = 40.0  # Hz: the rate of the observer; it is meaningless below
 _MAX_GAP_FACTOR = 20  # ratio of expected to present samples; beyond it, the gaps separate several logs
 _UNEVEN_FRACTION = 0.01  # of the period: time stamps that deviate less from even ones count as even
-_MAX_LIMIT_EXCESS = 0.5  # rad or m beyond a limit; a reference further beyond has other units
+MAX_LIMIT_EXCESS = 0.5  # rad or m beyond a limit; a reference further beyond has other units
 _MAX_SPEED_FACTOR = 2.0  # of a speed limit; a faster reference has other units
 
 
@@ -133,8 +133,8 @@ class Log:
             # A reference may jump, but not in most samples.
             speed = float(np.quantile(np.nan_to_num(np.abs(np.diff(reference))), 0.9)) * self.rate
             if (
-                lower < joint.lower - _MAX_LIMIT_EXCESS
-                or upper > joint.upper + _MAX_LIMIT_EXCESS
+                lower < joint.lower - MAX_LIMIT_EXCESS
+                or upper > joint.upper + MAX_LIMIT_EXCESS
                 or speed > _MAX_SPEED_FACTOR * joint.velocity
             ):
                 unit = joint.unit

@@ -158,11 +158,10 @@ def examine(recording: Recording, *, healthy: Sequence[int], arm: Arm | None = N
             findings[episode.index] += ("it is longer than every healthy episode, so the stated rate does not hold for it",)
         known: dict[str, Any] = {} if episode.q_ref is None else _measure_motion(recording, episode)
         if behaviour is not None:
-            scores = behaviour.score(examined_frames(recording, episode)).max(axis=(1, 2))
+            scores = behaviour.score(examined_frames(recording, episode))
             known["score"] = float(scores.max())
             if roles[episode.index] == "examined" and known["score"] > threshold:
-                frame = int(np.flatnonzero(scores > threshold)[0])
-                known |= _describe_alarm(recording, episode, behaviour, frame, threshold, arm)
+                known |= _describe_alarm(recording, episode, behaviour, scores, threshold, arm)
         results.append(
             ExaminedEpisode(index=episode.index, role=roles[episode.index], findings=findings[episode.index], **known)
         )
@@ -245,16 +244,17 @@ def _describe_alarm(
     recording: Recording,
     episode: RecordedEpisode,
     behaviour: HealthyBehaviour,
-    frame: int,
+    scores: FloatArray,
     threshold: float,
     arm: Arm | None,
 ) -> dict[str, Any]:
-    """Return time, joint, kind, and possible causes of the alarm at a frame."""
+    """Return time, joint, kind, and possible causes of the first alarm of an episode with these scores (T, 9, n)."""
     frames = examined_frames(recording, episode)
+    frame = int(np.flatnonzero(scores.max(axis=(1, 2)) > threshold)[0])
     weight: FloatArray | None = None
     if arm is not None:
         weight = -arm.gravity_torque(np.radians(frames.position[frame - 1] / behaviour.degree))
-    joint, kind, candidates = name_fault(behaviour, frames, frame=frame, threshold=threshold, weight=weight)
+    joint, kind, candidates = name_fault(behaviour, frames, scores, frame=frame, threshold=threshold, weight=weight)
     time = float(episode.t[frame * frame_stride(recording.fps)] - episode.t[0])
     name = None if kind in ("stale", "dropped") else recording.joints[joint]
     return {"alarm": time, "joint": name, "kind": kind, "candidates": candidates}

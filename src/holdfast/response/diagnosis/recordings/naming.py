@@ -36,18 +36,19 @@ _SLOPE_TOLERANCE = 0.25
 
 
 def name_fault(
-    healthy: HealthyBehaviour, frames: Frames, *, frame: int, threshold: float, weight: FloatArray | None
+    healthy: HealthyBehaviour, frames: Frames, scores: FloatArray, *, frame: int, threshold: float, weight: FloatArray | None
 ) -> tuple[int, str, tuple[str, ...]]:
     """Return the joint with the largest score at the alarm, the kind of its fault, and all possible causes.
 
     Args:
         healthy: Healthy behaviour.
         frames: Frames of the episode.
+        scores: (T, 9, n) scores of the frames.
         frame: Frame of the alarm.
         threshold: Score above which an alarm is raised.
         weight: (n,) torque, N m, with which gravity pulls each joint. None: unknown, so that a fall is not named.
     """
-    scores, fps = healthy.score(frames), healthy.fps
+    fps = healthy.fps
     joint = int(scores[frame].max(axis=0).argmax())
     of_statistic = dict(zip(STATISTIC_NAMES, scores[:, :, joint].T, strict=True))
     q, predicted = (values[:, joint] / healthy.degree for values in (frames.position, healthy.predict(frames.reference)))
