@@ -35,6 +35,9 @@ class SusceptibilityFormula:
         check: Function that raises ArmError for an arm without such a measure.
         values: Function ``(arm, q) -> f (n,), degenerate (n,)``.
         jacobian: Function ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
+            None if the paper has none.
+        total: Function ``(arm, q, f) -> value`` that replaces ``f' W f``; None if the measure has weights.
+        total_unit: Unit of ``total``.
     """
 
     name: str
@@ -45,7 +48,9 @@ class SusceptibilityFormula:
     slides: bool
     check: Callable[[Arm], None]
     values: Callable[[Arm, SX], tuple[SX, SX]]
-    jacobian: Callable[[Arm, SX], SX]
+    jacobian: Callable[[Arm, SX], SX] | None = None
+    total: Callable[[Arm, SX, SX], SX] | None = None
+    total_unit: str = ""
 
 
 # ---- torque --------------------------------------------------------------------------------------------------------
