@@ -81,6 +81,14 @@ def read_numbers(option: str, text: str, expected: str) -> NDArray[np.float64]:
         raise InputError(f"{option}: '{invalid}' is not a number; give {expected} separated by commas or spaces") from error
 
 
+def read_fraction(option: str, text: str) -> float:
+    """Read a fraction, such as ``35%`` or ``0.35``."""
+    number = text.strip().removesuffix("%")
+    if not is_number(number):
+        raise InputError(f"{option}: '{text}' is not a fraction; write for example 35% or 0.35")
+    return float(number) / (100 if text.strip().endswith("%") else 1)
+
+
 def check_joint_units(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
     """Raise for joint values, rad and m, so far beyond the limits that they must be degrees or millimetres.
 

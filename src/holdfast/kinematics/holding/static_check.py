@@ -204,7 +204,7 @@ def _needed_torque(torque: FloatArray, stop: NDArray[np.int8]) -> FloatArray:
 
 
 def _motor_torque(arm: Arm, free: IndexArray, limits: FloatArray, effort: float) -> FloatArray:
-    """Return the largest motor torque (n,) of each joint: the fraction ``effort`` of the limit of a free joint, else the limit."""
+    """Return the largest motor torque (n,) of each joint: the effort limit, or the fraction ``effort`` of it for a free joint."""
     motors = limits.copy()
     motors[free] = 0.0
     if effort > 0:
@@ -230,12 +230,12 @@ def _least_effort(missing: FloatArray, limits: FloatArray) -> FloatArray:
     return np.asarray(np.where(missing <= 0, 0.0, fractions).max(axis=1))
 
 
-def _largest_payload(
-    arm: Arm, q: FloatArray, torque: FloatArray, stop: NDArray[np.int8], strength: FloatArray
-) -> FloatArray:
+def _largest_payload(arm: Arm, q: FloatArray, torque: FloatArray, stop: NDArray[np.int8], strength: FloatArray) -> FloatArray:
     """Return the largest mass (N,) for which the torque of every joint stays between its bounds, +- ``strength`` (n,)."""
     per_kilogram = -np.einsum("rik,i->rk", arm.jacobian(q)[:, :3], arm.gravity)
-    is_noise = np.abs(per_kilogram) <= _ROUNDING_RATIO * np.linalg.norm(arm.gravity) * np.where(arm.prismatic, 1, arm.length_unit)
+    is_noise = np.abs(per_kilogram) <= _ROUNDING_RATIO * np.linalg.norm(arm.gravity) * np.where(
+        arm.prismatic, 1, arm.length_unit
+    )
     per_kilogram = np.where(is_noise, 0.0, per_kilogram)
     highest = np.where((stop == -1) | (stop == 2), np.inf, strength)
     lowest = np.where((stop == 1) | (stop == 2), -np.inf, -strength)

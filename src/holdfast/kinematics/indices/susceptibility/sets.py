@@ -117,9 +117,7 @@ Free = Annotated[JointSet, Parameter("1", "joints without torque, by name or num
 def free_acceleration(
     arm: Arm,
     free: Free = None,
-    weights: Annotated[
-        WeightSpec, Parameter("1", "one number per joint, 0 or larger", example="_numbers")
-    ] = None,
+    weights: Annotated[WeightSpec, Parameter("1", "one number per joint, 0 or larger", example="_numbers")] = None,
 ) -> FreeSetSusceptibility:
     """The accelerations with which several joints start as they lose their torque together.
 
