@@ -132,7 +132,7 @@ def holds(
     motors = _motor_torque(arm, joints, limits, effort)
     available = own_friction + motors
     margin, factor = (available - need)[:, joints], _divide(available, need)[:, joints]
-    is_valid = np.isfinite(rows).all(axis=1)
+    is_valid = np.asarray(np.isfinite(rows).all(axis=1))
     first = np.argmin(np.where(is_valid[:, None], margin, 0.0), axis=1)
     selection = 0 if single else slice(None)
     return HoldCheck(
@@ -146,7 +146,7 @@ def holds(
         stop=stop[selection],
         need=need[selection],
         available=available[selection],
-        holds=(margin >= 0).all(axis=1)[selection],
+        holds=np.asarray((margin >= 0).all(axis=1))[selection],
         margin=margin.min(axis=1)[selection],
         factor=factor.min(axis=1)[selection],
         joint=np.where(is_valid, joints[first], -1)[selection],
@@ -161,7 +161,7 @@ def _read_joint_numbers(arm: Arm, value: ArrayLike, name: str) -> FloatArray:
     if numbers.shape not in ((), (arm.n,)):
         raise InputError(f"{name} has shape {numbers.shape}; give one number, or {arm.n} numbers, one per joint")
     if not (np.isfinite(numbers) & (numbers >= 0)).all():
-        raise InputError(f"{name} is {value}; it must be finite and 0 or more")
+        raise InputError(f"{name} is {numbers.tolist()}; it must be finite and 0 or more")
     return np.broadcast_to(numbers, (arm.n,))
 
 
@@ -204,7 +204,7 @@ def _needed_torque(torque: FloatArray, stop: NDArray[np.int8]) -> FloatArray:
 
 
 def _motor_torque(arm: Arm, free: IndexArray, limits: FloatArray, effort: float) -> FloatArray:
-    """Return the largest motor torque (n,) of each joint: the effort limit, or the fraction ``effort`` of it for a free joint."""
+    """Return the largest motor torque (n,) of each joint: its effort limit, or the fraction ``effort`` of it if it is free."""
     motors = limits.copy()
     motors[free] = 0.0
     if effort > 0:

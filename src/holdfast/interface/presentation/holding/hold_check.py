@@ -18,7 +18,7 @@ _STOP_WORDS = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two 
 def to_dict(check: HoldCheck) -> dict[str, Any]:
     """Return the verdict, the numbers behind it, and the balance of every joint; lists for several configurations."""
     names = check.arm.joint_names
-    first = np.where(check.joint >= 0, np.array(names)[check.joint], None)
+    first = [names[k] if k >= 0 else None for k in np.atleast_1d(check.joint)]
     return {
         **check.arm.entry(),
         "q": check.q,
@@ -27,7 +27,7 @@ def to_dict(check: HoldCheck) -> dict[str, Any]:
         "load_friction": dict(zip(names, check.load_friction, strict=True)),
         "effort": check.effort,
         **{key: getattr(check, key) for key in ("holds", "margin", "factor", "least_effort")},
-        "joint": first.tolist(),
+        "joint": first[0] if check.q.ndim == 1 else first,
         "largest_payload_kg": check.largest_payload,
         **{
             key: dict(zip(names, np.moveaxis(getattr(check, key), -1, 0), strict=True))
@@ -40,7 +40,7 @@ def present(check: HoldCheck) -> Presentation:
     """Present the verdict, its margin, and the balance of every joint or the verdict of every configuration."""
     arm, single = check.arm, check.q.ndim == 1
     free = "all joints" if len(check.free) == arm.n else ", ".join(arm.joint_names[k] for k in check.free)
-    motors = f"{format_percent(check.effort)} of its effort limits" if check.effort else "no motor torque"
+    motors = f"with {format_percent(check.effort)} of the effort limits" if check.effort else "without motor torque"
     notices = (
         [] if check.friction.any() else [Notice("No dry friction is given by the arm or the options, so it is 0.", "note")]
     )
@@ -49,9 +49,7 @@ def present(check: HoldCheck) -> Presentation:
     return Presentation(
         f"Static check of {arm.name}",
         _compose_answer(check) if single else _count_answer(check),
-        about=f"Arm {arm.title}; {free} with {motors}, all others held"
-        if len(check.free) < arm.n
-        else f"Arm {arm.title}; {motors}",
+        about=f"Arm {arm.title}, {free} {motors}{'' if len(check.free) == arm.n else ', all others held'}",
         lines=_list_remedies(check) if single else [],
         notices=notices,
         facts=_list_facts(check) if single else [],
@@ -81,7 +79,7 @@ def _compose_answer(check: HoldCheck) -> str:
         return f"The arm falls: {joint.name} needs {need} to stay, and has {available}."
     if np.isinf(check.margin):
         return "The arm holds: the stops carry every free joint."
-    margin = f"{format_number(check.margin, 4)} {_unit(joint)}"
+    margin = _format_torques(check, [float(check.margin)] * check.arm.n)[check.joint]
     return f"The arm holds: {joint.name} has the smallest margin, {margin}."
 
 
@@ -94,16 +92,17 @@ def _count_answer(check: HoldCheck) -> str:
 
 
 def _list_remedies(check: HoldCheck) -> list[str]:
-    if np.isnan(check.least_effort):
+    least_effort, payload = float(check.least_effort), float(check.largest_payload)
+    if np.isnan(least_effort):
         lines = ["The least effort is unknown, because a joint that gravity loads has no effort limit."]
-    elif check.least_effort > 1:
-        lines = [f"The motors are too weak: they would need {format_percent(check.least_effort)} of their effort limits."]
-    elif check.least_effort == 0:
+    elif least_effort > 1:
+        lines = [f"The motors are too weak: they would need {format_percent(least_effort)} of their effort limits."]
+    elif least_effort == 0:
         lines = ["No motor is needed."]
     else:
-        lines = [f"Motors with at least {format_percent(check.least_effort)} of their effort limits hold the arm."]
-    if check.holds and np.isfinite(check.largest_payload):
-        lines.append(f"It also holds with up to {format_number(check.largest_payload, 4)} kg more at the tool point.")
+        lines = [f"Motors with at least {format_percent(least_effort)} of their effort limits hold the arm."]
+    if check.holds and np.isfinite(payload):
+        lines.append(f"It also holds with up to {format_number(payload, 4)} kg more at the tool point.")
     return lines
 
 
