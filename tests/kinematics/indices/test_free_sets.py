@@ -166,7 +166,7 @@ def test_names_of_sets():
     assert sus.by_name("release:1,3", arm).free == sus.release(arm, ["joint1", "joint3"]).free == (0, 2)
     assert sus.by_name("release:joint3,joint1", arm).label == "release:joint1,joint3"
     assert sus.release(arm, [0, 1, 2]).label == sus.release(arm).label == "release"
-    assert sus.by_name("free-acceleration:free=1,2,weights=1,2,3", arm).settings["free"] == ("joint1", "joint2")
+    assert sus.by_name("free-acceleration:free=1,2", arm).settings["free"] == ("joint1", "joint2")
     assert "joint1, joint3 swing free together" in sus.by_name("tool-drop:1,3", arm).describe()
     assert read_objective(arm, "--minimise", "tool-drop:joint1,3 + 0.1*release:joint2", "planar").terms[0][1].free == (0, 2)
     for bad, words in (("4", "joint 4 is out of range"), ("elbow", "has no joint 'elbow'"), (",", "no joint of")):

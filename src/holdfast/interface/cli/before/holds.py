@@ -22,7 +22,8 @@ def command(
         str | None, "Dry friction of moving joints in N m (N): one number or one per joint. Default: that of the arm."
     ] = None,
     stiction: Annotated[
-        str | None, "Dry friction of joints at rest in N m (N): one number or one per joint. Default: --coulomb."
+        str | None,
+        "Dry friction of joints at rest in N m (N): one number or one per joint. Default: --coulomb, or that of the arm.",
     ] = None,
     load_friction: Annotated[
         str, "Friction that grows with the gravity torque, as a fraction of it: one number or one per joint."

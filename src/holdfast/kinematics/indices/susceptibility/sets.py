@@ -19,7 +19,6 @@ from holdfast.kernels.program import SX
 from holdfast.kinematics.indices.matrices import compute_inertia_matrix
 from holdfast.kinematics.indices.susceptibility.formulas import DEGENERATE_RATIO, SusceptibilityFormula
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
-from holdfast.kinematics.indices.susceptibility.weights import WeightSpec
 from holdfast.model.arm import kinematics, statics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_possible_inertia
@@ -36,15 +35,14 @@ class FreeSetSusceptibility(Susceptibility):
         free: Indices from 0 of the joints without torque.
     """
 
-    def __init__(self, formula: SusceptibilityFormula, arm: Arm, free: tuple[int, ...], weights: WeightSpec = None) -> None:
+    def __init__(self, formula: SusceptibilityFormula, arm: Arm, free: tuple[int, ...]) -> None:
         self.free = free
-        super().__init__(formula, arm, weights)
+        super().__init__(formula, arm)
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Free joints by name, or None for all joints, and the weights of a measure that has them."""
-        names = None if len(self.free) == self.arm.n else tuple(self.arm.joint_names[k] for k in self.free)
-        return {"free": names, **(super().settings if self.formula.total is None else {})}
+        """Free joints by name, or None for all joints."""
+        return {"free": None if len(self.free) == self.arm.n else tuple(self.arm.joint_names[k] for k in self.free)}
 
     def describe(self) -> str:
         """Return a phrase with the name of the measure and the free joints."""
@@ -105,34 +103,24 @@ def _last_two(arm: Arm, task: object) -> tuple[str, ...]:
     return arm.joint_names[-2:]
 
 
-def _numbers(arm: Arm, task: object) -> list[float]:
-    del task
-    return [1.0 + k for k in range(arm.n)]
-
-
-Free = Annotated[JointSet, Parameter("1", "joints without torque, by name or number from 1, default all", example="_last_two")]
+Free = Annotated[JointSet, Parameter("1", "joints that fail together, default all", example="_last_two")]
 
 
 @constructor(needs=("inertia",))
-def free_acceleration(
-    arm: Arm,
-    free: Free = None,
-    weights: Annotated[WeightSpec, Parameter("1", "one number per joint, 0 or larger", example="_numbers")] = None,
-) -> FreeSetSusceptibility:
-    """The accelerations with which several joints start as they lose their torque together.
+def free_acceleration(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
+    """The accelerations with which several joints start as they lose their torque together, as a sum of squares.
 
     Args:
         arm: Model with inertial data.
         free: Joints without torque: names and indices from 0, or one text with names and numbers from 1 between commas;
             default: all joints.
-        weights: Numeric weights of the accelerations, as for :class:`Susceptibility`.
 
     Raises:
         ArmError: The mass or inertia of a link is unknown or impossible, or a free joint carries no mass.
-        InputError: A joint does not exist, or the weights do not fit the arm.
+        InputError: A joint does not exist.
     """
     joints = read_joint_set(arm, free)
-    return FreeSetSusceptibility(_formula("free acceleration", joints), arm, joints, weights)
+    return FreeSetSusceptibility(_formula("free acceleration", joints), arm, joints)
 
 
 @constructor(needs=("inertia",))
