@@ -31,8 +31,8 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
-        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace "
-        "Trajectory WorkingRanges Workspace",
+        "FaultRun FreeSwing HoldCheck LawChoice LawComparison Optima PhysicalRun Recovery Runs TargetMeasures "
+        "TolerantWorkspace Trajectory WorkingRanges Workspace",
         "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",

@@ -50,7 +50,6 @@ def present(check: HoldCheck) -> Presentation:
         f"Static check of {arm.name}",
         _compose_answer(check) if single else _count_answer(check),
         about=f"Arm {arm.title}, {free} {motors}{'' if len(check.free) == arm.n else ', all others held'}",
-        lines=_list_remedies(check) if single else [],
         notices=notices,
         facts=_list_facts(check) if single else [],
         tables=[_tabulate_joints(check) if single else _tabulate_rows(check)],
@@ -91,30 +90,21 @@ def _count_answer(check: HoldCheck) -> str:
     )
 
 
-def _list_remedies(check: HoldCheck) -> list[str]:
-    least_effort, payload = float(check.least_effort), float(check.largest_payload)
-    if np.isnan(least_effort):
-        lines = ["The least effort is unknown, because a joint that gravity loads has no effort limit."]
-    elif least_effort > 1:
-        lines = [f"The motors are too weak: they would need {format_percent(least_effort)} of their effort limits."]
-    elif least_effort == 0:
-        lines = ["No motor is needed."]
-    else:
-        lines = [f"Motors with at least {format_percent(least_effort)} of their effort limits hold the arm."]
-    if check.holds and np.isfinite(payload):
-        lines.append(f"It also holds with up to {format_number(payload, 4)} kg more at the tool point.")
-    return lines
-
-
 def _list_facts(check: HoldCheck) -> list[Fact]:
     unit = _unit(check.arm.joints[check.joint])
+    effort = "unknown, because an effort limit is missing" if np.isnan(check.least_effort) else float(check.least_effort)
     facts = [
-        Fact("margin", check.margin, unit, phrase="smallest margin of a free joint"),
-        Fact("factor", check.factor, phrase="of the needed torque is available, in the worst joint"),
-        Fact("least effort", check.least_effort, style="percent", phrase="of all effort limits holds the arm"),
-        Fact("largest additional payload", check.largest_payload, "kg", phrase="more at the tool point is held"),
+        Fact("margin", float(check.margin), unit, phrase="smallest margin of a free joint"),
+        Fact("factor", float(check.factor), phrase="times the needed torque is available, in the worst joint"),
+        Fact("least effort that holds the arm", effort, style="percent", phrase="of all effort limits holds the arm"),
+        Fact(
+            "largest additional payload at the tool point",
+            float(check.largest_payload),
+            "kg",
+            phrase="more at the tool is held",
+        ),
     ]
-    return [fact for fact in facts if np.isfinite(fact.value)]
+    return [fact for fact in facts if isinstance(fact.value, str) or np.isfinite(fact.value)]
 
 
 def _tabulate_joints(check: HoldCheck) -> TableSpec:

@@ -23,6 +23,9 @@ DEGENERATE_RATIO = 1e-9
 """A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small relative to the arm."""
 
 
+Total = Callable[[Arm, SX, SX], SX]
+
+
 @dataclass(frozen=True)
 class SusceptibilityFormula:
     """Measure of a susceptibility: its symbols, its derivatives as printed in the paper, and its descriptions.
@@ -49,7 +52,7 @@ class SusceptibilityFormula:
     check: Callable[[Arm], None]
     values: Callable[[Arm, SX], tuple[SX, SX]]
     jacobian: Callable[[Arm, SX], SX] | None = None
-    total: Callable[[Arm, SX, SX], SX] | None = None
+    total: Total | None = None
     total_unit: str = ""
 
 
@@ -79,16 +82,17 @@ def _torque_jacobian(arm: Arm, q: SX) -> SX:
 # ---- acceleration --------------------------------------------------------------------------------------------------
 
 
-def _require_inertia(arm: Arm) -> None:
+def require_inertia(arm: Arm, free: tuple[int, ...] | None = None) -> None:
+    """Raise :class:`ArmError` if one of the joints ``free`` (indices from 0, default all) carries no mass and has no rotor."""
     require_possible_inertia(arm)
-    mass = sum(body.mass for body in statics.links_with_payload(arm))
-    for joint, body in zip(arm.joints, statics.links_with_payload(arm), strict=True):
-        if mass <= 0 and joint.armature == 0:
+    masses = [body.mass for body in statics.links_with_payload(arm)]
+    for k in range(arm.n) if free is None else free:
+        joint = arm.joints[k]
+        if sum(masses[k:]) <= 0 and joint.armature == 0:
             raise ArmError(
                 f"arm '{arm.name}': nothing behind joint '{joint.name}' has mass, so its acceleration after a failure is not "
                 "defined; give the links after it their masses, or the joint an armature"
             )
-        mass -= body.mass
 
 
 def _failure_accelerations_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
@@ -178,7 +182,7 @@ ACCELERATION_FORMULA = SusceptibilityFormula(
     "rad/s^2",
     sliding="m/s^2",
     slides=True,
-    check=_require_inertia,
+    check=require_inertia,
     values=_failure_accelerations_and_status,
     jacobian=_acceleration_jacobian,
 )

@@ -12,16 +12,14 @@ from typing import Annotated, Any
 import casadi as ca
 import numpy as np
 
-from holdfast.core.errors import ArmError
 from holdfast.core.registry import Parameter, constructor
 from holdfast.kernels.linalg import Cholesky
 from holdfast.kernels.program import SX
 from holdfast.kinematics.indices.matrices import compute_inertia_matrix
-from holdfast.kinematics.indices.susceptibility.formulas import DEGENERATE_RATIO, SusceptibilityFormula
+from holdfast.kinematics.indices.susceptibility.formulas import DEGENERATE_RATIO, SusceptibilityFormula, Total, require_inertia
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 from holdfast.model.arm import kinematics, statics
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.soundness import require_possible_inertia
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
 
@@ -35,8 +33,19 @@ class FreeSetSusceptibility(Susceptibility):
         free: Indices from 0 of the joints without torque.
     """
 
-    def __init__(self, formula: SusceptibilityFormula, arm: Arm, free: tuple[int, ...]) -> None:
-        self.free = free
+    def __init__(self, name: str, arm: Arm, free: JointSet, total: Total | None = None, total_unit: str = "") -> None:
+        self.free = read_joint_set(arm, free)
+        formula = SusceptibilityFormula(
+            name,
+            "a_F = -M_FF^-1 g_F; for one joint English and Maciejewski 1998, eq. (22)",
+            "rad/s^2",
+            sliding="m/s^2",
+            slides=True,
+            check=partial(require_inertia, free=self.free),
+            values=partial(_accelerations, free=self.free),
+            total=total,
+            total_unit=total_unit,
+        )
         super().__init__(formula, arm)
 
     @property
@@ -48,17 +57,6 @@ class FreeSetSusceptibility(Susceptibility):
         """Return a phrase with the name of the measure and the free joints."""
         names = ", ".join(self.arm.joint_names[k] for k in self.free)
         return f"{self.name} after {'all joints' if len(self.free) == self.arm.n else names} swing free together"
-
-
-def _require_inertia(arm: Arm, free: tuple[int, ...]) -> None:
-    require_possible_inertia(arm)
-    masses = [body.mass for body in statics.links_with_payload(arm)]
-    for k in free:
-        if sum(masses[k:]) <= 0 and arm.joints[k].armature == 0:
-            raise ArmError(
-                f"arm '{arm.name}': nothing behind the free joint '{arm.joint_names[k]}' has mass, so its acceleration is not "
-                "defined; give the links after it their masses, or the joint an armature"
-            )
 
 
 def _accelerations(arm: Arm, q: SX, free: tuple[int, ...]) -> tuple[SX, SX]:
@@ -84,20 +82,6 @@ def _tool_acceleration(arm: Arm, q: SX, accelerations: SX) -> SX:
     return ca.dot(ca.DM(downward), kinematics.world_jacobian(arm, q)[:3, :] @ accelerations)
 
 
-def _formula(name: str, free: tuple[int, ...], total: Any = None, total_unit: str = "") -> SusceptibilityFormula:
-    return SusceptibilityFormula(
-        name,
-        "a_F = -M_FF^-1 g_F; for one joint English and Maciejewski 1998, eq. (22)",
-        "rad/s^2",
-        sliding="m/s^2",
-        slides=True,
-        check=partial(_require_inertia, free=free),
-        values=partial(_accelerations, free=free),
-        total=total,
-        total_unit=total_unit,
-    )
-
-
 def _last_two(arm: Arm, task: object) -> tuple[str, ...]:
     del task
     return arm.joint_names[-2:]
@@ -119,34 +103,23 @@ def free_acceleration(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
         ArmError: The mass or inertia of a link is unknown or impossible, or a free joint carries no mass.
         InputError: A joint does not exist.
     """
-    joints = read_joint_set(arm, free)
-    return FreeSetSusceptibility(_formula("free acceleration", joints), arm, joints)
+    return FreeSetSusceptibility("free acceleration", arm, free)
 
 
 @constructor(needs=("inertia",))
 def release(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
     """The rate of energy release as several joints lose their torque together: kinetic energy is half of it times t^2.
 
-    It is ``g_F' M_FF^-1 g_F`` in J/s^2. ``arm`` and ``free`` are as for :func:`free_acceleration`.
-
-    Raises:
-        ArmError: The mass or inertia of a link is unknown or impossible, or a free joint carries no mass.
-        InputError: A joint does not exist.
+    It is ``g_F' M_FF^-1 g_F`` in J/s^2. ``arm``, ``free``, and the errors are as for :func:`free_acceleration`.
     """
-    joints = read_joint_set(arm, free)
-    return FreeSetSusceptibility(_formula("release", joints, _release_rate, "J/s^2"), arm, joints)
+    return FreeSetSusceptibility("release", arm, free, _release_rate, "J/s^2")
 
 
 @constructor(needs=("inertia",))
 def tool_drop(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
     """The downward acceleration of the tool as several joints lose their torque together: the drop is half of it times t^2.
 
-    It is ``u' J a`` in m/s^2, with the direction u of gravity, and negative if the tool starts upwards. ``arm`` and ``free``
-    are as for :func:`free_acceleration`.
-
-    Raises:
-        ArmError: The mass or inertia of a link is unknown or impossible, or a free joint carries no mass.
-        InputError: A joint does not exist.
+    It is ``u' J a`` in m/s^2, with the direction u of gravity, and negative if the tool starts upwards. ``arm``, ``free``, and
+    the errors are as for :func:`free_acceleration`.
     """
-    joints = read_joint_set(arm, free)
-    return FreeSetSusceptibility(_formula("tool drop", joints, _tool_acceleration, "m/s^2"), arm, joints)
+    return FreeSetSusceptibility("tool drop", arm, free, _tool_acceleration, "m/s^2")
