@@ -33,7 +33,7 @@ class FreeSetSusceptibility(Susceptibility):
         free: Indices from 0 of the joints without torque.
     """
 
-    def __init__(self, name: str, arm: Arm, free: JointSet, total: Total | None = None, total_unit: str = "") -> None:
+    def __init__(self, name: str, arm: Arm, free: JointSet, *, total: Total | None = None, total_unit: str = "") -> None:
         self.free = read_joint_set(arm, free)
         formula = SusceptibilityFormula(
             name,
@@ -112,7 +112,7 @@ def release(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
 
     It is ``g_F' M_FF^-1 g_F`` in J/s^2. ``arm``, ``free``, and the errors are as for :func:`free_acceleration`.
     """
-    return FreeSetSusceptibility("release", arm, free, _release_rate, "J/s^2")
+    return FreeSetSusceptibility("release", arm, free, total=_release_rate, total_unit="J/s^2")
 
 
 @constructor(needs=("inertia",))
@@ -122,4 +122,4 @@ def tool_drop(arm: Arm, free: Free = None) -> FreeSetSusceptibility:
     It is ``u' J a`` in m/s^2, with the direction u of gravity, and negative if the tool starts upwards. ``arm``, ``free``, and
     the errors are as for :func:`free_acceleration`.
     """
-    return FreeSetSusceptibility("tool drop", arm, free, _tool_acceleration, "m/s^2")
+    return FreeSetSusceptibility("tool drop", arm, free, total=_tool_acceleration, total_unit="m/s^2")
