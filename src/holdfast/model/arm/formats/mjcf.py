@@ -68,7 +68,8 @@ def load_mjcf(
 
     The arm takes ``range``, ``armature``, ``damping`` (the viscous friction), ``frictionloss`` (the Coulomb friction), gravity,
     and as effort the joint's ``actuatorfrcrange`` or else the total capacity of its actuators. Springs, gravity compensation
-    (``gravcomp``), contacts, and equalities with mocap bodies are left out, because an Arm has none. Named keyframes become ``states``.
+    (``gravcomp``), contacts, and equalities with mocap bodies are left out, because an Arm has none. Named keyframes become
+    ``states``.
 
     Args:
         path: MJCF file; files that it names are searched next to it.
