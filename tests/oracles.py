@@ -463,6 +463,15 @@ def failed_acceleration(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     return -generalized_gravity(arm, q) / inertia
 
 
+def free_fall(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """The accelerations with which all joints start together."""
+    import pinocchio as pin
+
+    model, _ = to_pinocchio(arm)
+    data, still = model.createData(), np.zeros(arm.n)
+    return np.array([pin.aba(model, data, x, still, still).copy() for x in q])
+
+
 def swing_angle(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     """To the least potential energy, a sinusoid of each joint that three values fix; 0 for a joint that slides."""
     import pinocchio as pin
@@ -509,6 +518,9 @@ ORACLES = {
         "torque": generalized_gravity,
         "acceleration": failed_acceleration,
         "swing-angle": swing_angle,
+        "free-acceleration": free_fall,
+        "release": free_fall,
+        "tool-drop": free_fall,
     },
 }
 """Every registered name by another route. A name without one fails ``test_registry.py``, which says what to add here."""

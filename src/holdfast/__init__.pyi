@@ -45,6 +45,8 @@ from holdfast.kinematics import path_following as path_following
 from holdfast.kinematics import paths as paths
 from holdfast.kinematics import solvers as solvers
 from holdfast.kinematics import tool_constraints as tool_constraints
+from holdfast.kinematics.holding import HoldCheck as HoldCheck
+from holdfast.kinematics.holding import holds as holds
 from holdfast.kinematics.indices import susceptibility as susceptibility
 from holdfast.kinematics.interval_search import Configurations as Configurations
 from holdfast.kinematics.interval_search import all_configurations as all_configurations

@@ -311,6 +311,7 @@ QUICK = {
     "self_motion": "is one of fibres, which says so",
     "point_to_point": "is a formula",
     "check_cell": "looks at 512 configurations",
+    "holds": "is a formula",
 }
 
 

@@ -31,7 +31,7 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
-        "FaultRun FreeSwing LawChoice LawComparison Optima PhysicalRun PoseExplanation ReachabilityMap "
+        "FaultRun FreeSwing HoldCheck LawChoice LawComparison Optima PhysicalRun PoseExplanation ReachabilityMap "
         "Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
         "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",

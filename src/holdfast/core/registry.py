@@ -59,6 +59,8 @@ class Parameter:
         Raises:
             InputError: The text is not a value of the parameter's kind; ``what`` is the name of the label in the message.
         """
+        if self.kind == "JointSet":
+            return text
         value = labels.parse_value(text)
         if self.kind in ("float", "int"):
             if isinstance(value, tuple):

@@ -82,6 +82,8 @@ def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         if x.__closure__:
             raise _NoDigestError
         yield f"{x.__module__}.{x.__qualname__}".encode()
+    elif isinstance(x, functools.partial):
+        yield from _sequence_blocks([x.func, x.args, x.keywords], inside)
     elif isinstance(x, Enum):
         _require_holdfast_name(kind)
         yield x.name.encode()

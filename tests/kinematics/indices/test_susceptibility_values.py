@@ -14,13 +14,12 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
-from holdfast.core.registry import SUSCEPTIBILITY_REGISTRY
 from holdfast.kernels import Kernel
 from holdfast.kinematics.indices.susceptibility.formulas import ACCELERATION_FORMULA, SWING_ANGLE_FORMULA, TORQUE_FORMULA
 from holdfast.model.arm import kinematics
 
 FORMULAS = {f.name: f for f in (TORQUE_FORMULA, ACCELERATION_FORMULA, SWING_ANGLE_FORMULA)}
-NAMES = list(SUSCEPTIBILITY_REGISTRY)
+NAMES = ["torque", "acceleration", "swing-angle"]  # of joints that fail alone
 
 
 @pytest.fixture(autouse=True)

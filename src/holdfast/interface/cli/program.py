@@ -40,6 +40,7 @@ COMMAND_MODULES = {  # module of each command, in the order of the help; it defi
     "upper-bound": "before.upper_bound",
     "compare-arms": "before.compare_arms",
     "susceptibility": "before.measures:susceptibility",
+    "holds": "before.holds",
     "optimise": "before.optimise",
     "follow": "before.follow",
     "plan-motion": "before.plan_motion",

@@ -93,6 +93,14 @@ def read_episode_numbers(option: str, text: str, count: int) -> list[int]:
     return numbers
 
 
+def read_fraction(option: str, text: str) -> float:
+    """Read a fraction, such as ``35%`` or ``0.35``."""
+    number = text.strip().removesuffix("%")
+    if not is_number(number):
+        raise InputError(f"{option}: '{text}' is not a fraction; write for example 35% or 0.35")
+    return float(number) / (100 if text.strip().endswith("%") else 1)
+
+
 def check_joint_units(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
     """Raise for joint values, rad and m, so far beyond the limits that they must be degrees or millimetres.
 
@@ -205,8 +213,12 @@ def _make_objective_term(
     if name in SUSCEPTIBILITY_REGISTRY:
         if failures != "single":
             raise InputError(f"--failures is for an index, not for {name}; give one joint as {name}:joint2, or leave it out")
-        weight_options = {} if weights is None else {"weights": _read_joint_weights(arm, option, name, weights)}
-        objective = SUSCEPTIBILITY_REGISTRY.make(name, arm, option=option, **weight_options)
+        options: dict[str, Any] = {}
+        if weights is not None and SUSCEPTIBILITY_REGISTRY[name].parameters[0].kind == "JointSet":
+            options["free"] = [_read_numbered_joint(arm, joint) for joint in weights.split(",")]
+        elif weights is not None:
+            options["weights"] = _read_joint_weights(arm, option, name, weights)
+        objective = SUSCEPTIBILITY_REGISTRY.make(name, arm, option=option, **options)
     elif INDEX_REGISTRY.covers(label := name if weights is None else f"{name}:{weights}"):
         objective = INDEX_REGISTRY.make(label, arm, option=option, task=task, failures=failures)
     else:
@@ -214,12 +226,15 @@ def _make_objective_term(
     return objective
 
 
+def _read_numbered_joint(arm: Arm, text: str) -> int:
+    """Return the index from 0 of a joint given by name, by number from 1, or by number as joint2."""
+    return read_joint(arm, text if text.strip() in arm.joint_names else text.strip().removeprefix("joint"))
+
+
 def _read_joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
     """Read the weights after a colon: one joint by name or as joint2, or any text of :func:`read_weights`."""
-    number = text.removeprefix("joint")
-    single = text in arm.joint_names or (number != text and number.isdecimal())
-    if single:
-        return np.eye(arm.n)[read_joint(arm, text if text in arm.joint_names else number)]
+    if text in arm.joint_names or (text.startswith("joint") and text.removeprefix("joint").isdecimal()):
+        return np.eye(arm.n)[_read_numbered_joint(arm, text)]
     if text in ("effort", "worst-case") or text.lower().endswith(".csv"):
         return read_weights(option, text)
     if not all(is_number(part) for part in text.split(",")):

@@ -54,6 +54,7 @@ PRESENTER_MODULES = {
     "control.equilibria.limit_cycles.Orbit": "equilibria.orbit",
     "control.equilibria.points.StationaryPoints": "equilibria.points",
     "response.faults.batch.FaultBatch": "faults.fault_batch",
+    "kinematics.holding.static_check.HoldCheck": "holding.hold_check",
     "kinematics.indices.objective.Objective": "indices.objective",
     "kinematics.path_following.trajectory.Trajectory": "path_following.trajectory",
     "kinematics.paths.path.Path": "paths.path",

@@ -30,6 +30,7 @@ class DH:
         name: Name of the joint; default: ``joint1``, ``joint2``, ...
         velocity, effort: Largest speed (rad/s, m/s) and torque or force (N m, N); None if not known.
         friction, armature: Viscous friction (N m s/rad or N s/m) and rotor inertia (kg m^2 or kg).
+        coulomb_friction, stiction: Dry friction of the moving and of the resting joint, N m or N; see :class:`holdfast.Joint`.
     """
 
     a: float
@@ -44,6 +45,8 @@ class DH:
     effort: float | None = None
     friction: float = 0.0
     armature: float = 0.0
+    coulomb_friction: float = 0.0
+    stiction: float = 0.0
 
 
 def _rotation_about_x(angle: float) -> FloatArray:
@@ -118,6 +121,8 @@ def build_from_rows(
                 effort=np.inf if row.effort is None else float(row.effort),
                 friction=float(row.friction),
                 armature=float(row.armature),
+                coulomb_friction=float(row.coulomb_friction),
+                stiction=float(row.stiction),
             )
         )
         link = links[row_index] if links is not None else None

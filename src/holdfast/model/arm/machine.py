@@ -20,7 +20,9 @@ from holdfast.model.arm.poses import joint_motion
 
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
-_JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
+JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
+DRY_FRICTION = ("coulomb_friction", "stiction")
+"""Numbers of a joint that are stored only if they are not 0, so that files of earlier versions keep their digests."""
 FARTHEST_LIMIT_RAD = 200 * np.pi
 FARTHEST_LIMIT_M = 1000.0
 _MAX_ABSOLUTE_VALUE = 1e12  # of any number, so that products stay finite
@@ -42,6 +44,8 @@ class Joint:
         effort: Largest torque or force, N m or N; infinite if not given.
         friction: Viscous friction, N m s/rad or N s/m.
         armature: Rotor inertia at the joint, kg m^2 or kg.
+        coulomb_friction: Dry friction of the moving joint, N m or N.
+        stiction: Dry friction of the joint at rest, N m or N, at least ``coulomb_friction``; 0 if the same.
     """
 
     name: str
@@ -55,6 +59,8 @@ class Joint:
     effort: float = np.inf
     friction: float = 0.0
     armature: float = 0.0
+    coulomb_friction: float = 0.0
+    stiction: float = 0.0
 
     def __post_init__(self) -> None:
         if self.type not in ("revolute", "continuous", "prismatic"):
@@ -68,12 +74,19 @@ class Joint:
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
         # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
         object.__setattr__(self, "axis", _as_read_only(snap_rounding_noise(axis if abs(length - 1) < 4e-15 else axis / length)))
-        for field_name in _JOINT_NUMBERS:
+        for field_name in (*JOINT_NUMBERS, *DRY_FRICTION):
             value = float(getattr(self, field_name))
             sign = "" if field_name in ("lower", "upper") else " of 0 or more"
             if np.isnan(value) or (value < 0 and field_name not in ("lower", "upper")):
                 raise ArmError(f"{field_name} of joint '{self.name}' is {value:g}; it must be a number{sign}")
+            if np.isinf(value) and field_name in DRY_FRICTION:
+                raise ArmError(f"{field_name} of joint '{self.name}' is infinite; give a finite number, N m or N")
             object.__setattr__(self, field_name, value)
+        if 0 < self.stiction < self.coulomb_friction:
+            raise ArmError(
+                f"stiction of joint '{self.name}' is {self.stiction:g}, below its coulomb_friction {self.coulomb_friction:g}; "
+                "give at least that, or 0 for the same"
+            )
         farthest = FARTHEST_LIMIT_M if self.prismatic else FARTHEST_LIMIT_RAD
         for field_name in ("lower", "upper"):
             value = getattr(self, field_name)
@@ -88,6 +101,11 @@ class Joint:
     def prismatic(self) -> bool:
         """True for a prismatic joint."""
         return self.type == "prismatic"
+
+    @property
+    def static_friction(self) -> float:
+        """Largest dry friction of the joint at rest, N m or N."""
+        return max(self.stiction, self.coulomb_friction)
 
     @property
     def unit(self) -> str:
@@ -335,12 +353,15 @@ class ArmData:
         """SHA-256 of the numbers that define the arm, without its name and source; equal arms have equal fingerprints."""
         data: dict[str, Any] = {
             "joints": [
-                [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in _JOINT_NUMBERS)]
+                [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in JOINT_NUMBERS)]
                 for j in self.joints
             ],
             "links": [body and [body.mass, body.com.tolist(), body.inertia.tolist()] for body in (*self.links, self.payload)],
             "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
         }
+        dry_friction = [[getattr(j, key) for key in DRY_FRICTION] for j in self.joints]
+        if np.any(dry_friction):
+            data["dry friction"] = dry_friction
         return hashlib.sha256(json.dumps(data).encode()).hexdigest()
 
     def check_configurations(self, q: ArrayLike) -> FloatArray:

@@ -170,9 +170,9 @@ class Arm(Presentable, ArmData):
     def save(self, file: str | Path) -> Path:
         """Write the arm as a URDF file (``.urdf``) or as a Denavit-Hartenberg table (``.yaml``).
 
-        A table contains all numbers of the arm. The URDF format lacks gravity, payload, rotor inertia and one-sided limits; a
-        message lists lost data. Frames are written as angles, so numbers read back may differ in the last digits, and so may
-        :attr:`fingerprint`. A table has its own frames between the joints.
+        A table contains all numbers of the arm. The URDF format lacks gravity, payload, rotor inertia, stiction and one-sided
+        limits; a message lists lost data. Frames are written as angles, so numbers read back may differ in the last digits, and
+        so may :attr:`fingerprint`. A table has its own frames between the joints.
 
         Args:
             file: Path of the file, replaced in one step. :func:`holdfast.model.arms.load` reads both formats.
@@ -190,7 +190,8 @@ class Arm(Presentable, ArmData):
     def to_urdf(self) -> str:
         """Return the arm as the text of a URDF file, with a rod from each joint to the next as its shape.
 
-        The format lacks gravity, payload, rotor inertia, one-sided limits, and named configurations; see :meth:`save`.
+        The format lacks gravity, payload, rotor inertia, stiction, one-sided limits, and named configurations: see
+        :meth:`save`.
         """
         from holdfast.model.arm.formats.urdf_writing import urdf_text
 

@@ -105,6 +105,13 @@ def length_scale(arm: ArmData) -> float:
     return reach + max(float(np.linalg.norm(link.com)) for link in links_with_payload(arm))
 
 
+def torque_scale(arm: ArmData) -> FloatArray:
+    """Return a bound of the order of each joint's largest gravity torque (n,), N m and N, for relative tolerances."""
+    carried = np.cumsum([body.mass for body in links_with_payload(arm)][::-1])[::-1]
+    lengths = [1.0 if joint.prismatic else length_scale(arm) for joint in arm.joints]
+    return np.asarray(carried * float(np.linalg.norm(arm.gravity)) * lengths)
+
+
 def gravity_torques(arm: ArmData, c: CompositeBodies) -> SX:
     """Return torques and forces (n,) that hold the arm still against gravity, N m and N; eq. (8), (12)."""
     return ca.vertcat(*[ca.dot(first_moment_rate(arm, c, i), c.gravity[i]) for i in range(arm.n)])

@@ -43,6 +43,7 @@ def quantities_lost_in_urdf(arm: Arm) -> list[str]:
         "the gravity vector": not np.array_equal(arm.gravity, GRAVITY),
         "the payload": arm.payload is not None,
         "rotor inertias": any(joint.armature for joint in arm.joints),
+        "stiction": any(joint.stiction > joint.coulomb_friction for joint in arm.joints),
         "limits on one side": one_sided,
     }
     return [name for name, is_lost in losses.items() if is_lost]

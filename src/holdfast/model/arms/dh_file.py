@@ -7,7 +7,7 @@ An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, a
     angles: deg               # unit of alpha, theta, urdf_rpy and of revolute limits and velocities; default rad
     rows:
       - {a: 0, alpha: -90, d: 0.3, lower: -170, upper: 170, name: shoulder, velocity: 90, effort: 120}
-      - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02}     # no lower and upper: no limits
+      - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02, coulomb_friction: 0.3}   # no lower and upper: no limits
       - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}          # always in metres
     base: {xyz: [0, 0, 0.8], urdf_rpy: [0, 0, 180]}   # in the world; roll, pitch, yaw as URDF: Rz(yaw) Ry(pitch) Rx(roll)
     tool:                                        # pose of the tool in the last row's frame; base and tool accept both forms
@@ -42,7 +42,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.model.arm.dh import DH
 from holdfast.model.arm.formats.urdf import rpy_rotation
-from holdfast.model.arm.machine import GRAVITY, Link
+from holdfast.model.arm.machine import DRY_FRICTION, GRAVITY, Link
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.dh_rows import DHTable
 
@@ -132,7 +132,7 @@ def _format_row(row: DH) -> list[tuple[str, str | float]]:
         if value is not None:
             cells.append((key, value if is_prismatic else _to_clean_degrees(value)))
     cells += [("effort", row.effort)] if row.effort is not None else []
-    cells += [(key, getattr(row, key)) for key in ("friction", "armature") if getattr(row, key)]
+    cells += [(key, getattr(row, key)) for key in ("friction", "armature", *DRY_FRICTION) if getattr(row, key)]
     return [*cells, ("name", row.name)] if row.name else cells
 
 
@@ -177,6 +177,8 @@ class _RowEntry(Strict):
     effort: Number | None = None
     friction: Number = 0.0
     armature: Number = 0.0
+    coulomb_friction: Number = 0.0
+    stiction: Number = 0.0
 
 
 class _BodyEntry(Strict):

@@ -153,6 +153,8 @@ def _dh_row_between(arm: Arm, k: int, frame: FloatArray, next_frame: FloatArray)
         effort=None if np.isinf(joint.effort) else joint.effort,
         friction=joint.friction,
         armature=joint.armature,
+        coulomb_friction=joint.coulomb_friction,
+        stiction=joint.stiction,
     )
 
 

@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.errors import ArmError
-from holdfast.model.arm.machine import Chain, Joint, Link
+from holdfast.model.arm.machine import DRY_FRICTION, JOINT_NUMBERS, Chain, Joint, Link
 from holdfast.model.arm.model import Arm
-
-_JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
 
 
 def to_dict(arm: Arm) -> dict[str, Any]:
@@ -28,7 +26,8 @@ def to_dict(arm: Arm) -> dict[str, Any]:
                 "type": joint.type,
                 "origin": joint.origin.tolist(),
                 "axis": joint.axis.tolist(),
-                **{key: (getattr(joint, key) if np.isfinite(getattr(joint, key)) else None) for key in _JOINT_NUMBERS},
+                **{key: (getattr(joint, key) if np.isfinite(getattr(joint, key)) else None) for key in JOINT_NUMBERS},
+                **{key: getattr(joint, key) for key in DRY_FRICTION if getattr(joint, key)},
             }
             for joint in arm.joints
         ],
@@ -47,7 +46,8 @@ def from_dict(data: dict[str, Any]) -> Arm:
     try:
         joints = []
         for entry in data["joints"]:
-            values = {key: entry[key] for key in _JOINT_NUMBERS if entry[key] is not None}
+            values = {key: entry[key] for key in JOINT_NUMBERS if entry[key] is not None}
+            values |= {key: entry[key] for key in DRY_FRICTION if key in entry}
             joints.append(
                 Joint(entry["name"], entry["type"], np.array(entry["origin"]), axis=np.array(entry["axis"]), **values)
             )

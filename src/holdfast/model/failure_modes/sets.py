@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
+JointSet = str | Sequence[str | int] | None
 
 _MAX_FAILURE_SETS = 5000
 
@@ -114,6 +115,26 @@ def read_joint(arm: Arm, text: str) -> int:
             return int(text) - 1
         raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
     return arm.joint_index(text)
+
+
+def read_joint_set(arm: Arm, joints: JointSet) -> tuple[int, ...]:
+    """Return the sorted indices from 0 of several joints.
+
+    Args:
+        arm: Arm model.
+        joints: Names and indices from 0, or one text with names and numbers from 1 between commas; None for all joints.
+
+    Raises:
+        InputError: There is no such joint, or none is given.
+    """
+    if joints is None:
+        return tuple(range(arm.n))
+    if isinstance(joints, str):
+        joints = [read_joint(arm, part) for part in joints.replace(";", ",").split(",") if part.strip()]
+    indices = sorted(set(arm.joint_indices(joints)))
+    if not indices:
+        raise InputError(f"no joint of '{arm.name}' is named; name at least one, or leave the joints out for all")
+    return tuple(indices)
 
 
 def read_failures(arm: Arm, text: str) -> FailureSpec:

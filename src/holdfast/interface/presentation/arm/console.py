@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.model import arms
+from holdfast.model.arm.machine import DRY_FRICTION
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import check_arm
 from holdfast.studies.assessment.single_points import explain, structures
@@ -34,7 +35,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
             {
                 **{
                     key: getattr(joint, key)
-                    for key in ("name", "type", "unit", "lower", "upper", "velocity", "effort", "friction")
+                    for key in ("name", "type", "unit", "lower", "upper", "velocity", "effort", "friction", *DRY_FRICTION)
                 },
                 "mass_kg": None if link is None else link.mass,
             }

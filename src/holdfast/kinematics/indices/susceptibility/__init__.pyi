@@ -6,4 +6,8 @@ from holdfast.kinematics.indices.susceptibility.measure import acceleration as a
 from holdfast.kinematics.indices.susceptibility.measure import by_name as by_name
 from holdfast.kinematics.indices.susceptibility.measure import swing_angle as swing_angle
 from holdfast.kinematics.indices.susceptibility.measure import torque as torque
+from holdfast.kinematics.indices.susceptibility.sets import FreeSetSusceptibility as FreeSetSusceptibility
+from holdfast.kinematics.indices.susceptibility.sets import free_acceleration as free_acceleration
+from holdfast.kinematics.indices.susceptibility.sets import release as release
+from holdfast.kinematics.indices.susceptibility.sets import tool_drop as tool_drop
 from holdfast.kinematics.indices.susceptibility.weights import largest_static_torque as largest_static_torque

@@ -23,6 +23,9 @@ DEGENERATE_RATIO = 1e-9
 """A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small relative to the arm."""
 
 
+Total = Callable[[Arm, SX, SX], SX]
+
+
 @dataclass(frozen=True)
 class SusceptibilityFormula:
     """Measure of a susceptibility: its symbols, its derivatives as printed in the paper, and its descriptions.
@@ -35,6 +38,9 @@ class SusceptibilityFormula:
         check: Function that raises ArmError for an arm without such a measure.
         values: Function ``(arm, q) -> f (n,), degenerate (n,)``.
         jacobian: Function ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
+            None if the paper has none.
+        total: Function ``(arm, q, f) -> value`` that replaces ``f' W f``; None if the measure has weights.
+        total_unit: Unit of ``total``.
     """
 
     name: str
@@ -45,7 +51,9 @@ class SusceptibilityFormula:
     slides: bool
     check: Callable[[Arm], None]
     values: Callable[[Arm, SX], tuple[SX, SX]]
-    jacobian: Callable[[Arm, SX], SX]
+    jacobian: Callable[[Arm, SX], SX] | None = None
+    total: Total | None = None
+    total_unit: str = ""
 
 
 # ---- torque --------------------------------------------------------------------------------------------------------
@@ -74,16 +82,17 @@ def _torque_jacobian(arm: Arm, q: SX) -> SX:
 # ---- acceleration --------------------------------------------------------------------------------------------------
 
 
-def _require_inertia(arm: Arm) -> None:
+def require_inertia(arm: Arm, free: tuple[int, ...] | None = None) -> None:
+    """Raise :class:`ArmError` if one of the joints ``free`` (indices from 0, default all) carries no mass and has no rotor."""
     require_possible_inertia(arm)
-    mass = sum(body.mass for body in statics.links_with_payload(arm))
-    for joint, body in zip(arm.joints, statics.links_with_payload(arm), strict=True):
-        if mass <= 0 and joint.armature == 0:
+    masses = [body.mass for body in statics.links_with_payload(arm)]
+    for k in range(arm.n) if free is None else free:
+        joint = arm.joints[k]
+        if sum(masses[k:]) <= 0 and joint.armature == 0:
             raise ArmError(
                 f"arm '{arm.name}': nothing behind joint '{joint.name}' has mass, so its acceleration after a failure is not "
                 "defined; give the links after it their masses, or the joint an armature"
             )
-        mass -= body.mass
 
 
 def _failure_accelerations_and_status(arm: Arm, q: SX) -> tuple[SX, SX]:
@@ -173,7 +182,7 @@ ACCELERATION_FORMULA = SusceptibilityFormula(
     "rad/s^2",
     sliding="m/s^2",
     slides=True,
-    check=_require_inertia,
+    check=require_inertia,
     values=_failure_accelerations_and_status,
     jacobian=_acceleration_jacobian,
 )

@@ -103,6 +103,8 @@ class Susceptibility(Labelled, Objective):
         return tuple(self.formula.sliding if is_prismatic else self.formula.turning for is_prismatic in self.arm.prismatic)
 
     def _value_unit(self) -> str:
+        if self.formula.total is not None:
+            return self.formula.total_unit
         if self._weighting in ("effort", "worst-case"):
             return "1"
         square = ", ".join(f"({unit})^2" for unit in dict.fromkeys(self.joint_unit))
@@ -124,7 +126,7 @@ class Susceptibility(Labelled, Objective):
 
     def expression(self, q: SX) -> SX:
         """Return ``f' W f`` of the symbols ``q`` (n,); it is smooth unless a joint becomes degenerate or hangs upright."""
-        return self._weighted_square_sum(self.by_joint_expression(q))
+        return self._total(q, self.by_joint_expression(q))
 
     def gradient_expression(self, q: SX) -> SX:
         """Return the gradient (n,) of ``f' W f``, eq. (3), of the symbols ``q`` (n,); 0 for a degenerate joint.
@@ -141,6 +143,9 @@ class Susceptibility(Labelled, Objective):
         derivative = ca.densify(ca.gradient(value, q))
         return [ObjectivePart(1.0, [-value], [[-ca.dot(derivative, v) for v in directions]])]
 
+    def _total(self, q: SX, f: SX) -> SX:
+        return self._weighted_square_sum(f) if self.formula.total is None else self.formula.total(self.arm, q, f)
+
     def _weighted_square_sum(self, f: SX) -> SX:
         # A joint without weight does not count, also if its own measure is NaN.
         weights = ca.sparsify(ca.SX(ca.DM(self.weights)))
@@ -151,7 +156,7 @@ class Susceptibility(Labelled, Objective):
     def _values_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         f, degenerate = self.formula.values(self.arm, q)
-        return Kernel(self.name, [q], [self._weighted_square_sum(f), f, degenerate])
+        return Kernel(self.name, [q], [self._total(q, f), f, degenerate])
 
     @cached_property
     @cached_kernel

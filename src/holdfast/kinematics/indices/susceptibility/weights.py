@@ -110,8 +110,7 @@ def largest_static_torque(arm: Arm) -> FloatArray:
     starts = q[order.T.ravel()]
     joint = np.repeat(np.tile(np.arange(arm.n), 2), _STARTS_PER_SIGN)
     sign = np.repeat([1.0, -1.0], arm.n * _STARTS_PER_SIGN)
-    carried = np.cumsum([body.mass for body in statics.links_with_payload(arm)][::-1])[::-1]
-    scale = carried * float(np.linalg.norm(arm.gravity)) * np.where(arm.prismatic, 1.0, statics.length_scale(arm))
+    scale = statics.torque_scale(arm)
     reached = _maximise_static_torque(arm, starts, joint, sign, low, high, _CONVERGED_GAIN * scale[joint])
     largest = np.array([reached[joint == k].max() for k in range(arm.n)])
     return np.where(largest > _ZERO_TORQUE_RATIO * scale, largest, 0.0)

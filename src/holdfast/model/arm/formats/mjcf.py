@@ -66,9 +66,10 @@ def load_mjcf(
     of one body become joints with massless links in between. ``links[i]`` is given in a frame with the axes of the body and the
     anchor of joint i as origin; ``tool`` is the frame of ``tip``; joint values are MuJoCo's, including ``ref``.
 
-    The arm takes ``range``, ``armature``, ``damping`` (the friction), gravity, and as effort the joint's ``actuatorfrcrange``
-    or else the total capacity of its actuators. Springs, dry friction, gravity compensation, contacts, and equalities with
-    mocap bodies are left out, because an Arm has none. Named keyframes become ``states``.
+    The arm takes ``range``, ``armature``, ``damping`` (the viscous friction), ``frictionloss`` (the Coulomb friction), gravity,
+    and as effort the joint's ``actuatorfrcrange`` or else the total capacity of its actuators. Springs, gravity compensation
+    (``gravcomp``), contacts, and equalities with mocap bodies are left out, because an Arm has none. Named keyframes become
+    ``states``.
 
     Args:
         path: MJCF file; files that it names are searched next to it.
@@ -253,6 +254,7 @@ def _read_joint(mujoco: ModuleType, model: Any, joint_index: int, name: str, kin
         effort=_actuator_effort(mujoco, model, joint_index),
         friction=float(model.dof_damping[dof_address]),
         armature=float(model.dof_armature[dof_address]),
+        coulomb_friction=float(model.dof_frictionloss[dof_address]),
         rest=reference,
     )
 

@@ -65,6 +65,7 @@ def build_whole_spec(arm: ArmData) -> Any:
     spec = build_mujoco_spec(arm, np.zeros(arm.n), range(arm.n), stops=True)
     spec.modelname = arm.name
     for joint, spec_joint in zip(arm.joints, spec.joints, strict=True):
+        spec_joint.frictionloss = joint.coulomb_friction
         if np.isfinite(joint.effort):
             spec_joint.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
             spec_joint.actfrcrange = [-joint.effort, joint.effort]

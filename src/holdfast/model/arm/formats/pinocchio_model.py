@@ -117,7 +117,7 @@ def _read_body(model: Any, joint: int, name: str) -> Link | None:
 def _read_joint(pinocchio: ModuleType, model: Any, joint: int, parent: str, child: str, origin: FloatArray) -> TreeJoint:
     joint_model, name = model.joints[joint], model.names[joint]
     kind, axis = _motion_kind(joint_model, pinocchio.neutral(model))
-    lower, upper, velocity, effort, friction, armature = -np.inf, np.inf, np.inf, np.inf, 0.0, 0.0
+    lower, upper, velocity, effort, friction, armature, coulomb = -np.inf, np.inf, np.inf, np.inf, 0.0, 0.0, 0.0
     mimic = None
     if joint in model.mimicking_joints:
         master = model.mimicked_joints[list(model.mimicking_joints).index(joint)]
@@ -129,6 +129,7 @@ def _read_joint(pinocchio: ModuleType, model: Any, joint: int, parent: str, chil
             lower, upper = _finite_or(model.lowerPositionLimit[coordinate]), _finite_or(model.upperPositionLimit[coordinate])
         velocity, effort = _finite_or(model.velocityLimit[dof]) or np.inf, _finite_or(model.effortLimit[dof]) or np.inf
         friction, armature = float(model.damping[dof]), float(model.armature[dof])
+        coulomb = float(max(model.upperDryFrictionLimit[dof], -model.lowerDryFrictionLimit[dof]))
         if kind == "revolute" and not np.isfinite([lower, upper]).any():
             kind = "continuous"
     return TreeJoint(
@@ -145,6 +146,7 @@ def _read_joint(pinocchio: ModuleType, model: Any, joint: int, parent: str, chil
         friction=friction,
         mimic=mimic,
         armature=armature,
+        coulomb_friction=coulomb,
     )
 
 
@@ -199,6 +201,8 @@ def build_pinocchio_model(arm: ArmData) -> Any:
         placement = pinocchio.SE3(pose @ joint.origin)
         parent = model.addJoint(parent, make_joint(joint.axis), placement, joint.name, *(np.array(limit) for limit in limits))
         model.damping[index], model.armature[index] = joint.friction, joint.armature
+        model.upperDryFrictionLimit[index] = joint.coulomb_friction
+        model.lowerDryFrictionLimit[index] = -joint.coulomb_friction
         model.addJointFrame(parent)
         attached = [part for part in (link, arm.payload if index == arm.n - 1 else None) if part is not None]
         if attached:

@@ -40,6 +40,7 @@ class TreeJoint:
     friction: float
     mimic: tuple[str, float, float] | None = None  # master, multiplier, offset
     armature: float = 0.0
+    coulomb_friction: float = 0.0
     rest: float = 0.0  # value next to the chain, within its limits
 
     @property
@@ -387,6 +388,7 @@ def _to_arm_joint(joint: TreeJoint, origin: FloatArray) -> Joint:
         effort=joint.effort,
         friction=joint.friction,
         armature=joint.armature,
+        coulomb_friction=joint.coulomb_friction,
     )
 
 

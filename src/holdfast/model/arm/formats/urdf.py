@@ -52,8 +52,9 @@ def load_urdf(
 
     ``links[i]`` is given in the URDF frame of the child link of joint i, and ``tool`` is the frame of ``tip``. Angles within
     1e-9 rad of a quarter turn count as exact. A ``velocity`` or ``effort`` of 0, like a missing one, means 'not given'
-    (infinite), because many files use 0 as a placeholder; ``<dynamics damping>`` is the friction. A missing ``<inertial>``
-    gives None in ``links``, unless a body with one is attached to that link; a mass of 0 is kept.
+    (infinite), because many files use 0 as a placeholder. ``<dynamics damping>`` is the viscous friction, and ``<dynamics
+    friction>`` the Coulomb friction. A missing ``<inertial>`` gives None in ``links``, unless a body with one is attached to
+    that link; a mass of 0 is kept.
 
     Args:
         path: URDF file.
@@ -276,6 +277,7 @@ def _read_joint(element: ElementTree.Element) -> TreeJoint:
         velocity=velocity,
         effort=effort,
         friction=0.0 if dynamics is None else _read_nonnegative(dynamics, "damping", label),
+        coulomb_friction=0.0 if dynamics is None else _read_nonnegative(dynamics, "friction", label),
         mimic=None
         if mimic is None
         else (

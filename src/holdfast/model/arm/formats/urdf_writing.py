@@ -20,7 +20,7 @@ def urdf_text(arm: ArmData) -> str:
     Limits of speed and effort that are not given are 0, which :meth:`holdfast.Arm.from_urdf` reads as not given.
 
     Args:
-        arm: ArmData model; the format cannot store gravity, payload, rotor inertias and states.
+        arm: ArmData model; the format cannot store gravity, payload, rotor inertias, stiction, and states.
     """
     next_origins = [*(joint_after.origin for joint_after in arm.joints[1:]), arm.tool]
     radius = _ROD_RADIUS_FRACTION * sum(float(np.linalg.norm(origin[:3, 3])) for origin in next_origins) or _ROD_RADIUS_FRACTION
@@ -54,9 +54,15 @@ def _joint_lines(joint: Joint, parent: str, child: str) -> list[str]:
         f"    {_origin_element(joint.origin)}",
         f'    <axis xyz="{_join_numbers(joint.axis)}"/>',
         f'    <limit {limit_attributes}velocity="{speed!r}" effort="{effort!r}"/>',
-        *([f'    <dynamics damping="{joint.friction!r}"/>'] if joint.friction else []),
+        *_dynamics_lines(joint),
         "  </joint>",
     ]
+
+
+def _dynamics_lines(joint: Joint) -> list[str]:
+    numbers = {"damping": joint.friction, "friction": joint.coulomb_friction}
+    attributes = " ".join(f'{name}="{value!r}"' for name, value in numbers.items() if value)
+    return [f"    <dynamics {attributes}/>"] if attributes else []
 
 
 def _fixed_joint_lines(name: str, parent: str, child: str, pose: FloatArray) -> list[str]:

@@ -1,0 +1,1 @@
+"""Report of the check whether an arm holds its configuration."""

@@ -1,0 +1,145 @@
+"""Coulomb friction and stiction of joints: what files state is kept, and files without them stay as they were."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.model.arms import serial
+from holdfast.model.arms.arm_file import quantities_lost_in_urdf
+
+URDF = """<robot name="two">
+  <link name="base"/>
+  <link name="upper"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="lower"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="a" type="continuous"><parent link="base"/><child link="upper"/><dynamics damping="0.5" friction="1.25"/></joint>
+  <joint name="b" type="continuous"><parent link="upper"/><child link="lower"/>{dynamics}</joint>
+</robot>"""
+MJCF = """<mujoco><worldbody><body name="upper"><joint name="a" damping="0.5" frictionloss="1.25"/><geom size="0.1"/>
+  <body name="lower" pos="0 0 1"><joint name="b" axis="0 1 0"/><geom size="0.1"/></body></body></worldbody></mujoco>"""
+
+
+def friction(arm):
+    return [(joint.friction, joint.coulomb_friction, joint.stiction) for joint in arm.joints]
+
+
+@pytest.fixture
+def stated(rng):
+    """A random arm with dry friction, at some joints with more at rest."""
+    arm = oracles.with_bodies(oracles.random_arm(rng, types="RPRC", limits=2.0), rng)
+    pairs = [(0.0, 0.0), (0.3, 0.0), (0.4, 0.7), (0.0, 0.2)]
+    return replace(
+        arm,
+        joints=tuple(
+            replace(j, friction=0.1, coulomb_friction=c, stiction=s) for j, (c, s) in zip(arm.joints, pairs, strict=True)
+        ),
+    )
+
+
+def test_what_a_urdf_file_states(tmp_path):
+    file = tmp_path / "two.urdf"
+    file.write_text(URDF.format(dynamics=""))
+    arm = hf.Arm.from_urdf(file)
+    assert friction(arm) == [(0.5, 1.25, 0.0), (0.0, 0.0, 0.0)]
+    again = tmp_path / "again.urdf"
+    again.write_text(arm.to_urdf())
+    assert friction(hf.Arm.from_urdf(again)) == friction(arm)
+    file.write_text(URDF.format(dynamics='<dynamics friction="-1"/>'))
+    with pytest.raises(hf.ArmError, match="joint 'b': friction is -1; it must be 0 or more"):
+        hf.Arm.from_urdf(file)
+
+
+def test_what_an_mjcf_file_states(tmp_path):
+    file = tmp_path / "two.xml"
+    file.write_text(MJCF)
+    arm = hf.Arm.from_mjcf(file)
+    assert friction(arm) == [(0.5, 1.25, 0.0), (0.0, 0.0, 0.0)]
+    assert arm.to_mujoco().compile().dof_frictionloss.tolist() == [1.25, 0.0]
+
+
+def test_what_pinocchio_reads_from_the_same_file(tmp_path):
+    import pinocchio
+
+    file = tmp_path / "two.urdf"
+    file.write_text(URDF.format(dynamics=""))
+    model = pinocchio.buildModelFromUrdf(str(file))
+    assert [c for _, c, _ in friction(hf.Arm.from_pinocchio(model))] == [1.25, 0.0]
+    written = hf.Arm.from_urdf(file).to_pinocchio()
+    np.testing.assert_array_equal(written.upperDryFrictionLimit, model.upperDryFrictionLimit)
+    np.testing.assert_array_equal(written.lowerDryFrictionLimit, model.lowerDryFrictionLimit)
+
+
+def test_a_table_keeps_all_and_a_urdf_file_says_what_it_loses(stated, tmp_path):
+    assert friction(hf.arms.load(stated.save(tmp_path / "arm.yaml"))) == friction(stated)
+    assert "stiction" in quantities_lost_in_urdf(stated)
+    no_more_at_rest = replace(stated, joints=tuple(replace(j, stiction=j.coulomb_friction) for j in stated.joints))
+    assert "stiction" not in quantities_lost_in_urdf(no_more_at_rest)
+
+
+def test_results_keep_all(stated):
+    again = serial.from_dict(json.loads(json.dumps(serial.to_dict(stated))))
+    assert friction(again) == friction(stated)
+    assert again.fingerprint == stated.fingerprint
+
+
+def fingerprint_before(arm):
+    """The fingerprint of holdfast before dry friction."""
+    numbers = ("lower", "upper", "velocity", "effort", "friction", "armature")
+    data = {
+        "joints": [
+            [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in numbers)] for j in arm.joints
+        ],
+        "links": [body and [body.mass, body.com.tolist(), body.inertia.tolist()] for body in (*arm.links, arm.payload)],
+        "frames": [arm.base.tolist(), arm.tool.tolist(), arm.gravity.tolist(), arm.flange.tolist()],
+    }
+    return hashlib.sha256(json.dumps(data).encode()).hexdigest()
+
+
+def test_arms_without_dry_friction_keep_their_fingerprint_and_files(stated, tmp_path):
+    names = {name for name in hf.arms.names() if hf.arms.load(name).fingerprint != fingerprint_before(hf.arms.load(name))}
+    assert names == {"xarm7"}  # its file states 1 N m at every joint
+    assert friction(hf.arms.load("xarm7"))[0] == (10.0, 1.0, 0.0)
+    smooth = replace(stated, joints=tuple(replace(j, coulomb_friction=0.0, stiction=0.0) for j in stated.joints))
+    assert smooth.fingerprint == fingerprint_before(smooth)
+    assert stated.fingerprint != smooth.fingerprint
+    for text in (json.dumps(serial.to_dict(smooth)), smooth.save(tmp_path / "smooth.yaml").read_text(), smooth.to_urdf()):
+        assert "coulomb" not in text
+        assert "stiction" not in text
+        assert ' friction="' not in text
+
+
+def test_a_free_swing_does_not_change(stated):
+    arm = hf.arms.load("panda")
+    rough = replace(arm, joints=tuple(replace(j, coulomb_friction=3.0) for j in arm.joints))
+    q = np.array(hf.arms.about("panda").home)
+    swings = [hf.free_swing(each, q, 3, duration=0.2) for each in (arm, rough)]
+    np.testing.assert_array_equal(swings[0].angle, swings[1].angle)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        ({"coulomb_friction": -1}, "coulomb_friction of joint 'a' is -1; it must be a number of 0 or more"),
+        ({"stiction": np.nan}, "stiction of joint 'a' is nan"),
+        ({"stiction": np.inf}, "stiction of joint 'a' is infinite; give a finite number"),
+        (
+            {"coulomb_friction": 2, "stiction": 1},
+            "stiction of joint 'a' is 1, below its coulomb_friction 2",
+        ),
+    ],
+)
+def test_impossible_friction_is_refused(numbers, words):
+    with pytest.raises(hf.ArmError, match=words):
+        hf.Joint("a", "revolute", np.eye(4), axis=np.array([0, 0, 1.0]), **numbers)
+
+
+def test_friction_at_rest():
+    made = hf.Joint("a", "revolute", np.eye(4), axis=np.array([0, 0, 1.0]), coulomb_friction=2.0)
+    assert made.static_friction == 2.0
+    assert replace(made, stiction=3.0).static_friction == 3.0
