@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.control.falls.friction import Brakes, Friction
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.errors import InputError
-from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum, require_ok
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import require_real_numbers
@@ -23,7 +22,7 @@ class FallOutcome(SentenceEnum):
     """Outcome of one fall."""
 
     HOLDS = 0, "holds: nothing moves"
-    REST = 1, "falls and comes to rest"
+    REST = 1, "falls and then lies still"
     MOVING = 2, "still moves at the end of the simulated time"
     UNKNOWN = 3, "was not simulated, or not to the end: see the status"
 
@@ -32,7 +31,7 @@ _OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
 
 
 @dataclass(frozen=True, kw_only=True)
-class PowerLoss(Result):
+class PowerLoss:
     """Falls of an arm of which some or all joints lost their torque, from N states; for a single state arrays lack the axis N.
 
     All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. Contacts with
@@ -54,7 +53,7 @@ class PowerLoss(Result):
         drop: (N,) largest displacement of the tool point along gravity within the duration, m.
         released: (N,) energy released, J: potential and kinetic energy at the power loss, minus the potential energy at the
             end. The part that is not kinetic energy at the end was dissipated.
-        rest_time: (N,) time at which the last joint came to rest, s; NaN if it still moves.
+        rest_time: (N,) time from which on all joints are at rest, s; NaN if a joint still moves.
         code: (N,) :class:`holdfast.control.falls.FallOutcome` of each fall.
         status: (N,) :class:`holdfast.Status` of each fall.
         error: (N,) estimated error of the tool point at the end, m. This is twice the distance between the results of two
@@ -136,5 +135,4 @@ class PowerLoss(Result):
         selected = select(states)
         values = np.full((len(q), repeat, selected.shape[1]), np.nan)
         values[rows] = selected.reshape(count, repeat, selected.shape[1])
-        values = values.reshape(*self.q.shape[:-1], *times.shape, selected.shape[1])
-        return values
+        return values.reshape(*self.q.shape[:-1], *times.shape, selected.shape[1])

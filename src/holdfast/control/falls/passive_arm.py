@@ -28,7 +28,8 @@ class PassiveArm:
     """
 
     def __init__(self, arm: Arm) -> None:
-        self.arm = self.made_of = arm
+        self.arm = arm
+        self.made_of: object = arm
         sizes = dict.fromkeys(("free", "coulomb", "stiction", "load", "viscous", "brake_torque", "brake_damping"), arm.n)
         sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1)
         self.symbols = {name: ca.SX.sym(name, size) for name, size in sizes.items()}

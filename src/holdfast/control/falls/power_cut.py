@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.fall import FallOutcome, PowerLoss
 from holdfast.control.falls.friction import Brakes, Friction
@@ -13,7 +14,7 @@ from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import FloatArray, IndexArray, Rows
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.model import Arm
@@ -92,22 +93,8 @@ def power_loss(
     simulator = FallSimulator(arm, stops, conditions)
     _require_inertia(arm, simulator, starts[is_finite], joints)
     steps = np.full(len(starts), float(step))
-    states, errors = _simulate(simulator, starts[is_finite], start_rates[is_finite], duration, steps[is_finite])
-    if accuracy is not None:
-        finite_steps = steps[is_finite]
-        for _ in range(MOST_HALVINGS):
-            rows = np.flatnonzero(~(errors <= accuracy))
-            if not rows.size:
-                break
-            finite_steps[rows] /= 2
-            finer = simulator.run(
-                starts[is_finite][rows], start_rates[is_finite][rows], np.full(rows.size, duration), finite_steps[rows]
-            )
-            errors[rows] = 2 * np.linalg.norm(finer.tool - states.tool[rows], axis=1)
-            for name, value in vars(states).items():
-                value[rows] = getattr(finer, name)
-        steps[is_finite] = finite_steps
     rows = np.flatnonzero(is_finite)
+    states, errors, steps[rows] = _simulate(simulator, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
     fields = _collect_fields(simulator, starts[rows], start_rates[rows], states)
     fields["error"] = errors
     fields["status"] = np.where(states.is_finished, Status.OK, Status.INACCURATE).astype(np.uint8)
@@ -135,15 +122,25 @@ def power_loss(
 
 
 def _simulate(
-    simulator: FallSimulator, q: FloatArray, rates: FloatArray, duration: float, step: FloatArray
-) -> tuple[FallStates, FloatArray]:
-    """Return the states at the end, and the estimated errors (N,) of the tool points there, m."""
+    simulator: FallSimulator, q: FloatArray, rates: FloatArray, duration: float, step: FloatArray, accuracy: float | None
+) -> tuple[FallStates, FloatArray, FloatArray]:
+    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s."""
     until = np.full(len(q), float(duration))
-    coarse, fine = (simulator.run(q, rates, until, size) for size in (2 * step, step))
-    return fine, 2 * np.linalg.norm(fine.tool - coarse.tool, axis=1)
+    coarse, states = (simulator.run(q, rates, until, size) for size in (2 * step, step))
+    errors = 2 * np.linalg.norm(states.tool - coarse.tool, axis=1)
+    for _ in range(0 if accuracy is None else MOST_HALVINGS):
+        rows = np.flatnonzero(~(errors <= accuracy))
+        if not rows.size:
+            break
+        step[rows] /= 2
+        finer = simulator.run(q[rows], rates[rows], until[rows], step[rows])
+        errors[rows] = 2 * np.linalg.norm(finer.tool - states.tool[rows], axis=1)
+        for name, value in vars(states).items():
+            value[rows] = getattr(finer, name)
+    return states, errors, step
 
 
-def _collect_fields(simulator: FallSimulator, q: FloatArray, rates: FloatArray, states: FallStates) -> dict[str, FloatArray]:
+def _collect_fields(simulator: FallSimulator, q: FloatArray, rates: FloatArray, states: FallStates) -> Rows:
     """Return the fields of the result for falls from q (N, n)."""
     potential, kinetic = simulator.energies(q, rates)
     is_still = states.is_at_rest & (states.time == 0)
@@ -159,7 +156,7 @@ def _collect_fields(simulator: FallSimulator, q: FloatArray, rates: FloatArray, 
     }
 
 
-def _spread_rows(values: FloatArray, rows: FloatArray, count: int) -> FloatArray:
+def _spread_rows(values: NDArray[Any], rows: IndexArray, count: int) -> NDArray[Any]:
     """Return an array of ``count`` rows with these values in the given rows and NaN, or 0 for integers, in all others."""
     spread = np.full((count, *values.shape[1:]), np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
     spread[rows] = values
@@ -218,7 +215,7 @@ def _check_held_rates(arm: Arm, rates: FloatArray, is_free: FloatArray) -> None:
         )
 
 
-def _check_limits(arm: Arm, q: FloatArray, rows: FloatArray, is_free: FloatArray) -> None:
+def _check_limits(arm: Arm, q: FloatArray, rows: IndexArray, is_free: FloatArray) -> None:
     outside = np.argwhere(((q < arm.lower) | (q > arm.upper)) & (is_free == 1))
     if outside.size:
         row, joint = outside[0]
@@ -245,6 +242,6 @@ def _require_inertia(arm: Arm, simulator: FallSimulator, q: FloatArray, joints: 
             remaining = own - float(coupling @ np.linalg.solve(inertia[np.ix_(later, later)], coupling))
         if not remaining > NEGLIGIBLE_INERTIA_FRACTION * max(own, inertia.trace()):
             raise ArmError(
-                f"arm '{arm.name}', joint '{arm.joint_names[joint]}': its links have no inertia that resists its motion, so its "
-                "acceleration is not defined; give the links their inertia or the joint its armature"
+                f"arm '{arm.name}', joint '{arm.joint_names[joint]}': its links have no inertia that resists its motion, so "
+                "its acceleration is not defined; give the links their inertia or the joint its armature"
             )

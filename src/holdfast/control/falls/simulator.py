@@ -22,7 +22,7 @@ BLOCK_ROWS = 1 << 15
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FallStates:
-    """States of falls at their end, or when all joints came to rest.
+    """States of falls at their end, or from which on all joints are at rest.
 
     Attributes:
         q: (N, n) configurations, rad and m.

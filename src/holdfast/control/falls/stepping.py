@@ -4,10 +4,10 @@ A step is a trapezoidal rule with one mass matrix and one bias. Its change of th
 
     min  1/2 dv' A dv - p' dv + h sum_i beta_i |v_i + dv_i|    subject to    v_i + dv_i >= -e v_i at a lower stop,
 
-with ``A = M(q + h/2 v) + h/2 D`` and ``p = -h (C + g + D v)``. The solution is found by an active set that is part of the state:
-a call of the step solves the linear system of the present set, and if the solution contradicts the set, the call corrects the
-set and leaves the time unchanged. A step in which a joint reaches a stop or comes to rest is shortened to end there. An impact
-is a call of no duration, which changes only the rates.
+with ``A = M(q + h/2 v) + h/2 D`` and ``p = -h (C + g + D v)``. The solution is found by an active set, which is part of the
+state. A call of the step solves the linear system of the present set. If the solution contradicts the set, the call corrects
+the set and leaves the time unchanged. A step in which a joint reaches a stop or ceases to move is shortened to end there. An
+impact is a call of no duration, which changes only the rates.
 
 Sources: Moreau 1988 for impacts; Judice and Pires 1992 for the least-index rule, with which the search for the set is finite.
 """
@@ -44,12 +44,12 @@ TRIES_TOGETHER = 12  # corrections of the set that may change all joints; later 
 MOST_TRIES = 60
 STEPS_PER_CALL = 1
 
-# Modes of a joint. They have a meaning for joints at rest and at a stop; STOPPING also for moving joints. A joint that breaks
-# loose or slides has the sign of its motion.
-HELD = 0
-SLIDING = 1
-BREAKING_LOOSE = 2
-STOPPING = 3
+# Modes of a joint at rest or at a stop; only MODE_STOPPING also belongs to moving joints. The mode of a joint that breaks loose
+# or slides has the sign of its motion.
+MODE_HELD = 0
+MODE_SLIDING = 1
+MODE_BREAKING_LOOSE = 2
+MODE_STOPPING = 3
 
 
 @dataclass(frozen=True)
@@ -130,11 +130,11 @@ class DryFrictionStepper(PassiveArm):
         corrected_mode, excess = self._correct_set(parts, conditions, solution)
         is_contradictory = ca.logic_and(any_of(corrected_mode != mode), parts["tries"] < MOST_TRIES)
         sign = ca.sign(mode)
-        is_new = ca.logic_and(ca.fabs(mode) == BREAKING_LOOSE, conditions.resting_friction > conditions.sliding_friction)
+        is_new = ca.logic_and(ca.fabs(mode) == MODE_BREAKING_LOOSE, conditions.resting_friction > conditions.sliding_friction)
         is_loosening = ca.logic_and(any_of(is_new), ca.logic_not(is_impact))
         corrected = {
             **parts,
-            "mode": ca.if_else(is_contradictory, corrected_mode, ca.if_else(is_new, sign * SLIDING, mode)),
+            "mode": ca.if_else(is_contradictory, corrected_mode, ca.if_else(is_new, sign * MODE_SLIDING, mode)),
             "tries": parts["tries"] + 1,
             "step": h,
         }
@@ -149,12 +149,12 @@ class DryFrictionStepper(PassiveArm):
         """Solve the linear system in which each joint slides, is held, or rebounds as the present set has it."""
         rates, mode, free = parts["rates"], parts["mode"], self.symbols["free"]
         is_at_stop = ca.logic_or(conditions.at_lower, conditions.at_upper)
-        slides = ca.if_else(conditions.is_moving, mode != STOPPING, mode != HELD)
+        slides = ca.if_else(conditions.is_moving, mode != MODE_STOPPING, mode != MODE_HELD)
         is_loose = ca.logic_and(conditions.resting_friction <= 0, ca.logic_not(is_at_stop))
-        in_impact = ca.logic_or(ca.logic_not(is_at_stop), mode != HELD)
+        in_impact = ca.logic_or(ca.logic_not(is_at_stop), mode != MODE_HELD)
         is_active = free * ca.if_else(conditions.is_impact, in_impact, ca.logic_or(slides, is_loose))
         direction = ca.sign(ca.if_else(conditions.is_moving, rates, mode))
-        is_breaking = ca.logic_and(ca.logic_not(conditions.is_moving), ca.fabs(mode) == BREAKING_LOOSE)
+        is_breaking = ca.logic_and(ca.logic_not(conditions.is_moving), ca.fabs(mode) == MODE_BREAKING_LOOSE)
         friction = ca.if_else(is_breaking, conditions.resting_friction, conditions.sliding_friction)
         rebound = self.symbols["restitution"] * rates
         is_rebounding = ca.logic_and(conditions.hits, ca.fabs(rebound) > REST_RATE)
@@ -168,7 +168,7 @@ class DryFrictionStepper(PassiveArm):
     def _correct_set(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution) -> tuple[SX, SX]:
         """Return the modes (n,) without the contradictions of a solution, and these, N m and N."""
         mode, h = parts["mode"], conditions.h
-        is_held = ca.logic_and(ca.logic_not(solution.is_active), ca.logic_and(self.symbols["free"], mode != STOPPING))
+        is_held = ca.logic_and(ca.logic_not(solution.is_active), ca.logic_and(self.symbols["free"], mode != MODE_STOPPING))
         excess = ca.fabs(solution.reaction) - h * conditions.resting_friction
         is_unsupported = ca.if_else(solution.reaction < 0, ca.logic_not(conditions.at_upper), ca.logic_not(conditions.at_lower))
         gives_way = ca.logic_and(is_held, ca.logic_and(excess > 0, is_unsupported))
@@ -180,11 +180,11 @@ class DryFrictionStepper(PassiveArm):
             ca.logic_and(conditions.at_upper, beyond_target > RATE_ROUNDING),
         )
         is_wrong_motion = ca.if_else(conditions.is_impact, enters_stop, ca.logic_or(turns_back, enters_stop))
-        is_wrong_motion = ca.logic_and(solution.is_active, ca.logic_and(mode != HELD, is_wrong_motion))
-        is_wrong_motion = ca.logic_and(
-            is_wrong_motion, ca.logic_or(conditions.is_impact, ca.logic_not(conditions.is_moving))
+        is_wrong_motion = ca.logic_and(solution.is_active, ca.logic_and(mode != MODE_HELD, is_wrong_motion))
+        is_wrong_motion = ca.logic_and(is_wrong_motion, ca.logic_or(conditions.is_impact, ca.logic_not(conditions.is_moving)))
+        corrected = ca.if_else(
+            gives_way, -ca.sign(solution.reaction) * MODE_BREAKING_LOOSE, ca.if_else(is_wrong_motion, MODE_HELD, mode)
         )
-        corrected = ca.if_else(gives_way, -ca.sign(solution.reaction) * BREAKING_LOOSE, ca.if_else(is_wrong_motion, HELD, mode))
         duration = ca.if_else(h > 0, h, self.symbols["longest_step"])
         contradiction = ca.if_else(
             gives_way, excess / duration, ca.if_else(is_wrong_motion, 2 * conditions.resting_friction, 0.0)
@@ -197,7 +197,7 @@ class DryFrictionStepper(PassiveArm):
         return ca.if_else(corrects_all, corrected, ca.vertcat(*first_only)), contradiction
 
     def _find_event(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution) -> tuple[SX, SX]:
-        """Return the fraction of the step at which a joint first reaches a stop or comes to rest, and the modes for that.
+        """Return the fraction of the step at which a joint first reaches a stop or ceases to move, and the modes for that.
 
         The fraction is 1 if there is no event. The positions are parabolas over the step, and the rates straight lines.
         """
@@ -211,7 +211,7 @@ class DryFrictionStepper(PassiveArm):
         fraction = smallest(ca.vertcat(to_lower, to_upper, to_rest))
         fraction = ca.if_else(conditions.is_impact, 1.0, fraction)
         rests_first = ca.logic_and(is_stopping, to_rest <= fraction)
-        return fraction, ca.if_else(rests_first, STOPPING, ca.if_else(mode == STOPPING, HELD, mode))
+        return fraction, ca.if_else(rests_first, MODE_STOPPING, ca.if_else(mode == MODE_STOPPING, MODE_HELD, mode))
 
     def _advance(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution, excess: SX) -> dict[str, SX]:
         """Return the parts after a step, or after an impact."""
@@ -243,7 +243,7 @@ class DryFrictionStepper(PassiveArm):
 
 
 def _crossing_fraction(start: SX, end: SX, first: SX, second: SX) -> SX:
-    """Return the first x in (0, 1) at which ``start + first x + second x^2`` falls through 0, or 1 if ``end`` is not below 0."""
+    """Return the first x in (0, 1) at which ``start + first x + second x^2`` falls through 0; 1 if ``end`` is not below 0."""
     crosses = end < -STOP_TOLERANCE
     root = ca.sqrt(ca.if_else(crosses, first * first - 4 * second * start, 1.0))
     is_leaving = first > 0
