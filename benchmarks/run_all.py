@@ -29,6 +29,7 @@ WORKLOADS = (
     "certificate_search",
     "fault_monitor",
     "upper_bounds",
+    "falls",
     "spectral",
     "memory",
 )

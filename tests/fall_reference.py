@@ -146,7 +146,7 @@ class Reference:
                     kinds.append(("loose", i))
                 continue
             if self.coulomb[i] + self.load[i] + self.braked * self.brake_torque[i] > 0:
-                events.append(lambda s, y, i=i: sign[i] * y[n + i])
+                events.append(lambda s, y, i=i: sign[i] * y[n + i] + 1e-13)  # above 0 also for a joint that has just started
                 kinds.append(("rest", i))
             for limit, out in ((self.lower[i], -1), (self.upper[i], 1)):
                 if np.isfinite(limit):
