@@ -101,7 +101,7 @@ def power_loss(
     if accuracy is not None:
         fields["status"][~(errors <= accuracy)] = Status.INACCURATE
     fields["status"][~np.isfinite(states.q).all(axis=1)] = Status.NO_INERTIA
-    fields["code"][fields["status"] == Status.NO_INERTIA] = FallOutcome.UNKNOWN
+    fields["code"][~states.is_finished | (fields["status"] == Status.NO_INERTIA)] = FallOutcome.UNKNOWN
     values = {name: _spread_rows(value, rows, len(starts)) for name, value in fields.items()}
     values["status"][~is_finite] = Status.BAD_INPUT
     values["code"][~is_finite] = FallOutcome.UNKNOWN

@@ -215,12 +215,15 @@ class DryFrictionStepper(PassiveArm):
 
     def _advance(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution, excess: SX) -> dict[str, SX]:
         """Return the parts after a step, or after an impact."""
-        h, after = conditions.h, solution.rates
+        h = conditions.h
+        # A rate this small is rounding: with it, two joints could stop and start in turns, in ever shorter steps.
+        is_rounding = ca.logic_and(ca.fabs(solution.rates) < RATE_ROUNDING, conditions.resting_friction > 0)
+        after = ca.if_else(is_rounding, 0.0, solution.rates)
         q = parts["q"] + h / 2 * (parts["rates"] + after)
         for limit, outwards in ((self.lower, -1.0), (self.upper, 1.0)):
             arrives = ca.logic_and(outwards * (q - limit) >= -STOP_TOLERANCE, outwards * after > 0)
             arrives = ca.logic_and(arrives, ca.logic_not(conditions.is_impact))
-            q = ca.if_else(arrives, limit, q)
+            q = ca.if_else(ca.logic_or(arrives, outwards * (q - limit) > 0), limit, q)
             after = ca.if_else(ca.logic_and(arrives, outwards * after <= REST_RATE), 0.0, after)
         is_step = h > 0
         acceleration = ca.if_else(ca.logic_and(is_step, after != 0), solution.change / ca.if_else(is_step, h, 1.0), 0.0)
@@ -245,7 +248,7 @@ class DryFrictionStepper(PassiveArm):
 def _crossing_fraction(start: SX, end: SX, first: SX, second: SX) -> SX:
     """Return the first x in (0, 1) at which ``start + first x + second x^2`` falls through 0; 1 if ``end`` is not below 0."""
     crosses = end < -STOP_TOLERANCE
-    root = ca.sqrt(ca.if_else(crosses, first * first - 4 * second * start, 1.0))
+    root = ca.sqrt(ca.if_else(crosses, elementwise_max(first * first - 4 * second * start, 0.0), 1.0))
     is_leaving = first > 0
     leaving = -(first + root) / ca.if_else(ca.logic_and(crosses, is_leaving), 2 * second, 1.0)
     approaching = 2 * start / ca.if_else(ca.logic_and(crosses, ca.logic_not(is_leaving)), root - first, 1.0)
