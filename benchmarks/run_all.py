@@ -30,6 +30,7 @@ WORKLOADS = (
     "certificate_search",
     "fault_monitor",
     "upper_bounds",
+    "falls",
     "spectral",
     "memory",
 )

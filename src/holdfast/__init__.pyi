@@ -17,6 +17,10 @@ from holdfast.control.convergence import point_to_point as point_to_point
 from holdfast.control.convergence import workspace as workspace
 from holdfast.control.equilibria import basins as basins
 from holdfast.control.equilibria import stationary_points as stationary_points
+from holdfast.control.falls import Brakes as Brakes
+from holdfast.control.falls import Friction as Friction
+from holdfast.control.falls import PowerLoss as PowerLoss
+from holdfast.control.falls import power_loss as power_loss
 from holdfast.control.physics import Body as Body
 from holdfast.control.physics import BrakedDrop as BrakedDrop
 from holdfast.control.physics import Execution as Execution

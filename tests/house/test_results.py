@@ -52,7 +52,7 @@ RESULTS = named(
 # Numbers with their names: plain frozen dataclasses, parts of results, or made in a control cycle.
 VALUES = named(
     {
-        "": "BrakedDrop PoseSolutions",
+        "": "BrakedDrop PoseSolutions PowerLoss",
         "model.arms": "Builtin DHTable",
         "studies.assessment": "Structure Upgrade WeakJoint",
         "control": "Deviations",
@@ -86,7 +86,8 @@ THAWED = {"core.probability.Distribution"}  # values that are not frozen yet
 # Arms, tasks, settings: what an analysis is asked with.
 INPUTS = named(
     {
-        "": "Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region Servos Task",
+        "": "Brakes Friction Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region "
+        "Servos Task",
         "model.arm": "Chain",
         "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "model.cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",

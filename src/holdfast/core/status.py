@@ -56,6 +56,11 @@ class Status(SentenceEnum):
         "and its gradient are 0 by convention, and near here both change abruptly",
     )
     NOT_DEFINED = 9, "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention"
+    INACCURATE = (
+        10,
+        "the requested accuracy was not reached, because small differences grow too fast in this motion: shorten its duration "
+        "or accept a larger error",
+    )
     NOT_COMPUTED = 255, "not computed yet: resume the run"
 
 

@@ -140,6 +140,38 @@ def inertia_diagonal(arm: ArmData, c: CompositeBodies) -> SX:
     return ca.vertcat(*entries)
 
 
+def inertia_matrix(arm: ArmData, q: SX) -> SX:
+    """Return the joint-space inertia matrix (n, n), kg m^2, kg m and kg, armature included.
+
+    Column j contains the force and couple that give the composite body of joint j a unit acceleration of that joint. They act
+    on all earlier links, so they are expressed in the axes of one link after the other down to the base.
+
+    Source: Featherstone 2008, section 6.2.
+
+    Raises:
+        ArmError: The mass or inertia of a link is unknown, or impossible for a body.
+    """
+    require_possible_inertia(arm)
+    bodies, steps = composite_bodies(arm, q), joint_transforms(arm, q)
+    matrix = ca.SX(arm.n, arm.n)
+    for j, joint in enumerate(arm.joints):
+        axis = bodies.axes[j]
+        force = first_moment_rate(arm, bodies, j)
+        couple = ca.cross(bodies.moments[j], axis) if joint.prismatic else bodies.inertias[j] @ axis
+        matrix[j, j] = ca.dot(axis, force if joint.prismatic else couple) + joint.armature
+        for i in reversed(range(j)):  # to the axes of link i, about O of joint i
+            link_rotation, offset = split_transform(arm.joints[i + 1].origin)
+            force, couple = (link_rotation @ (steps[i + 1][0] @ vector) for vector in (force, couple))
+            couple = couple + ca.cross(offset + steps[i][1], force)
+            matrix[i, j] = matrix[j, i] = ca.dot(bodies.axes[i], force if arm.joints[i].prismatic else couple)
+    return matrix
+
+
+def potential_energy(c: CompositeBodies) -> SX:
+    """Return the potential energy of all links and the payload, J, up to a constant."""
+    return ca.dot(c.gravity[0], c.moments[0])
+
+
 # ---- the paper's derivatives, all vectors in the world's axes --------------------------------------------------------
 
 

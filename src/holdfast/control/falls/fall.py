@@ -1,0 +1,138 @@
+"""Result of the falls of an arm that lost its power."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.control.falls.friction import Brakes, Friction
+from holdfast.control.falls.simulator import FallSimulator, FallStates
+from holdfast.core.errors import InputError
+from holdfast.core.status import SentenceEnum, require_ok
+from holdfast.core.typing import FloatArray
+from holdfast.core.validation import require_real_numbers
+from holdfast.model.arm.model import Arm
+
+
+class FallOutcome(SentenceEnum):
+    """Outcome of one fall."""
+
+    HOLDS = 0, "holds: nothing moves"
+    REST = 1, "falls and then lies still"
+    MOVING = 2, "still moves at the end of the simulated time"
+    UNKNOWN = 3, "was not simulated, or not to the end: see the status"
+
+
+_OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
+
+
+@dataclass(frozen=True, kw_only=True)
+class PowerLoss:
+    """Falls of an arm of which some or all joints lost their torque, from N states; for a single state arrays lack the axis N.
+
+    All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. Contacts with
+    objects and between links are not simulated.
+
+    Attributes:
+        arm: The arm.
+        q: (N, n) configurations at the power loss, rad and m.
+        rates: (N, n) joint rates at the power loss, rad/s and m/s.
+        free: Indices from 0 of the joints that lost their torque.
+        friction: Friction of the joints.
+        brakes: Brakes; None without.
+        restitution: Ratio of the speeds after and before the impact of a joint on its stop.
+        stops: True if the limits of the arm stop its joints.
+        duration: Simulated time, s.
+        step: (N,) longest time step, s.
+        q_final: (N, n) configurations at the end, rad and m.
+        rates_final: (N, n) joint rates at the end, rad/s and m/s.
+        drop: (N,) largest displacement of the tool point along gravity within the duration, m.
+        released: (N,) energy released, J: potential and kinetic energy at the power loss, minus the potential energy at the
+            end. The part that is not kinetic energy at the end was dissipated.
+        rest_time: (N,) time from which on all joints are at rest, s; NaN if a joint still moves.
+        code: (N,) :class:`holdfast.control.falls.FallOutcome` of each fall.
+        status: (N,) :class:`holdfast.Status` of each fall.
+        error: (N,) estimated error of the tool point at the end, m. This is twice the distance between the results of two
+            simulations, of which one has steps twice as long.
+        residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N; 0 if none
+            does.
+    """
+
+    arm: Arm
+    q: FloatArray
+    rates: FloatArray
+    free: tuple[int, ...]
+    friction: Friction
+    brakes: Brakes | None
+    restitution: float
+    stops: bool
+    duration: float
+    step: FloatArray
+    q_final: FloatArray
+    rates_final: FloatArray
+    drop: FloatArray
+    released: FloatArray
+    rest_time: FloatArray
+    code: NDArray[np.uint8]
+    status: NDArray[np.uint8]
+    error: FloatArray
+    residual: FloatArray
+    _simulator: FallSimulator = field(repr=False, compare=False)
+
+    def __len__(self) -> int:
+        return int(np.size(self.code))
+
+    @property
+    def outcome(self) -> NDArray[np.str_]:
+        """(N,) outcome of each fall as text: ``holds``, ``rest``, ``moving`` or ``unknown``."""
+        return np.asarray(_OUTCOME_NAMES[self.code])
+
+    def q_at(self, time: ArrayLike) -> FloatArray:
+        """Return the configurations (N, n), rad and m, at a time since the power loss, s; (N, T, n) for times (T,)."""
+        return self._evaluate_at(time, lambda states: states.q)
+
+    def rates_at(self, time: ArrayLike) -> FloatArray:
+        """Return the joint rates (N, n), rad/s and m/s, at a time since the power loss, s; (N, T, n) for times (T,)."""
+        return self._evaluate_at(time, lambda states: states.rates)
+
+    def tool_at(self, time: ArrayLike) -> FloatArray:
+        """Return the tool points (N, 3) in the world, m, at a time since the power loss, s; (N, T, 3) for times (T,)."""
+        return self._evaluate_at(time, lambda states: states.tool)
+
+    def drop_at(self, time: ArrayLike) -> FloatArray:
+        """Return the displacements (N,) of the tool point along gravity, m, at a time, s; (N, T) for times (T,).
+
+        The displacement is negative where the tool is above its initial position.
+        """
+        displacement = self.tool_at(time)
+        start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
+        return np.asarray((displacement - start) @ self._simulator.stepper.down)
+
+    def require_ok(self) -> Self:
+        """Return the result itself, or raise :class:`holdfast.HoldfastError` that names the first fall without an answer."""
+        require_ok(self.status, "power loss")
+        return self
+
+    def _evaluate_at(self, time: ArrayLike, select: Callable[[FallStates], FloatArray]) -> FloatArray:
+        """Simulate all falls again up to each time, so that the steps before it are those of the whole fall."""
+        times = require_real_numbers(time, "time")
+        if times.ndim > 1 or not ((times >= 0) & (times <= self.duration)).all():
+            raise InputError(f"time is {time!r}; give one time or a list of times from 0 to the duration, {self.duration:g} s")
+        q, rates = np.atleast_2d(self.q), np.atleast_2d(self.rates)
+        rows = np.isfinite(q).all(axis=1) & np.isfinite(rates).all(axis=1)
+        all_times, count = np.atleast_1d(times), int(rows.sum())
+        repeat = len(all_times)
+        states = self._simulator.run(
+            np.repeat(q[rows], repeat, axis=0),
+            np.repeat(rates[rows], repeat, axis=0),
+            np.tile(all_times, count),
+            np.repeat(np.atleast_1d(self.step)[rows], repeat),
+        )
+        selected = select(states)
+        values = np.full((len(q), repeat, selected.shape[1]), np.nan)
+        values[rows] = selected.reshape(count, repeat, selected.shape[1])
+        return values.reshape(*self.q.shape[:-1], *times.shape, selected.shape[1])

@@ -1,0 +1,112 @@
+"""Dynamics of an arm without drives, as expressions for the steps of a fall."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import casadi as ca
+import numpy as np
+
+from holdfast.control.simulation.system import ParameterLayout, elementwise_min
+from holdfast.kernels.disk_cache import cached_kernel
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.linalg import solve_spd
+from holdfast.kernels.program import SX
+from holdfast.model.arm import dynamics, kinematics, statics
+from holdfast.model.arm.model import Arm
+
+TIME_ROUNDING_S = 1e-12  # s: two times that differ by less are equal
+
+
+class PassiveArm:
+    """Symbols of a row of falls, and the expressions that all steps need.
+
+    The parameters of a row are the mask ``free`` of the joints that lose their torque (n,); Coulomb friction, stiction, and
+    brake torque (n,), N m or N; the ``load`` share of friction (n,); viscous friction and the damping of the brakes (n,),
+    N m s/rad or N s/m; the ``brake_time``, s; the coefficient of ``restitution`` of the stops; the end ``until``, s; and the
+    ``longest_step``, s.
+    """
+
+    def __init__(self, arm: Arm) -> None:
+        self.arm = arm
+        self.made_of: object = arm
+        sizes = dict.fromkeys(("free", "coulomb", "stiction", "load", "viscous", "brake_torque", "brake_damping"), arm.n)
+        sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1)
+        self.symbols = {name: ca.SX.sym(name, size) for name, size in sizes.items()}
+        self.parameters = ParameterLayout(**self.symbols)
+        norm = float(np.linalg.norm(arm.gravity))
+        self.down = arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
+
+    def is_braked(self, time: SX) -> SX:
+        """Return 1 if the brakes act at a time, else 0."""
+        return time >= self.symbols["brake_time"] - TIME_ROUNDING_S
+
+    def damping(self, time: SX) -> SX:
+        """Return the viscous friction (n,), including that of the brakes."""
+        return self.symbols["viscous"] + self.is_braked(time) * self.symbols["brake_damping"]
+
+    def next_step(self, time: SX) -> SX:
+        """Return the duration of the next step, s, which ends at the latest when the brakes act or the fall ends."""
+        remaining, longest = self.symbols["until"] - time, self.symbols["longest_step"]
+        step = ca.if_else(remaining <= longest * (1 + 1e-9), remaining, longest)
+        return ca.if_else(self.is_braked(time), step, elementwise_min(step, self.symbols["brake_time"] - time))
+
+    def depth(self, q: SX) -> SX:
+        """Return the coordinate of the tool point along gravity, m."""
+        position = kinematics.split_transform(self.arm.tool)[1]
+        steps = kinematics.joint_transforms(self.arm, q)
+        for joint, (rotation, translation) in reversed(list(zip(self.arm.joints, steps, strict=True))):
+            link_rotation, offset = kinematics.split_transform(joint.origin)
+            position = offset + link_rotation @ (translation + rotation @ position)
+        return ca.dot(self.down, kinematics.constant_matrix(self.arm.base[:3, :3]) @ position + self.arm.base[:3, 3])
+
+    def accelerations(self, q: SX, rates: SX, damping: SX) -> SX:
+        """Return the joint accelerations (n,) with viscous friction alone; joints that are not free have none."""
+        torques = -(dynamics.bias_torques(self.arm, q, rates) + damping * rates)
+        return solve_selected(statics.inertia_matrix(self.arm, q), torques, self.symbols["free"], ca.SX(self.arm.n, 1))
+
+
+def solve_selected(matrix: SX, right_side: SX, selected: SX, fixed: SX) -> SX:
+    """Solve ``(A x)_i = b_i`` for the selected unknowns of a symmetric positive definite A, with all others fixed.
+
+    Args:
+        matrix: (n, n) matrix A.
+        right_side: (n,) vector b.
+        selected: (n,) 1 for an unknown, 0 for a fixed entry of x.
+        fixed: (n,) values of the fixed entries.
+    """
+    n = matrix.shape[0]
+    remaining = right_side - matrix @ ((1 - selected) * fixed)
+    rows = [[selected[i] * selected[k] * matrix[i, k] + (1 - selected[i] if i == k else 0) for k in range(n)] for i in range(n)]
+    solution = ca.vertcat(*solve_spd(rows, ca.vertsplit(ca.densify(selected * remaining))))
+    return ca.if_else(selected, solution, fixed)
+
+
+@cached_kernel
+def energy_kernel(arm: Arm) -> Kernel:
+    """Return the kernel ``q -> potential energy, inertia matrix (n, n)``, J and kg m^2."""
+    q = kinematics.joint_symbols(arm)
+    potential = statics.potential_energy(statics.composite_bodies(arm, q))
+    return Kernel("energy of the arm", [q], [potential, ca.densify(statics.inertia_matrix(arm, q))])
+
+
+def any_of(conditions: SX) -> SX:
+    """Return 1 if any condition of a vector holds, else 0."""
+    return ca.sum1(conditions) > 0
+
+
+def largest(values: SX) -> SX:
+    """Return the largest entry of a vector."""
+    return _fold(ca.vertsplit(ca.densify(values)), lambda a, b: ca.if_else(a > b, a, b))
+
+
+def smallest(values: SX) -> SX:
+    """Return the smallest entry of a vector."""
+    return _fold(ca.vertsplit(ca.densify(values)), elementwise_min)
+
+
+def _fold(values: list[SX], combine: Callable[[SX, SX], SX]) -> SX:
+    result = values[0]
+    for value in values[1:]:
+        result = combine(result, value)
+    return result

@@ -1,0 +1,137 @@
+"""Batches of falls in the compiled loops, in blocks of bounded memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from holdfast.control.falls.passive_arm import energy_kernel
+from holdfast.control.falls.smooth import SmoothStepper
+from holdfast.control.falls.stepping import DryFrictionStepper
+from holdfast.control.simulation.system import LARGE_NUMBER, STATE_AT_REST
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.kernels.kernel import Kernel
+from holdfast.model.arm.model import Arm
+
+MOST_CALLS_PER_STEP = 50  # on average over a fall, before its simulation is given up
+BLOCK_ROWS = 1 << 15
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FallStates:
+    """States of falls at their end, or from which on all joints are at rest.
+
+    Attributes:
+        q: (N, n) configurations, rad and m.
+        rates: (N, n) joint rates, rad/s and m/s.
+        tool: (N, 3) tool points in the world, m.
+        drop: (N,) largest displacement of the tool along gravity so far, m.
+        time: (N,) time of the state, s.
+        residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N.
+        is_at_rest: (N,) True if no joint moves any more.
+        is_finished: (N,) False if the simulation was given up.
+    """
+
+    q: FloatArray
+    rates: FloatArray
+    tool: FloatArray
+    drop: FloatArray
+    time: FloatArray
+    residual: FloatArray
+    is_at_rest: BoolArray
+    is_finished: BoolArray
+
+
+class FallSimulator:
+    """Falls of one arm under constant conditions.
+
+    Args:
+        arm: The arm.
+        has_stops: True if the limits of the arm stop its joints.
+        conditions: Parameters of :class:`holdfast.control.falls.passive_arm.PassiveArm`, all of them except ``until`` and
+            ``longest_step``.
+    """
+
+    def __init__(self, arm: Arm, has_stops: bool, conditions: dict[str, FloatArray | float]) -> None:
+        self.arm, self.conditions = arm, conditions
+        has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
+        is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
+        self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry else compiled_smooth_stepper(arm)
+        self.energy_kernel: Kernel = compiled_energy_kernel(arm)
+
+    def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
+        """Simulate falls up to given times.
+
+        Args:
+            q: (N, n) finite configurations at the power loss, rad and m.
+            rates: (N, n) finite joint rates at the power loss, rad/s and m/s.
+            until: (N,) times since the power loss, above 0, s.
+            step: (N,) longest steps, s.
+        """
+        blocks = [slice(start, start + BLOCK_ROWS) for start in range(0, len(q), BLOCK_ROWS)]
+        parts = [self._run_block(q[b], rates[b], until[b], step[b]) for b in track("blocks of falls", blocks)]
+        names = FallStates.__dataclass_fields__
+        if not parts:
+            return self._run_block(q, rates, until, step)
+        return FallStates(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in names})
+
+    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
+        stepper, rows = self.stepper, len(q)
+        start = self.tool_points(q)
+        states = np.zeros((rows, stepper.layout.size))
+        parts = stepper.layout.view_parts(states)
+        parts["q"][:], parts["rates"][:] = q, rates
+        parts["deepest"][:, 0] = start @ stepper.down
+        parameters = stepper.parameters.make_rows(rows, **self.conditions)
+        columns = stepper.parameters.view_parts(parameters)
+        columns["until"][:, 0], columns["longest_step"][:, 0] = until, step
+        most_calls = int(np.ceil((until / step).max(initial=0.0)) + 100) * MOST_CALLS_PER_STEP
+        result = stepper.loop.run(states, parameters, 0.5, most_calls)
+        parts = stepper.layout.view_parts(result.state)
+        end, time = parts["q"].copy(), parts["time"][:, 0].copy()
+        return FallStates(
+            q=end,
+            rates=parts["rates"].copy(),
+            tool=self.tool_points(end),
+            drop=parts["deepest"][:, 0] - start @ stepper.down,
+            time=time,
+            residual=parts["residual"][:, 0].copy(),
+            is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
+            is_finished=result.done,
+        )
+
+    def tool_points(self, q: FloatArray) -> FloatArray:
+        """Return the tool points (N, 3) in the world, m, of configurations (N, n)."""
+        return np.ascontiguousarray(self.arm.forward_kinematics(q)[:, :3, 3])
+
+    def energies(self, q: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return potential and kinetic energies (N,), J, of states (N, n); the first up to a constant."""
+        values = self.energy_kernel.rows(q)
+        inertia = values[:, 1:].reshape(-1, self.arm.n, self.arm.n)
+        return values[:, 0], np.einsum("ni,nij,nj->n", rates, inertia, rates) / 2
+
+
+@lru_cache(maxsize=16)
+def compiled_stepper(arm: Arm, has_stops: bool) -> DryFrictionStepper:
+    """Return the steps with dry friction of an arm, which are compiled once."""
+    return DryFrictionStepper(arm, has_stops)
+
+
+@lru_cache(maxsize=16)
+def compiled_smooth_stepper(arm: Arm) -> SmoothStepper:
+    """Return the steps without dry friction and stops of an arm, which are compiled once."""
+    return SmoothStepper(arm)
+
+
+@lru_cache(maxsize=16)
+def compiled_energy_kernel(arm: Arm) -> Kernel:
+    """Return the kernel of :func:`holdfast.control.falls.passive_arm.energy_kernel`, which is compiled once."""
+    return energy_kernel(arm)
+
+
+def never() -> float:
+    """Return the time of an event that does not happen, s; kernels turn infinity into NaN."""
+    return LARGE_NUMBER
