@@ -18,7 +18,6 @@ from holdfast.control.convergence import workspace as workspace
 from holdfast.control.equilibria import basins as basins
 from holdfast.control.equilibria import stationary_points as stationary_points
 from holdfast.control.falls import Brakes as Brakes
-from holdfast.control.falls import Friction as Friction
 from holdfast.control.falls import PowerLoss as PowerLoss
 from holdfast.control.falls import power_loss as power_loss
 from holdfast.control.physics import Body as Body
@@ -73,6 +72,7 @@ from holdfast.model import cell as cell
 from holdfast.model import collision as collision
 from holdfast.model.arm import DH as DH
 from holdfast.model.arm import Arm as Arm
+from holdfast.model.arm import Friction as Friction
 from holdfast.model.arm import Joint as Joint
 from holdfast.model.arm import Link as Link
 from holdfast.model.arm.task import Task as Task

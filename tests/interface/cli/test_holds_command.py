@@ -16,7 +16,7 @@ Q = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
 def test_it_is_the_library(ask):
     arm = hf.arms.load("panda").with_payload(hf.Link(0.5, np.zeros(3), np.zeros((3, 3)), name="payload"))
     options = ["--q", HOME, "--degrees", "--effort", "40%", "--coulomb", "1,2,3,1,2,3,1", "--payload", "0.5", "--free", "2,4"]
-    expected = hf.holds(arm, Q, effort=0.4, coulomb=[1, 2, 3, 1, 2, 3, 1], free=[1, 3])
+    expected = hf.holds(arm, Q, effort=0.4, friction=hf.Friction(coulomb=[1, 2, 3, 1, 2, 3, 1]), free=[1, 3])
     data = ask("holds", "panda", *options)
     assert data == expected.to_dict()
     assert (data["holds"], data["margin"], data["free"]) == (True, float(expected.margin), ["panda_joint2", "panda_joint4"])

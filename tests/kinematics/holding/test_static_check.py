@@ -49,7 +49,7 @@ def test_the_inequalities_of_pinocchio(rng):
         arm = friction_arm(rng)
         q, load, effort = snapped(arm, rng, 500), rng.uniform(0, 0.5, arm.n), rng.choice([0.0, 0.3])
         free = np.flatnonzero(rng.random(arm.n) < 0.7).tolist() or [0]
-        check = hf.holds(arm, q, free=free, load_friction=load, effort=effort)
+        check = hf.holds(arm, q, free=free, friction=hf.Friction(load=load), effort=effort)
         torque = oracles.generalized_gravity(arm, q)
         for row in range(len(q)):
             strengths = [
@@ -134,7 +134,7 @@ def test_nothing_moves_where_it_holds_and_something_where_not(rng):
         data = model.createData()
         q = snapped(arm, rng, 12)
         friction = rng.uniform(0.5, 1.5, arm.n) * np.abs(arm.gravity_torque(q[0])) + 3.0
-        check = hf.holds(arm, q, coulomb=friction)
+        check = hf.holds(arm, q, friction=hf.Friction(coulomb=friction))
         for row, x in enumerate(q):
             if abs(check.margin[row]) < 1e-6:
                 continue
@@ -168,8 +168,8 @@ def test_by_hand():
     assert check.least_effort == pytest.approx((9.81 - 4) / 20)
     assert np.isnan(check.largest_payload)
     assert hf.holds(arm, level, effort=1.0).largest_payload == pytest.approx((24 - 9.81) / 9.81)
-    assert hf.holds(arm, level, stiction=10).holds
-    assert hf.holds(arm, level, load_friction=0.6).margin == pytest.approx(4 + 0.6 * 9.81 - 9.81)
+    assert hf.holds(arm, level, friction=hf.Friction(stiction=10)).holds
+    assert hf.holds(arm, level, friction=hf.Friction(load=0.6)).margin == pytest.approx(4 + 0.6 * 9.81 - 9.81)
     lowered, raised = hf.holds(arm, [1.0]), hf.holds(arm, [-1.0])
     assert lowered.holds
     assert lowered.need == pytest.approx(-9.81 * np.cos(1))  # the stop carries it
@@ -222,11 +222,11 @@ def test_a_batch_is_its_rows(rng):
         ({"q": [np.nan]}, "NaN or infinity"),
         ({"free": []}, "no joint of 'rod' is named"),
         ({"free": ["k"]}, "has no joint 'k'"),
-        ({"coulomb": -1.0}, "coulomb is -1.0; it must be finite and 0 or more"),
-        ({"coulomb": np.inf}, "coulomb is inf"),
-        ({"coulomb": [1.0, 2.0]}, r"coulomb has shape \(2,\)"),
-        ({"coulomb": 2.0, "stiction": 1.0}, "stiction of joint 'j' is 1, below its Coulomb friction 2"),
-        ({"load_friction": 1.0}, "load_friction is 1; it must be below 1"),
+        ({"friction": hf.Friction(coulomb=-1.0)}, "coulomb friction of joint '.*' is -1; it must be a finite number of 0"),
+        ({"friction": hf.Friction(coulomb=np.inf)}, "coulomb friction of joint '.*' is inf"),
+        ({"friction": hf.Friction(coulomb=[1.0, 2.0])}, r"coulomb friction has shape \(2,\)"),
+        ({"friction": hf.Friction(coulomb=2.0, stiction=1.0)}, "stiction of joint 'j' is 1, below its coulomb friction 2"),
+        ({"friction": hf.Friction(load=1.0)}, "load fraction of friction of joint 'j' is 1; it must be below 1"),
         ({"effort": 35.0}, "effort is 35; it must be a fraction from 0 to 1"),
         ({"effort": 0.5}, "joint 'j' of 'rod' has no effort limit"),
     ],

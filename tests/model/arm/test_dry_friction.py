@@ -143,3 +143,31 @@ def test_friction_at_rest():
     made = hf.Joint("a", "revolute", np.eye(4), axis=np.array([0, 0, 1.0]), coulomb_friction=2.0)
     assert made.static_friction == 2.0
     assert replace(made, stiction=3.0).static_friction == 3.0
+
+
+def test_a_friction_file_states_some_joints_and_the_arm_the_others(tmp_path):
+    arm = hf.arms.load("panda")
+    file = tmp_path / "friction.yaml"
+    file.write_text("panda_joint2: {coulomb: 0.5, viscous: 0.1}\npanda_joint4: {stiction: 2, load: 0.1}\n")
+    read, stated = hf.Friction.from_file(file, arm).of_joints(arm), hf.Friction().of_joints(arm)
+    assert (read.coulomb[1], read.stiction[1], read.viscous[1], read.load[1]) == (0.5, 0.5, 0.1, 0)
+    assert (read.coulomb[3], read.stiction[3], read.load[3]) == (stated.coulomb[3], 2, 0.1)
+    np.testing.assert_array_equal(read.viscous[2:], stated.viscous[2:])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("elbow: {coulomb: 1}", "elbow"),
+        ("panda_joint2: {colomb: 1}", "give it a mapping with keys from coulomb, stiction, viscous, load"),
+        ("panda_joint2: 3", "joint 'panda_joint2' has 3; give it a mapping"),
+        ("panda_joint2: {coulomb: many}", "coulomb of joint 'panda_joint2'"),
+        ("panda_joint2: {coulomb: [1, 2]}", "coulomb of joint 'panda_joint2'"),
+        ("- 1", "see holdfast.Friction for an example"),
+    ],
+)
+def test_a_wrong_friction_file_is_refused_by_name(tmp_path, text, message):
+    file = tmp_path / "friction.yaml"
+    file.write_text(text)
+    with pytest.raises(hf.InputError, match=message):
+        hf.Friction.from_file(file, hf.arms.load("panda"))

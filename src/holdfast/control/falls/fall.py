@@ -9,12 +9,13 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.control.falls.friction import Brakes, Friction
+from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.errors import InputError
 from holdfast.core.status import SentenceEnum, require_ok
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import require_real_numbers
+from holdfast.model.arm.friction import JointFriction
 from holdfast.model.arm.model import Arm
 
 
@@ -42,7 +43,7 @@ class PowerLoss:
         q: (N, n) configurations at the power loss, rad and m.
         rates: (N, n) joint rates at the power loss, rad/s and m/s.
         free: Indices from 0 of the joints that lost their torque.
-        friction: Friction of the joints.
+        friction: Friction of each joint.
         brakes: Brakes; None without.
         restitution: Ratio of the speeds after and before the impact of a joint on its stop.
         stops: True if the limits of the arm stop its joints.
@@ -66,7 +67,7 @@ class PowerLoss:
     q: FloatArray
     rates: FloatArray
     free: tuple[int, ...]
-    friction: Friction
+    friction: JointFriction
     brakes: Brakes | None
     restitution: float
     stops: bool

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.fall import FallOutcome, PowerLoss
-from holdfast.control.falls.friction import Brakes, Friction
 from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
@@ -17,8 +16,10 @@ from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray, IndexArray, Rows
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.configurations import as_configurations
+from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_possible_inertia
+from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
 MAX_STEP_S = 0.02
 MOST_HALVINGS = 6  # of the time step, for the requested accuracy
@@ -32,7 +33,7 @@ def power_loss(
     q: ArrayLike,
     rates: ArrayLike | None = None,
     *,
-    free: Sequence[str | int] | None = None,
+    free: JointSet = None,
     friction: Friction | None = None,
     brakes: Brakes | None = None,
     restitution: float = 0.0,
@@ -52,7 +53,8 @@ def power_loss(
         arm: The arm, with inertial data for every link.
         q: (n,) configuration or (N, n) configurations at the power loss, rad and m.
         rates: (n,) or (N, n) joint rates at the power loss, rad/s and m/s. Default: all joints are at rest.
-        free: Names or indices from 0 of the joints that lose their torque. Default: all joints.
+        free: Joints that lose their torque: names and indices from 0, or one text with names and numbers from 1 between
+            commas. Default: all joints.
         friction: Friction of the joints. Default: as the arm states.
         brakes: Brakes of the joints in ``free``. Default: none.
         restitution: Ratio of the speeds of a joint after and before it hits its stop, 0 to 1.
@@ -72,7 +74,7 @@ def power_loss(
     Source: Moreau 1988 for the steps with dry friction and impacts.
     """
     starts, start_rates, is_single = _check_states(arm, q, rates)
-    joints = _check_free(arm, free)
+    joints = read_joint_set(arm, free)
     _check_options(restitution, duration, step, accuracy)
     require_possible_inertia(arm)
     is_free = np.zeros(arm.n)
@@ -81,11 +83,11 @@ def power_loss(
     _check_held_rates(arm, start_rates[is_finite], is_free)
     if stops:
         _check_limits(arm, starts[is_finite], np.flatnonzero(is_finite), is_free)
-    chosen_friction = friction or Friction()
+    joint_friction = (friction or Friction()).of_joints(arm)
     no_brakes = {"brake_torque": np.zeros(arm.n), "brake_damping": np.zeros(arm.n)}
     conditions: dict[str, FloatArray | float] = {
-        **chosen_friction.per_joint(arm),
-        **(no_brakes if brakes is None else brakes.per_joint(arm)),
+        **vars(joint_friction),
+        **(no_brakes if brakes is None else brakes.of_joints(arm)),
         "brake_time": never() if brakes is None else brakes.after,
         "restitution": restitution,
         "free": is_free,
@@ -111,7 +113,7 @@ def power_loss(
     return PowerLoss(
         arm=arm,
         free=joints,
-        friction=chosen_friction,
+        friction=joint_friction,
         brakes=brakes,
         restitution=float(restitution),
         stops=stops,
@@ -181,17 +183,6 @@ def _check_states(arm: Arm, q: ArrayLike, rates: ArrayLike | None) -> tuple[Floa
     is_single = is_single and start_rates.ndim == 1
     rows = max(len(starts), len(np.atleast_2d(start_rates)))
     return np.broadcast_to(starts, (rows, arm.n)), np.broadcast_to(start_rates, (rows, arm.n)), is_single
-
-
-def _check_free(arm: Arm, free: Sequence[str | int] | None) -> tuple[int, ...]:
-    if free is None:
-        return tuple(range(arm.n))
-    if isinstance(free, str):
-        raise InputError(f"free is '{free}'; give a list of joints, such as ['{arm.joint_names[0]}']")
-    joints = tuple(sorted(set(arm.joint_indices(free))))
-    if not joints:
-        raise InputError("free contains no joint; name at least one joint, or leave it out for all joints")
-    return joints
 
 
 def _check_options(restitution: float, duration: float, step: float, accuracy: float | None) -> None:

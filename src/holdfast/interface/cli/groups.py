@@ -29,6 +29,7 @@ from holdfast.model.arms.spec import ArmSpec, arm_specs_from_options, parse_held
 if TYPE_CHECKING:
     from holdfast.core.result import Result
     from holdfast.kinematics.paths import TimedPath
+    from holdfast.model.arm.friction import Friction
     from holdfast.model.arm.model import Arm
     from holdfast.model.arm.task import Task
     from holdfast.model.collision.clearance import Clearance
@@ -178,6 +179,45 @@ class MountingOptions:
             center_of_mass = numbers[1:] if numbers.size == 4 else np.zeros(3)
             arm = arm.with_payload(Link(float(numbers[0]), center_of_mass, np.zeros((3, 3)), name="payload"))
         return arm
+
+
+@dataclass(frozen=True)
+class FrictionOptions:
+    """Options for the friction of the joints."""
+
+    coulomb: Annotated[
+        str | None, "Dry friction of moving joints in N m (N): one number or one per joint. Default: that of the arm."
+    ] = None
+    stiction: Annotated[
+        str | None,
+        "Dry friction of joints at rest in N m (N): one number or one per joint. Default: --coulomb, or that of the arm.",
+    ] = None
+    viscous: Annotated[
+        str | None, "Viscous friction in N m s/rad (N s/m): one number or one per joint. Default: that of the arm."
+    ] = None
+    load_friction: Annotated[
+        str | None, "Friction that grows with the gravity torque, as a fraction of it: one number or one per joint.", "0"
+    ] = None
+    friction: Annotated[
+        Path | None, "File (YAML) with coulomb, stiction, viscous, and load of joints by name, instead of these options."
+    ] = None
+
+    def read_friction(self, arm: Arm) -> Friction:
+        """Return the friction that the options describe.
+
+        Raises:
+            InputError: A text contains no numbers, the file is wrong, or both are given.
+        """
+        from holdfast.model.arm.friction import Friction
+
+        texts = {"coulomb": self.coulomb, "stiction": self.stiction, "viscous": self.viscous, "load": self.load_friction}
+        given = {name: text for name, text in texts.items() if text is not None}
+        if self.friction is not None:
+            if given:
+                raise InputError("--friction is a file, so --coulomb, --stiction, --viscous, and --load-friction do not apply")
+            return Friction.from_file(self.friction, arm)
+        numbers = {name: read_numbers(f"--{name}", text, f"one number or {arm.n} numbers") for name, text in given.items()}
+        return Friction(**{name: values[0] if values.size == 1 else values for name, values in numbers.items()})
 
 
 CapsulesOption = Annotated[Path | None, "Capsule file (YAML) with the collision model of the links. Default: see --radius."]

@@ -15,9 +15,10 @@ from holdfast.core.errors import InputError
 from holdfast.core.result import Result
 from holdfast.core.status import Status, require_ok
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
-from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.core.validation import check_arguments
 from holdfast.model.arm import statics
 from holdfast.model.arm.configurations import as_configurations
+from holdfast.model.arm.friction import Friction, JointFriction
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
@@ -37,8 +38,7 @@ class HoldCheck(Result):
         arm: The arm.
         q: (N, n) configurations, rad and m.
         free: Indices from 0 of the joints without full motor torque; the motors of all other joints hold them.
-        friction: (n,) dry friction of each joint at rest without load, N m.
-        load_friction: (n,) additional friction of each joint, as a fraction of its gravity torque.
+        friction: Friction of each joint, of which ``stiction`` and ``load`` matter here.
         effort: Fraction of their effort limits that the motors of the free joints still provide.
         torque: (N, n) torques that hold the arm against gravity, N m.
         stop: (N, n) -1 for a joint at its lower stop, 1 at its upper stop, 2 between two stops without travel, else 0.
@@ -58,8 +58,7 @@ class HoldCheck(Result):
     arm: Arm
     q: FloatArray
     free: tuple[int, ...]
-    friction: FloatArray
-    load_friction: FloatArray
+    friction: JointFriction
     effort: float
     torque: FloatArray
     stop: NDArray[np.int8]
@@ -85,15 +84,13 @@ def holds(
     q: ArrayLike,
     *,
     free: JointSet = None,
-    coulomb: ArrayLike | None = None,
-    stiction: ArrayLike | None = None,
-    load_friction: ArrayLike = 0.0,
+    friction: Friction | None = None,
     effort: float = 0.0,
     stops: bool = True,
 ) -> HoldCheck:
     """Check whether an arm at rest stays where it is if joints lose their motor torque, or a part of it.
 
-    Friction is given as one number for all joints, or as n numbers. A joint at a limit, within 1e-4 rad or m, is carried by its
+    A joint at a limit, within 1e-4 rad or m, is carried by its
     stop if gravity pushes it there.
 
     Args:
@@ -101,10 +98,7 @@ def holds(
         q: (n,) or (N, n) configurations, rad and m.
         free: Joints without full torque: names and indices from 0, or one text with names and numbers from 1 between commas;
             default: all joints.
-        coulomb: Dry friction of moving joints, N m or N; default: that of the arm.
-        stiction: Dry friction of joints at rest, N m or N, at least ``coulomb``; default: ``coulomb`` if it is given, else that
-            of the arm.
-        load_friction: Friction that grows with the gravity torque of the joint, as a fraction of it, from 0 to below 1.
+        friction: Friction of the joints. Default: as the arm states.
         effort: Fraction of their effort limits that the motors of the free joints still provide, 0 to 1.
         stops: False if the limits of the arm are no stops.
 
@@ -120,14 +114,11 @@ def holds(
     joints = np.array(read_joint_set(arm, free))
     if not 0 <= effort <= 1:
         raise InputError(f"effort is {effort:g}; it must be a fraction from 0 to 1, for example 0.35 for 35 %")
-    friction = _read_static_friction(arm, coulomb, stiction)
-    load = _read_joint_numbers(arm, load_friction, "load_friction")
-    if (load >= 1).any():
-        raise InputError(f"load_friction is {load.max():g}; it must be below 1, because a joint with 1 never moves")
+    joint_friction = (friction or Friction()).of_joints(arm)
     stop = _find_stops(arm, rows) if stops else np.zeros(rows.shape, dtype=np.int8)
     torque = _without_rounding_noise(arm, arm.gravity_torque(rows))
     need = _needed_torque(torque, stop)
-    own_friction = friction + load * np.abs(torque)
+    own_friction = joint_friction.stiction + joint_friction.load * np.abs(torque)
     limits = np.array([joint.effort for joint in arm.joints])
     motors = _motor_torque(arm, joints, limits, effort)
     available = own_friction + motors
@@ -139,8 +130,7 @@ def holds(
         arm=arm,
         q=rows[selection],
         free=tuple(joints.tolist()),
-        friction=friction,
-        load_friction=load,
+        friction=joint_friction,
         effort=float(effort),
         torque=torque[selection],
         stop=stop[selection],
@@ -151,34 +141,11 @@ def holds(
         factor=factor.min(axis=1)[selection],
         joint=np.where(is_valid, joints[first], -1)[selection],
         least_effort=_least_effort(need - own_friction, limits)[selection],
-        largest_payload=_largest_payload(arm, rows, torque, stop, (motors + friction) / (1 - load))[selection],
+        largest_payload=_largest_payload(
+            arm, rows, torque, stop, (motors + joint_friction.stiction) / (1 - joint_friction.load)
+        )[selection],
         status=np.where(is_valid, Status.OK, Status.BAD_INPUT).astype(np.uint8)[selection],
     )
-
-
-def _read_joint_numbers(arm: Arm, value: ArrayLike, name: str) -> FloatArray:
-    numbers = require_real_numbers(value, name, f"one number or {arm.n} numbers")
-    if numbers.shape not in ((), (arm.n,)):
-        raise InputError(f"{name} has shape {numbers.shape}; give one number, or {arm.n} numbers, one per joint")
-    if not (np.isfinite(numbers) & (numbers >= 0)).all():
-        raise InputError(f"{name} is {numbers.tolist()}; it must be finite and 0 or more")
-    return np.broadcast_to(numbers, (arm.n,))
-
-
-def _read_static_friction(arm: Arm, coulomb: ArrayLike | None, stiction: ArrayLike | None) -> FloatArray:
-    """Return the largest friction (n,) of each joint at rest."""
-    sliding = np.array([joint.coulomb_friction for joint in arm.joints])
-    if coulomb is not None:
-        sliding = _read_joint_numbers(arm, coulomb, "coulomb")
-    if stiction is None:
-        return sliding if coulomb is not None else np.array([joint.static_friction for joint in arm.joints])
-    static = _read_joint_numbers(arm, stiction, "stiction")
-    for k in np.flatnonzero(static < sliding):
-        raise InputError(
-            f"stiction of joint '{arm.joint_names[k]}' is {static[k]:g}, below its Coulomb friction {sliding[k]:g}; give at "
-            "least that"
-        )
-    return static
 
 
 def _find_stops(arm: Arm, q: FloatArray) -> NDArray[np.int8]:

@@ -1,4 +1,5 @@
 from holdfast.model.arm.dh import DH as DH
+from holdfast.model.arm.friction import Friction as Friction
 from holdfast.model.arm.machine import GRAVITY as GRAVITY
 from holdfast.model.arm.machine import Chain as Chain
 from holdfast.model.arm.machine import Joint as Joint

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.interface.cli.groups import ArmSourceOptions, MountingOptions
+from holdfast.interface.cli.groups import ArmSourceOptions, FrictionOptions, MountingOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, DegreesOption, JsonOption, OutOption, QOption
-from holdfast.interface.cli.values import read_configuration, read_fraction, read_numbers
+from holdfast.interface.cli.values import read_configuration, read_fraction
 from holdfast.interface.presentation.results import print_result, write_outputs
 
 
@@ -18,20 +18,11 @@ def command(
     arm: ArmArgument,
     q: QOption,
     free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
-    coulomb: Annotated[
-        str | None, "Dry friction of moving joints in N m (N): one number or one per joint. Default: that of the arm."
-    ] = None,
-    stiction: Annotated[
-        str | None,
-        "Dry friction of joints at rest in N m (N): one number or one per joint. Default: --coulomb, or that of the arm.",
-    ] = None,
-    load_friction: Annotated[
-        str, "Friction that grows with the gravity torque, as a fraction of it: one number or one per joint."
-    ] = "0",
     effort: Annotated[str, "Fraction of the effort limits that the motors still provide, for example 35% or 0.35."] = "0",
     stops: Annotated[
         bool, typer.Option("--stops/--no-stops", help="Let joint limits carry the joints that gravity pushes against them.")
     ] = True,
+    friction: FrictionOptions = FrictionOptions(),
     placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
@@ -46,16 +37,10 @@ def command(
     Example: holdfast holds panda --q "0 -45 0 -135 0 90 45" --degrees --effort 35%
     """
     model = placement.mount_arm(chain.resolve_arm(arm))
-    friction: dict[str, Any] = {}
-    for name, text in (("coulomb", coulomb), ("stiction", stiction), ("load_friction", load_friction)):
-        if text is not None:
-            option = f"--{name.replace('_', '-')}"
-            numbers = read_numbers(option, text, f"one number or {model.n} numbers")
-            friction[name] = numbers[0] if numbers.size == 1 else numbers
     fraction = read_fraction("--effort", effort)
     configurations = [read_configuration(model, text, degrees) for text in q]
     rows = configurations[0] if len(configurations) == 1 else np.array(configurations)
-    check = hf.holds(model, rows, free=free, effort=fraction, stops=stops, **friction)
+    check = hf.holds(model, rows, free=free, effort=fraction, stops=stops, friction=friction.read_friction(model))
     print_result(check, json_, write_outputs(check, None, out))
     if not np.all(check.holds):
         raise typer.Exit(NOT_MET_EXIT_CODE)

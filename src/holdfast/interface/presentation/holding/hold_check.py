@@ -23,8 +23,8 @@ def to_dict(check: HoldCheck) -> dict[str, Any]:
         **check.arm.entry(),
         "q": check.q,
         "free": [names[k] for k in check.free],
-        "friction": dict(zip(names, check.friction, strict=True)),
-        "load_friction": dict(zip(names, check.load_friction, strict=True)),
+        "friction": dict(zip(names, check.friction.stiction, strict=True)),
+        "load_friction": dict(zip(names, check.friction.load, strict=True)),
         "effort": check.effort,
         **{key: getattr(check, key) for key in ("holds", "margin", "factor", "least_effort")},
         "joint": first[0] if check.q.ndim == 1 else first,
@@ -42,7 +42,9 @@ def present(check: HoldCheck) -> Presentation:
     free = "all joints" if len(check.free) == arm.n else ", ".join(arm.joint_names[k] for k in check.free)
     motors = f"with {format_percent(check.effort)} of the effort limits" if check.effort else "without motor torque"
     notices = (
-        [] if check.friction.any() else [Notice("No dry friction is given by the arm or the options, so it is 0.", "note")]
+        []
+        if check.friction.stiction.any()
+        else [Notice("No dry friction is given by the arm or the options, so it is 0.", "note")]
     )
     if single and check.holds and check.margin == 0:
         notices.append(Notice(f"{arm.joint_names[check.joint]} has no margin, so any disturbance moves it.", "warn"))
@@ -55,7 +57,7 @@ def present(check: HoldCheck) -> Presentation:
         tables=[_tabulate_joints(check) if single else _tabulate_rows(check)],
         method=[
             ("Model", "arm at rest; gravity against dry friction at rest, stops, and motors of each joint; closed form"),
-            ("Dry friction", ", ".join(_format_torques(check, check.friction))),
+            ("Dry friction", ", ".join(_format_torques(check, check.friction.stiction))),
         ],
         arm=arm,
     )
