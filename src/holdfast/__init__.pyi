@@ -17,9 +17,15 @@ from holdfast.control.convergence import point_to_point as point_to_point
 from holdfast.control.convergence import workspace as workspace
 from holdfast.control.equilibria import basins as basins
 from holdfast.control.equilibria import stationary_points as stationary_points
+from holdfast.control.falls import BrakeComparison as BrakeComparison
 from holdfast.control.falls import Brakes as Brakes
+from holdfast.control.falls import DropCurve as DropCurve
+from holdfast.control.falls import DropProbability as DropProbability
 from holdfast.control.falls import PowerLoss as PowerLoss
+from holdfast.control.falls import compare_brakes as compare_brakes
 from holdfast.control.falls import power_loss as power_loss
+from holdfast.control.falls import power_loss_along as power_loss_along
+from holdfast.control.falls import power_loss_probability as power_loss_probability
 from holdfast.control.physics import Body as Body
 from holdfast.control.physics import BrakedDrop as BrakedDrop
 from holdfast.control.physics import Execution as Execution
@@ -95,6 +101,9 @@ from holdfast.response.recovery import PoseExplanation as PoseExplanation
 from holdfast.response.recovery import Recovery as Recovery
 from holdfast.response.recovery import explain_ik as explain_ik
 from holdfast.response.recovery import recover as recover
+from holdfast.response.stowing import StowPath as StowPath
+from holdfast.response.stowing import StowPose as StowPose
+from holdfast.response.stowing import stow as stow
 from holdfast.response.supervisor import FaultRun as FaultRun
 from holdfast.response.supervisor import simulate_faults as simulate_faults
 from holdfast.studies import designs as designs

@@ -1,4 +1,10 @@
+from holdfast.control.falls.along import DropCurve as DropCurve
+from holdfast.control.falls.along import power_loss_along as power_loss_along
+from holdfast.control.falls.brake_curve import BrakeComparison as BrakeComparison
+from holdfast.control.falls.brake_curve import compare_brakes as compare_brakes
 from holdfast.control.falls.brakes import Brakes as Brakes
 from holdfast.control.falls.fall import FallOutcome as FallOutcome
 from holdfast.control.falls.fall import PowerLoss as PowerLoss
 from holdfast.control.falls.power_cut import power_loss as power_loss
+from holdfast.control.falls.probability import DropProbability as DropProbability
+from holdfast.control.falls.probability import power_loss_probability as power_loss_probability

@@ -1,0 +1,3 @@
+from holdfast.response.stowing.path import StowPath as StowPath
+from holdfast.response.stowing.pose import StowPose as StowPose
+from holdfast.response.stowing.pose import stow as stow
