@@ -3,6 +3,7 @@ from holdfast.control.falls.along import power_loss_along as power_loss_along
 from holdfast.control.falls.brake_curve import BrakeComparison as BrakeComparison
 from holdfast.control.falls.brake_curve import compare_brakes as compare_brakes
 from holdfast.control.falls.brakes import Brakes as Brakes
+from holdfast.control.falls.contact import FallContacts as FallContacts
 from holdfast.control.falls.fall import FallOutcome as FallOutcome
 from holdfast.control.falls.fall import PowerLoss as PowerLoss
 from holdfast.control.falls.power_cut import power_loss as power_loss

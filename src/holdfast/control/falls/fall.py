@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
+from holdfast.control.falls.contact import FallContacts
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.errors import InputError
 from holdfast.core.status import SentenceEnum, require_ok
@@ -26,6 +27,7 @@ class FallOutcome(SentenceEnum):
     REST = 1, "falls and then lies still"
     MOVING = 2, "still moves at the end of the simulated time"
     UNKNOWN = 3, "was not simulated, or not to the end: see the status"
+    CONTACT = 4, "touches an object or itself, where the simulation ends"
 
 
 _OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
@@ -35,8 +37,8 @@ _OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
 class PowerLoss:
     """Falls of an arm of which some or all joints lost their torque, from N states; for a single state arrays lack the axis N.
 
-    All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. Contacts with
-    objects and between links are not simulated.
+    All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. A
+    fall with a contact ends there, so all values at the end are those at the contact, and ``drop`` is a lower bound.
 
     Attributes:
         arm: The arm.
@@ -58,9 +60,10 @@ class PowerLoss:
         code: (N,) :class:`holdfast.control.falls.FallOutcome` of each fall.
         status: (N,) :class:`holdfast.Status` of each fall.
         error: (N,) estimated error of the tool point at the end, m. This is twice the distance between the results of two
-            simulations, of which one has steps twice as long.
+            simulations at the same time, of which one has steps twice as long and does not end at a contact.
         residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N; 0 if none
             does.
+        contacts: First contacts; None if they were not searched for.
     """
 
     arm: Arm
@@ -82,6 +85,7 @@ class PowerLoss:
     status: NDArray[np.uint8]
     error: FloatArray
     residual: FloatArray
+    contacts: FallContacts | None
     _simulator: FallSimulator = field(repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -89,7 +93,7 @@ class PowerLoss:
 
     @property
     def outcome(self) -> NDArray[np.str_]:
-        """(N,) outcome of each fall as text: ``holds``, ``rest``, ``moving`` or ``unknown``."""
+        """(N,) outcome of each fall as text: ``holds``, ``rest``, ``moving``, ``contact`` or ``unknown``."""
         return np.asarray(_OUTCOME_NAMES[self.code])
 
     def q_at(self, time: ArrayLike) -> FloatArray:
@@ -125,12 +129,13 @@ class PowerLoss:
             raise InputError(f"time is {time!r}; give one time or a list of times from 0 to the duration, {self.duration:g} s")
         q, rates = np.atleast_2d(self.q), np.atleast_2d(self.rates)
         rows = np.isfinite(q).all(axis=1) & np.isfinite(rates).all(axis=1)
-        all_times, count = np.atleast_1d(times), int(rows.sum())
-        repeat = len(all_times)
+        ends = np.full(len(q), self.duration if self.contacts is None else self.contacts.time)
+        all_times = np.fmin(np.atleast_1d(times), ends[rows, None])  # a fall remains where its contact is
+        count, repeat = all_times.shape
         states = self._simulator.run(
             np.repeat(q[rows], repeat, axis=0),
             np.repeat(rates[rows], repeat, axis=0),
-            np.tile(all_times, count),
+            all_times.ravel(),
             np.repeat(np.atleast_1d(self.step)[rows], repeat),
         )
         selected = select(states)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
+from holdfast.control.falls.contact import ContactSearch, FallContacts, collect_contact_fields
 from holdfast.control.falls.fall import FallOutcome, PowerLoss
 from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
@@ -19,6 +20,8 @@ from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_possible_inertia
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
 MAX_STEP_S = 0.02
@@ -39,14 +42,18 @@ def power_loss(
     restitution: float = 0.0,
     stops: bool = True,
     duration: float = 2.0,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     step: float = 2e-3,
     accuracy: float | None = None,
 ) -> PowerLoss:
     """Simulate how an arm falls after its joints lose their torque.
 
     From time 0 on the joints in ``free`` transmit only friction. All other joints are held exactly. With dry friction or stops
-    the steps have order 2 and contain stiction, impacts on the stops, and brakes; otherwise they have order 4. Contacts with
-    objects and between links are not simulated. Each fall is simulated twice, the second time with twice the step, for its
+    the steps have order 2 and contain stiction, impacts on the stops, and brakes; otherwise they have order 4. With a cell or a
+    clearance a fall ends at the first contact of the arm with an object or with itself; without them contacts are not
+    simulated. Contacts are those of the spheres and capsules around the links, so they come early rather than late. Each fall
+    is simulated twice, the second time with twice the step, for its
     ``error``. A frictionless arm without stops is chaotic: after about a second its error may be as large as the arm.
 
     Args:
@@ -59,7 +66,10 @@ def power_loss(
         brakes: Brakes of the joints in ``free``. Default: none.
         restitution: Ratio of the speeds of a joint after and before it hits its stop, 0 to 1.
         stops: True if the limits of the arm stop its joints.
-        duration: Simulated time, s. A fall ends earlier if all joints are at rest.
+        duration: Simulated time, s. A fall ends earlier if all joints are at rest, and at its first contact.
+        clearance: Collision model of the arm, with or without a cell; True: the default model; False: the arm is not checked
+            against itself. None without a cell: contacts are not simulated.
+        cell: Objects around the arm, or their file.
         step: Longest time step, s, at most 0.02 s.
         accuracy: Largest ``error`` of a fall, m. The step of a fall is halved up to 6 times to reach it; falls that do not
             reach it have the status ``INACCURATE``. Default: the step is not changed.
@@ -68,7 +78,8 @@ def power_loss(
         A :class:`holdfast.PowerLoss`. A row with NaN has the status ``BAD_INPUT``.
 
     Raises:
-        InputError: An argument is wrong, a configuration is outside the limits that stop the arm, or a held joint moves.
+        InputError: An argument is wrong, a configuration is outside the limits that stop the arm or inside an object of the
+            cell, or a held joint moves.
         ArmError: Inertial data are missing or impossible, or a free joint carries no inertia.
 
     Source: Moreau 1988 for the steps with dry friction and impacts.
@@ -96,8 +107,13 @@ def power_loss(
     _require_inertia(arm, simulator, starts[is_finite], joints)
     steps = np.full(len(starts), float(step))
     rows = np.flatnonzero(is_finite)
-    states, errors, steps[rows] = _simulate(simulator, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
+    model = chosen_clearance(arm, clearance, cell, looks=False)
+    search = None if model is None else ContactSearch(simulator, model, starts[rows], duration)
+    initial = None if search is None else search.find_initial_contacts(starts[rows], rows)
+    simulated = _simulate(simulator, search, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
+    states, errors, steps[rows], contact_time, pair = simulated
     fields = _collect_fields(simulator, starts[rows], start_rates[rows], states)
+    fields["code"][pair >= 0] = FallOutcome.CONTACT
     fields["error"] = errors
     fields["status"] = np.where(states.is_finished, Status.OK, Status.INACCURATE).astype(np.uint8)
     if accuracy is not None:
@@ -108,8 +124,13 @@ def power_loss(
     values["status"][~is_finite] = Status.BAD_INPUT
     values["code"][~is_finite] = FallOutcome.UNKNOWN
     values |= {"q": starts, "rates": start_rates, "step": steps}
+    contacts: Rows = {}
+    if model is not None and initial is not None:
+        contacts = collect_contact_fields(simulator, model, states.q, states.rates, contact_time, pair) | {"initial": initial}
+        contacts = {name: _spread_rows(value, rows, len(starts)) for name, value in contacts.items()}
+        contacts["pair"][~is_finite] = -1
     if is_single:
-        values = {name: value[0] for name, value in values.items()}
+        values, contacts = ({name: value[0] for name, value in part.items()} for part in (values, contacts))
     return PowerLoss(
         arm=arm,
         free=joints,
@@ -118,16 +139,29 @@ def power_loss(
         restitution=float(restitution),
         stops=stops,
         duration=float(duration),
+        contacts=None if model is None else FallContacts(pair_names=tuple(model.pair_names), **contacts),
         _simulator=simulator,
         **values,
     )
 
 
 def _simulate(
-    simulator: FallSimulator, q: FloatArray, rates: FloatArray, duration: float, step: FloatArray, accuracy: float | None
-) -> tuple[FallStates, FloatArray, FloatArray]:
-    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s."""
-    until = np.full(len(q), float(duration))
+    simulator: FallSimulator,
+    search: ContactSearch | None,
+    q: FloatArray,
+    rates: FloatArray,
+    duration: float,
+    step: FloatArray,
+    accuracy: float | None,
+) -> tuple[FallStates, FloatArray, FloatArray, FloatArray, IndexArray]:
+    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s.
+
+    The other results are the times (N,) of the first contacts, s, and their pairs (N,): NaN and -1 for none.
+    """
+    time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
+    if search is not None:
+        time, pair = search.run(q, rates, np.full(len(q), float(duration)), step)
+    until = np.fmin(time, duration)
     coarse, states = (simulator.run(q, rates, until, size) for size in (2 * step, step))
     errors = 2 * np.linalg.norm(states.tool - coarse.tool, axis=1)
     for _ in range(0 if accuracy is None else MOST_HALVINGS):
@@ -135,11 +169,16 @@ def _simulate(
         if not rows.size:
             break
         step[rows] /= 2
+        coarse_tool = states.tool[rows]
+        if search is not None:
+            time[rows], pair[rows] = search.run(q[rows], rates[rows], np.full(len(rows), float(duration)), step[rows])
+            until[rows] = np.fmin(time[rows], duration)
+            coarse_tool = simulator.run(q[rows], rates[rows], until[rows], 2 * step[rows]).tool
         finer = simulator.run(q[rows], rates[rows], until[rows], step[rows])
-        errors[rows] = 2 * np.linalg.norm(finer.tool - states.tool[rows], axis=1)
+        errors[rows] = 2 * np.linalg.norm(finer.tool - coarse_tool, axis=1)
         for name, value in vars(states).items():
             value[rows] = getattr(finer, name)
-    return states, errors, step
+    return states, errors, step, time, pair
 
 
 def _collect_fields(simulator: FallSimulator, q: FloatArray, rates: FloatArray, states: FallStates) -> Rows:

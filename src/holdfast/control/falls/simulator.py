@@ -56,7 +56,7 @@ class FallSimulator:
     """
 
     def __init__(self, arm: Arm, has_stops: bool, conditions: dict[str, FloatArray | float]) -> None:
-        self.arm, self.conditions = arm, conditions
+        self.arm, self.has_stops, self.conditions = arm, has_stops, conditions
         has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
         self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry else compiled_smooth_stepper(arm)
@@ -78,17 +78,23 @@ class FallSimulator:
             return self._run_block(q, rates, until, step)
         return FallStates(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in names})
 
-    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
-        stepper, rows = self.stepper, len(q)
-        start = self.tool_points(q)
-        states = np.zeros((rows, stepper.layout.size))
-        parts = stepper.layout.view_parts(states)
+    def make_rows(
+        self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
+    ) -> tuple[FloatArray, FloatArray, int]:
+        """Return the states and the parameters of the loop for falls, and the number of calls after which they are given up."""
+        states = np.zeros((len(q), self.stepper.layout.size))
+        parts = self.stepper.layout.view_parts(states)
         parts["q"][:], parts["rates"][:] = q, rates
-        parts["deepest"][:, 0] = start @ stepper.down
-        parameters = stepper.parameters.make_rows(rows, **self.conditions)
-        columns = stepper.parameters.view_parts(parameters)
+        parts["deepest"][:, 0] = self.tool_points(q) @ self.stepper.down
+        parameters = self.stepper.parameters.make_rows(len(q), **self.conditions)
+        columns = self.stepper.parameters.view_parts(parameters)
         columns["until"][:, 0], columns["longest_step"][:, 0] = until, step
-        most_calls = int(np.ceil((until / step).max(initial=0.0)) + 100) * MOST_CALLS_PER_STEP
+        return states, parameters, int(np.ceil((until / step).max(initial=0.0)) + 100) * MOST_CALLS_PER_STEP
+
+    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
+        stepper = self.stepper
+        states, parameters, most_calls = self.make_rows(q, rates, until, step)
+        start = stepper.layout.view_parts(states)["deepest"][:, 0].copy()
         result = stepper.loop.run(states, parameters, 0.5, most_calls)
         parts = stepper.layout.view_parts(result.state)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
@@ -96,7 +102,7 @@ class FallSimulator:
             q=end,
             rates=parts["rates"].copy(),
             tool=self.tool_points(end),
-            drop=parts["deepest"][:, 0] - start @ stepper.down,
+            drop=parts["deepest"][:, 0] - start,
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,

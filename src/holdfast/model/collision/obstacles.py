@@ -229,25 +229,35 @@ class Obstacles:
     def find_nearest_gap(self, q: FloatArray) -> NearestGap:
         """Return the pair with the smallest margin at one configuration (n,)."""
         margin, pair, _ = (value[0] for value in self.nearest_margin_and_gradient(q[None]))
-        link, object_index = self.pairs[pair]
-        solid, on_link = self.cell.objects[object_index], self.spheres.link == link
-        pose = self.arm.frames(q)[link + 1]
-        centers = self.spheres.center[on_link] @ pose[:3, :3].T + pose[:3, 3]
-        distances = solid.signed_distance(centers)
-        nearest_sphere = int((distances - self.spheres.radius[on_link]).argmin())
-        center = centers[nearest_sphere]
-        if isinstance(solid, PrimitiveSolid):
-            gradient = outward_gradient_kernel()(center, solid.numbers())
-        else:
-            gradient = solid.distance_and_gradient(center)[1]
-        outward = gradient / max(float(np.linalg.norm(gradient)), 1e-300)
+        on_arm, on_object, _ = self.find_closest_points(int(pair), self.arm.frames(q)[None, self.pairs[pair, 0] + 1])
         return NearestGap(
             pair=int(pair),
             distance=float(margin + self.margins[pair]),
             margin=float(margin),
-            on_arm=center - self.spheres.radius[on_link][nearest_sphere] * outward,
-            on_object=center - distances[nearest_sphere] * outward,
+            on_arm=on_arm[0],
+            on_object=on_object[0],
         )
+
+    def find_closest_points(self, pair: int, link_poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the closest points of a link and an object, and the unit vector away from the object, (N, 3) each, m.
+
+        Args:
+            pair: Position in ``pairs``.
+            link_poses: (N, 4, 4) poses of the frame that moves with the link.
+        """
+        link, object_index = self.pairs[pair]
+        solid, on_link, rows = self.cell.objects[object_index], self.spheres.link == link, np.arange(len(link_poses))
+        centers = self.spheres.center[on_link] @ link_poses[:, :3, :3].swapaxes(1, 2) + link_poses[:, None, :3, 3]
+        distances = solid.signed_distance(centers)
+        nearest_sphere = (distances - self.spheres.radius[on_link]).argmin(axis=1)
+        center, distance = centers[rows, nearest_sphere], distances[rows, nearest_sphere]
+        if isinstance(solid, PrimitiveSolid):
+            gradient = outward_gradient_kernel().rows(center, solid.numbers())
+        else:
+            gradient = solid.distance_and_gradient(center)[1]
+        outward = gradient / np.maximum(np.linalg.norm(gradient, axis=1, keepdims=True), 1e-300)
+        on_arm = center - self.spheres.radius[on_link][nearest_sphere, None] * outward
+        return on_arm, center - distance[:, None] * outward, outward
 
     def lipschitz_bounds(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Bound the change of the distance of each pair per rad and m of each joint in a box, (L K, n).

@@ -1,0 +1,299 @@
+"""First contacts of falls with the objects of a cell, and of the arm with itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from holdfast.control.falls.simulator import FallSimulator
+from holdfast.core.errors import InputError
+from holdfast.core.progress import track
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
+from holdfast.kernels.kernel import Kernel
+from holdfast.model.arm.configurations import sampling_limits
+from holdfast.model.collision.capsules import BASE_LINK
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.contacts import MIN_DISTANCE_CHANGE_M, Contact
+from holdfast.model.collision.segments import LineSegment, closest_parameters
+
+CHECK_SPACING_S = 0.01  # simulated time between two computations of the distances
+REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
+BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
+INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # of a span of time in which a contact is possible, where it is split
+
+
+@dataclass(frozen=True, kw_only=True)
+class FallContacts:
+    """First contacts of N falls; for a single fall arrays lack the axis N.
+
+    A contact is the first time at which the lower bound of the distance of a pair is 0. Numbers of falls without contact are
+    NaN.
+
+    Attributes:
+        pair_names: Names of the P checked pairs, as in :attr:`holdfast.Clearance.pair_names`.
+        pair: (N,) position of the touching pair in ``pair_names``; -1 for a fall without contact.
+        time: (N,) time since the power loss, s.
+        point: (N, 3) point of the contact on the link, in the world, m.
+        normal: (N, 3) unit vector in the world from the object to the link.
+        normal_speed: (N,) speed at which the link approaches the object along the normal, m/s.
+        effective_mass: (N,) mass of the arm at the contact along the normal, kg. All joints without power take part, and the
+            object is fixed.
+        energy_lost: (N,) kinetic energy that the contact dissipates if it is plastic, J.
+        kinetic_energy: (N,) kinetic energy of the arm just before the contact, J.
+        initial: (N, P) True for a pair that touches at the power loss. It is ignored until its distance is 1 mm.
+    """
+
+    pair_names: tuple[str, ...]
+    pair: IndexArray
+    time: FloatArray
+    point: FloatArray
+    normal: FloatArray
+    normal_speed: FloatArray
+    effective_mass: FloatArray
+    energy_lost: FloatArray
+    kinetic_energy: FloatArray
+    initial: BoolArray
+
+    def first(self, row: int = 0) -> Contact | None:
+        """Return the contact of one fall, with its sentence; None for a fall without contact."""
+        pair = int(np.atleast_1d(self.pair)[row])
+        if pair < 0:
+            return None
+        link, _, other = self.pair_names[pair].partition(" & ")
+        return Contact(run=row, time=float(np.atleast_1d(self.time)[row]), link=link, object=other, depth=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Instant:
+    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances of all pairs (R, P), m."""
+
+    time: FloatArray
+    q: FloatArray
+    rates: FloatArray
+    distances: FloatArray
+
+    def select(self, rows: IndexArray | BoolArray) -> _Instant:
+        """Return some of the falls."""
+        return _Instant(**{name: value[rows] for name, value in vars(self).items()})
+
+    @classmethod
+    def join(cls, first: _Instant, second: _Instant, count: int) -> _Instant:
+        """Return the instants of ``count`` spans in order: those of a span in the first, then those in the second."""
+        joined = {}
+        for name, value in vars(first).items():
+            parts = [part.reshape(count, -1, *value.shape[1:]) for part in (value, getattr(second, name))]
+            joined[name] = np.concatenate(parts, axis=1).reshape(-1, *value.shape[1:])
+        return cls(**joined)
+
+
+class ContactSearch:
+    """Search for the first contact of each fall of one arm.
+
+    The distances are computed every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
+    at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
+    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the distances are
+    computed at a quarter of the spacing, until L is below half a millimetre. Only a contact that is less than a quarter of a
+    millimetre deep may be missed.
+
+    Args:
+        simulator: Simulator of the falls.
+        clearance: Collision model; margins are not contacts.
+        starts: (N, n) finite configurations at the power loss, rad and m.
+        duration: Longest simulated time, s.
+    """
+
+    def __init__(self, simulator: FallSimulator, clearance: Clearance, starts: FloatArray, duration: float) -> None:
+        self.simulator, self.clearance, arm = simulator, clearance, simulator.arm
+        lower, upper = sampling_limits(arm)
+        # Only the travel of prismatic joints matters. Without stops it is assumed to be at most that of twice a free fall.
+        travel = 0.0 if simulator.has_stops else float(np.linalg.norm(arm.gravity)) * duration**2
+        lower, upper = np.min([lower, *starts], axis=0) - travel, np.max([upper, *starts], axis=0) + travel
+        self.change_bounds = clearance.lipschitz_bounds(lower, upper)
+        self.block_rows = max(1, BLOCK_DISTANCES // max(1, len(clearance.pair_names)))
+
+    def find_initial_contacts(self, q: FloatArray, rows: IndexArray) -> BoolArray:
+        """Return which pairs touch at the power loss, (N, P).
+
+        Args:
+            q: (N, n) finite configurations, rad and m.
+            rows: (N,) numbers of the rows, for messages.
+
+        Raises:
+            InputError: A link is more than 1 mm inside an object of the cell.
+        """
+        own, initial = len(self.clearance.pairs), np.zeros((len(q), len(self.clearance.pair_names)), dtype=np.bool_)
+        for start in range(0, len(q), self.block_rows):
+            distances = self.clearance.by_pair(q[start : start + self.block_rows])
+            initial[start : start + self.block_rows] = distances < 0
+            inside = np.argwhere(distances[:, own:] < -REQUIRED_GAP_M)
+            if inside.size:
+                row, pair = inside[0]
+                link, _, name = self.clearance.pair_names[own + pair].partition(" & ")
+                raise InputError(
+                    f"q puts link '{link}' {-distances[row, own + pair]:.3g} m into object '{name}' of the cell"
+                    + (f" in row {rows[start + row]}" if len(q) > 1 else "")
+                    + "; start outside it, or add the pair to may_touch of the cell"
+                )
+        return initial
+
+    def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> tuple[FloatArray, IndexArray]:
+        """Return the time (N,) of the first contact of each fall, s, and its pair (N,); NaN and -1 for none.
+
+        Args:
+            q: (N, n) finite configurations at the power loss, rad and m.
+            rates: (N, n) finite joint rates at the power loss, rad/s and m/s.
+            until: (N,) times since the power loss, above 0, s.
+            step: (N,) longest steps, s.
+        """
+        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
+        blocks = [slice(start, start + self.block_rows) for start in range(0, len(q), self.block_rows)]
+        for b in track("blocks of falls until contact", blocks):
+            time[b], pair[b] = self._run_block(q[b], rates[b], until[b], step[b])
+        return time, pair
+
+    def _run_block(
+        self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
+    ) -> tuple[FloatArray, IndexArray]:
+        stepper, rows = self.simulator.stepper, np.arange(len(q))
+        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
+        states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
+        calls = max(1, int(CHECK_SPACING_S / step.max(initial=0.0)))
+        before = self._make_instant(np.zeros(len(q)), q, rates)
+        ignored = before.distances < 0
+        for _ in range(most_calls // calls + 1):
+            if not rows.size:
+                break
+            result = stepper.loop.run(states, parameters, 0.5, calls)
+            parts = stepper.layout.view_parts(result.state)
+            after = self._make_instant(parts["time"][:, 0], parts["q"], parts["rates"])
+            doubtful = np.flatnonzero(self._find_possible_contacts(before, after, ignored)[0].any(axis=1))
+            if doubtful.size:
+                spans = before.select(doubtful), after.select(doubtful)
+                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(*spans, ignored[doubtful])
+            ignored = ignored & (after.distances < REQUIRED_GAP_M)
+            remaining = np.flatnonzero(~result.done & (pair[rows] < 0))
+            rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
+            states, parameters = result.state[remaining], parameters[remaining]
+        return time, pair
+
+    def _make_instant(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
+        return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
+
+    def _find_possible_contacts(self, before: _Instant, after: _Instant, ignored: BoolArray) -> tuple[BoolArray, FloatArray]:
+        """Return which pairs may touch between two instants, and the bounds of the changes of their distances, m, (R, P)."""
+        half = (after.time - before.time)[:, None] / 2
+        travel = half * (np.abs(before.rates) + np.abs(after.rates))
+        travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
+        change = travel @ self.change_bounds.T
+        return ~ignored & ((before.distances + after.distances < change) | (after.distances < 0)), change
+
+    def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
+        """Return the time (R,) and the pair (R,) of the first contact of each fall between two instants; NaN and -1 for none.
+
+        Spans of time in which a contact is possible are split until the bound excludes a contact or they are short enough.
+        """
+        time, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
+        falls, before, after = np.arange(len(ignored)), start, end
+        latest = np.full(len(ignored), np.inf)  # times at which a contact has begun
+        while True:
+            possible, change = self._find_possible_contacts(before, after, ignored[falls])
+            touching = possible & (after.distances < 0)
+            np.minimum.at(latest, falls, np.where(touching.any(axis=1), after.time, np.inf))
+            is_long = (possible & (change >= MIN_DISTANCE_CHANGE_M)).any(axis=1)
+            found = np.flatnonzero(~is_long & touching.any(axis=1))[::-1]
+            for_pairs = before.distances[found] / np.maximum(before.distances[found] - after.distances[found], 1e-300)
+            fractions = np.where(touching[found], for_pairs, np.inf)
+            instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
+            found, fractions, instants = (value[instants < time[falls[found]]] for value in (found, fractions, instants))
+            time[falls[found]], pair[falls[found]] = instants, fractions.argmin(axis=1)  # the earliest is assigned last
+            open_spans = np.flatnonzero(is_long & (before.time < latest[falls]))
+            if not open_spans.size:
+                return np.where(pair < 0, np.nan, time), pair
+            falls, before, after = falls[open_spans], before.select(open_spans), after.select(open_spans)
+            owners = np.repeat(falls, len(INNER_FRACTIONS))
+            instants = before.time[:, None] + (after.time - before.time)[:, None] * INNER_FRACTIONS
+            inner = self._make_instant(*_interpolate(start.select(owners), end.select(owners), instants.ravel()))
+            before, after = (_Instant.join(*pair_of, len(falls)) for pair_of in ((before, inner), (inner, after)))
+            falls = np.repeat(falls, len(INNER_FRACTIONS) + 1)
+
+
+def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return times (R,), and configurations and rates (R, n) on the cubic polynomials between two instants."""
+    duration = (end.time - start.time)[:, None]
+    s = (time - start.time)[:, None] / duration
+    chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
+    second, third = 3 * chord - 2 * first - last, first + last - 2 * chord
+    q = start.q + s * (first + s * (second + s * third))
+    return time, q, (first + s * (2 * second + 3 * s * third)) / duration
+
+
+def collect_contact_fields(
+    simulator: FallSimulator, clearance: Clearance, q: FloatArray, rates: FloatArray, time: FloatArray, pair: IndexArray
+) -> Rows:
+    """Return the fields of :class:`FallContacts` with numbers.
+
+    Args:
+        simulator: Simulator of the falls.
+        clearance: Collision model.
+        q: (N, n) configurations at the contact, rad and m.
+        rates: (N, n) joint rates just before the contact, rad/s and m/s.
+        time: (N,) times of the contacts, s; NaN for none.
+        pair: (N,) touching pairs; -1 for none.
+    """
+    arm, free = simulator.arm, np.asarray(simulator.conditions["free"]) > 0
+    frames, joints = arm.frames(q), np.arange(arm.n)
+    point, normal = np.full((len(q), 3), np.nan), np.full((len(q), 3), np.nan)
+    side = np.zeros((len(q), arm.n))  # 1 if the joint moves only the link, -1 if it moves only the other link
+    for index in np.unique(pair[pair >= 0]):
+        rows = pair == index
+        point[rows], normal[rows], link, other = _locate_contact_points(clearance, int(index), frames[rows])
+        side[rows] = (joints <= link).astype(float) - (joints <= other)
+    axes = np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], [joint.axis for joint in arm.joints])
+    lever = np.cross(axes, point[:, None] - frames[:, 1:-1, :3, 3])
+    gradient = side * np.einsum("nki,ni->nk", np.where(arm.prismatic[:, None], axes, lever), normal)
+    inertia = simulator.energy_kernel.rows(q)[:, 1:].reshape(-1, arm.n, arm.n)
+    coupled = np.where(np.outer(free, free), inertia, np.eye(arm.n))
+    mobility = np.sum(gradient * free * np.linalg.solve(coupled, (gradient * free)[:, :, None])[:, :, 0], axis=1)
+    speed = -np.sum(gradient * rates, axis=1)
+    has_contact = pair >= 0
+    mass = np.divide(1.0, mobility, out=np.full(len(q), np.inf), where=mobility > 0)
+    return {
+        "pair": pair,
+        "time": time,
+        "point": point,
+        "normal": normal,
+        "normal_speed": speed,
+        "effective_mass": np.where(has_contact, mass, np.nan),
+        "energy_lost": np.where(speed != 0, mass / 2 * speed**2, 0.0),
+        "kinetic_energy": np.where(has_contact, simulator.energies(q, rates)[1], np.nan),
+    }
+
+
+def _locate_contact_points(clearance: Clearance, pair: int, frames: FloatArray) -> tuple[FloatArray, FloatArray, int, int]:
+    """Return points on the link and unit vectors from the object to it (N, 3), and the indices of the link and the object.
+
+    The index of an object of the cell is that of the base, which is fixed as well.
+    """
+    own = len(clearance.pairs)
+    if pair >= own and clearance.obstacles is not None:
+        link = int(clearance.obstacles.pairs[pair - own, 0])
+        point, _, normal = clearance.obstacles.find_closest_points(pair - own, frames[:, link + 1])
+        return point, normal, link, BASE_LINK
+    parts = [clearance.capsules.parts[index] for index in clearance.pairs[pair]]
+    ends = [
+        np.array([part.start, part.end]) @ frames[:, part.link + 1, :3, :3].swapaxes(1, 2)
+        + frames[:, part.link + 1, None, :3, 3]
+        for part in parts
+    ]
+    symbols = [ca.SX.sym("ends", 3, 2) for _ in parts]
+    axes = [
+        LineSegment(symbol[:, 0], symbol[:, 1] - symbol[:, 0], part.length**2)
+        for symbol, part in zip(symbols, parts, strict=True)
+    ]
+    closest = [axis.point_at(parameter) for axis, parameter in zip(axes, closest_parameters(*axes), strict=True)]
+    kernel = Kernel("closest points of two capsules", symbols, closest, backend="casadi")
+    first, second = np.split(kernel.rows(*(values.swapaxes(1, 2) for values in ends)), 2, axis=1)
+    normal = (first - second) / np.maximum(np.linalg.norm(first - second, axis=1, keepdims=True), 1e-300)
+    return first - parts[0].radius * normal, normal, parts[0].link, parts[1].link
