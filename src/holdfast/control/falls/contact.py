@@ -204,7 +204,7 @@ class ContactSearch:
             is_long = (possible & (change >= MIN_DISTANCE_CHANGE_M)).any(axis=1)
             found = np.flatnonzero(~is_long & touching.any(axis=1))[::-1]
             for_pairs = before.distances[found] / np.maximum(before.distances[found] - after.distances[found], 1e-300)
-            fractions = np.where(touching[found], for_pairs, np.inf)
+            fractions = np.where(touching[found], np.clip(for_pairs, 0, 1), np.inf)
             instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
             found, fractions, instants = (value[instants < time[falls[found]]] for value in (found, fractions, instants))
             time[falls[found]], pair[falls[found]] = instants, fractions.argmin(axis=1)  # the earliest is assigned last

@@ -28,6 +28,7 @@ SMALL_DROP_M = 1e-3  # added to every drop, so that a path without drops is shor
 CURVE_INSTANTS = 101
 ROADMAP_STEP_S = 4e-3  # of the falls that rank nodes and edges
 MOST_ROUNDS = 500
+SPEED_FRACTIONS = (1.0, 0.5, 0.25, 0.125)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,8 +46,8 @@ class StowPath(Result):
         monotone: True if the drop may rise along the path by at most the tolerance.
         tolerance: Tolerance, m.
         curve: Drop for a power loss at instants of the motion along the path; None if no path was found.
-        straight: The same for the straight line.
-        is_straight_clear: True if the straight line is free of collisions.
+        straight: The same for the straight line at full speed; None if the line is in collision.
+        speed_fraction: Fraction of the speed limits at which the path was found: 1, 1/2, 1/4, or 1/8.
         nodes: Number of nodes of the roadmap.
         checked_edges: Number of checked edges of the roadmap.
     """
@@ -58,8 +59,8 @@ class StowPath(Result):
     monotone: bool
     tolerance: float
     curve: DropCurve | None
-    straight: DropCurve
-    is_straight_clear: bool
+    straight: DropCurve | None
+    speed_fraction: float
     nodes: int
     checked_edges: int
 
@@ -84,7 +85,8 @@ def plan_stow_path(
     """Find the path from a start to a stow configuration with the smallest exposure in a roadmap.
 
     The exposure is the integral of the drop over time. Nowhere may the drop exceed that from rest at the start by more than
-    the tolerance. The falls along the path begin with the joint rates of the motion.
+    the tolerance. The falls along the path begin with the joint rates of the motion, so a slower motion is searched if there is
+    no path at full speed.
 
     Args:
         stow: Result of :func:`holdfast.stow`.
@@ -105,23 +107,28 @@ def plan_stow_path(
         raise InputError(f"tolerance is {tolerance:g} m; it must be a finite number of 0 or more")
     if nodes < 1:
         raise InputError(f"nodes is {nodes}; it must be 1 or more")
+    if (start == stow.q).all():
+        raise InputError("the arm is in its stow configuration already, so there is no path")
     roadmap = _Roadmap(stow, start, metric, tolerance, duration, monotone)
     if not roadmap.space.are_valid(np.stack([start, stow.q])).all():
         raise InputError("the start or the stow configuration is in collision; see the clearance")
+    straight = roadmap.simulate_straight_line()
     roadmap.add_nodes(nodes)
-    waypoints = roadmap.find_path()
-    times = metric.cumulative_length(waypoints)
-    straight = np.stack([start, stow.q])
+    for speed_fraction in SPEED_FRACTIONS:
+        roadmap.metric = JointMetric("time", metric.scale / speed_fraction)
+        waypoints = roadmap.find_path()
+        if len(waypoints):
+            break
     return StowPath(
         stow=stow,
         q=waypoints,
-        time=times,
+        time=roadmap.metric.cumulative_length(waypoints) if len(waypoints) else np.zeros(0),
         bound=roadmap.bound,
         monotone=monotone,
         tolerance=float(tolerance),
         curve=roadmap.simulate_motion(waypoints) if len(waypoints) else None,
-        straight=roadmap.simulate_motion(straight),
-        is_straight_clear=bool(roadmap.space.are_segments_valid(straight[:1], straight[1:])[0]),
+        straight=straight,
+        speed_fraction=speed_fraction,
         nodes=len(roadmap.q),
         checked_edges=roadmap.checked_edges,
     )
@@ -211,7 +218,7 @@ class _Roadmap:
         samples = np.clip(samples, self.space.low, self.space.high)  # against rounding at a limit
         times = self.metric.measure_length((second - first)[is_admissible])
         rates = np.broadcast_to(((second - first)[is_admissible] / times[:, None])[:, None], samples.shape)
-        drops = self.simulate_drops(samples.reshape(-1, self.arm.n), rates.reshape(-1, self.arm.n)).reshape(len(samples), -1)
+        drops = self.simulate_drops(samples.reshape(-1, self.arm.n), rates.reshape(-1, self.arm.n)).reshape(-1, len(fractions))
         is_low = drops.max(axis=1, initial=-np.inf) <= self.bound
         if self.monotone:
             is_low &= (drops - np.minimum.accumulate(drops, axis=1)).max(axis=1, initial=0) <= self.tolerance
@@ -233,8 +240,13 @@ class _Roadmap:
             nodes.append(int(before[nodes[-1]]))
         return q[nodes[::-1]]
 
+    def simulate_straight_line(self) -> DropCurve | None:
+        """Simulate power losses along the straight line between both ends, or return None if it is in collision."""
+        is_clear = self.space.are_segments_valid(self.q[:1], self.q[1:2])[0]
+        return self.simulate_motion(self.q[:2]) if is_clear else None
+
     def simulate_motion(self, waypoints: FloatArray) -> DropCurve:
-        """Simulate power losses along the motion through waypoints (K, n) at the speed limits."""
+        """Simulate power losses along the motion through distinct waypoints (K, n) at the speed limits."""
         times = self.metric.cumulative_length(waypoints)
         instants = np.linspace(0, times[-1], CURVE_INSTANTS)
         piece = np.clip(np.searchsorted(times, instants, side="right") - 1, 0, len(times) - 2)

@@ -150,9 +150,12 @@ def stow(
         return np.ones(len(q), dtype=bool) if model is None else np.asarray(model.margin_left(q) > 0)
 
     q = sample_with_stops(rng, samples, lower, upper)
+    if start is not None and ((start >= lower) & (start <= upper)).all():
+        q = np.vstack([start, q])
     excess = measure_excess(q)
-    best = np.argsort(-excess)
-    clear = _first_clear(q, best, is_clear)
+    arrival = np.zeros(len(q)) if start is None or metric is None else metric.measure_length(q - start)
+    order = np.lexsort((-excess, np.where(excess >= 0, arrival, np.inf)))
+    clear = _first_clear(q, order, is_clear)
     if not clear.size:
         raise InputError(f"none of the best of {samples:,} configurations of '{arm.name}' is free of collisions")
     candidates, excess = _climb(q[clear], excess[clear], measure_excess, is_clear, rng, lower, upper)
