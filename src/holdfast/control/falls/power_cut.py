@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
-from holdfast.control.falls.fall import FallOutcome, PowerLoss
+from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
 from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
@@ -21,7 +21,6 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.soundness import require_possible_inertia
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
-MAX_STEP_S = 0.02
 MOST_HALVINGS = 6  # of the time step, for the requested accuracy
 NEGLIGIBLE_INERTIA_FRACTION = 1e-12  # of the inertia about a joint that the other joints leave to it
 
