@@ -83,7 +83,7 @@ def test_one_free_joint_swings_as_in_mujoco():
 
 def test_brakes_and_friction_hold_the_arm_without_creep():
     arm, q = hf.arms.load("panda"), np.array(hf.arms.about("panda").home)
-    holding = 1.2 * np.abs(arm.gravity_torque(q))
+    holding = 0.01 + 1.2 * np.abs(arm.gravity_torque(q))
     for friction, brakes in ((hf.Friction(coulomb=0, stiction=holding), None), (FREE, hf.Brakes(after=0, torque=holding))):
         physical = hf.power_loss(arm, q, friction=friction, brakes=brakes).physical(clearance=False)
         assert physical.outcome == "rest"

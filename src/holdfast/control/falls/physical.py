@@ -124,7 +124,7 @@ def simulate_contacts(
     model = spec.compile()
     log.require_collision_free(model)
     # Stiff constraints, because the default ones let a joint creep that friction holds.
-    model.dof_solref[:], model.dof_solimp[:] = [2 * step, 1.0], [0.99, 0.999, 1e-3, 0.5, 2.0]
+    model.dof_solref[:], model.dof_solimp[:] = [2 * step, 1.0], [0.9999, 0.9999, 1e-3, 0.5, 2.0]
     data = mujoco.MjData(model)
     data.qvel[:] = rates[joints]
     _choose_integrator(mujoco, model, data, damping=friction.viscous[joints] + brake_damping)
