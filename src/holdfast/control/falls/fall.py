@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,11 +13,19 @@ from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import FallContacts
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.errors import InputError
+from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum, require_ok
 from holdfast.core.typing import FloatArray
-from holdfast.core.validation import require_real_numbers
+from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.friction import JointFriction
 from holdfast.model.arm.model import Arm
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
+
+if TYPE_CHECKING:
+    from holdfast.control.falls.physical import PhysicalFall
+
+MAX_STEP_S = 0.02  # s, of all simulations of falls
 
 
 class FallOutcome(SentenceEnum):
@@ -34,7 +42,7 @@ _OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
 
 
 @dataclass(frozen=True, kw_only=True)
-class PowerLoss:
+class PowerLoss(Result):
     """Falls of an arm of which some or all joints lost their torque, from N states; for a single state arrays lack the axis N.
 
     All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. A
@@ -116,6 +124,59 @@ class PowerLoss:
         displacement = self.tool_at(time)
         start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
         return np.asarray((displacement - start) @ self._simulator.stepper.down)
+
+    @check_arguments
+    def physical(
+        self,
+        row: int | None = None,
+        *,
+        clearance: Clearance | bool | None = None,
+        cell: CellLike | None = None,
+        step: float = 1e-3,
+    ) -> PhysicalFall:
+        """Simulate one fall in MuJoCo, with all contacts of the arm with itself and with a cell.
+
+        Friction, brakes, and stops are as in this fall, but MuJoCo's constraints are soft, and a joint does not rebound from
+        its stop. Contacts are as stiff as the step allows, critically damped, and have a coefficient of friction of 1. A mesh
+        is its convex hull. Links that overlap at the power loss do not touch each other. The simulation ends early if no joint
+        has moved by 1e-4 rad or m in the last 0.5 s. It needs ``holdfast-arms[physics]``.
+
+        Args:
+            row: Number of the fall, from 0. Default: the only one.
+            clearance: Collision model of the arm, which may contain a cell. True also checks the links of a planar arm against
+                each other, and False no links. Default: the default model.
+            cell: Objects around the arm, or their file.
+            step: Time step, s, at most 0.02 s.
+
+        Raises:
+            InputError: A wrong row or step, a start within an object, a point cloud, or a simulation that becomes unstable.
+            ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+            HoldfastError: MuJoCo is not installed.
+        """
+        from holdfast.control.falls.physical import simulate_contacts
+
+        rows = len(self)
+        if not (row is None and rows == 1) and not (row is not None and 0 <= row < rows):
+            raise InputError(f"row is {row}; give the number of one fall, from 0 to {rows - 1}")
+        if not 0 < step <= MAX_STEP_S:
+            raise InputError(f"step is {step:g} s; it must be above 0 and at most {MAX_STEP_S:g} s")
+        q, rates = (np.atleast_2d(states)[row or 0] for states in (self.q, self.rates))
+        if not np.isfinite([q, rates]).all():
+            raise InputError(
+                f"the state in row {row or 0} holds NaN or infinity, so it cannot be simulated; choose another row"
+            )
+        return simulate_contacts(
+            self.arm,
+            q,
+            rates,
+            free=self.free,
+            friction=self.friction,
+            brakes=self.brakes,
+            stops=self.stops,
+            duration=self.duration,
+            clearance=chosen_clearance(self.arm, clearance, cell),
+            step=step,
+        )
 
     def require_ok(self) -> Self:
         """Return the result itself, or raise :class:`holdfast.HoldfastError` that names the first fall without an answer."""

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import ContactSearch, FallContacts, collect_contact_fields
-from holdfast.control.falls.fall import FallOutcome, PowerLoss
+from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
 from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
@@ -24,7 +24,6 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
-MAX_STEP_S = 0.02
 MOST_HALVINGS = 6  # of the time step, for the requested accuracy
 NEGLIGIBLE_INERTIA_FRACTION = 1e-12  # of the inertia about a joint that the other joints leave to it
 

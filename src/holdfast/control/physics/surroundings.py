@@ -1,10 +1,13 @@
-"""Objects of a cell in a MuJoCo model, which an arm can touch, and the contacts with them."""
+"""Objects of a cell and links of an arm in a MuJoCo model, which can touch each other, and their contacts."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
 from holdfast.model.arm.formats.mjcf import import_mujoco
 from holdfast.model.arm.formats.mujoco_spec import to_quaternion
 from holdfast.model.cell.cell import Cell
@@ -14,8 +17,9 @@ from holdfast.model.collision.capsules import BASE_LINK, LinkCapsule, link_name
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.contacts import Contact
 
-_ARM_CONTACT_BIT = 1  # the arm touches the cell; neither the arm nor the cell touches itself
+_ARM_CONTACT_BIT = 1  # the arm touches the cell, and itself only by explicit pairs; the cell does not touch itself
 _CELL_CONTACT_BIT = 2
+_LEAST_GAP_M = 1e-6  # m: links that are closer at the start do not touch each other
 
 
 def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
@@ -33,7 +37,7 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
         InputError: The cell contains a point cloud.
     """
     mujoco, arm = import_mujoco(), clearance.arm
-    contact_options = {"solref": [2 * step, 1.0], "solimp": [0.99, 0.999, 1e-3, 0.5, 2.0], "mass": 0.0}
+    contact_options = {**_contact_stiffness(step), "mass": 0.0}
     links = spec.bodies[1 : arm.n + 1]
     for index, body in enumerate(links):
         body.name = f"link {index}"
@@ -53,6 +57,37 @@ def add_cell_objects(spec: Any, clearance: Clearance, step: float) -> None:
         if link in arm.joint_names:
             body_names = f"link {arm.joint_names.index(link)}", f"object {object_names.index(object_name)}"
             spec.add_exclude(bodyname1=body_names[0], bodyname2=body_names[1])
+
+
+def add_link_contacts(spec: Any, clearance: Clearance, q: FloatArray, free: Sequence[int], step: float) -> None:
+    """Let the links touch each other, in a spec after :func:`add_cell_objects`.
+
+    Only the pairs that the clearance checks touch each other, and of these only pairs that the free joints move and that are
+    apart at the start.
+
+    Args:
+        spec: Spec of the arm.
+        clearance: Collision model of the arm.
+        q: (n,) configuration at the start, rad and m.
+        free: Indices from 0 of the joints that move.
+        step: Time step, s.
+    """
+    mujoco, base = import_mujoco(), clearance.arm.base
+    for number, capsule in enumerate(clearance.capsules):
+        if capsule.link == BASE_LINK:
+            start, end = (base[:3, :3] @ point + base[:3, 3] for point in (capsule.start, capsule.end))
+            shape = _capsule_geom_options(mujoco, replace(capsule, start=tuple(start), end=tuple(end)))
+            spec.worldbody.add_geom(name=f"part {number}", contype=0, conaffinity=0, **shape)
+    distances = clearance.self_only.by_pair(q) if clearance.pairs else ()
+    for (first, second), distance in zip(clearance.pairs, distances, strict=True):
+        links = clearance.capsules.parts[first].link, clearance.capsules.parts[second].link
+        if distance > _LEAST_GAP_M and any(links[0] < joint <= links[1] for joint in free):
+            spec.add_pair(geomname1=f"part {first}", geomname2=f"part {second}", **_contact_stiffness(step))
+
+
+def _contact_stiffness(step: float) -> dict[str, Any]:
+    """Return options of a contact that is as stiff as the step allows, and critically damped."""
+    return {"solref": [2 * step, 1.0], "solimp": [0.99, 0.999, 1e-3, 0.5, 2.0]}
 
 
 def _capsule_geom_options(mujoco: Any, capsule: LinkCapsule) -> dict[str, Any]:
@@ -86,16 +121,17 @@ class ContactLog:
     """Log of the contacts in a model of :func:`add_cell_objects`.
 
     Args:
-        clearance: Collision model of the arm, with the cell; without a cell no contacts are recorded.
+        clearance: Collision model of the arm, with the cell.
+        itself: Record contacts between links, too; without a cell and without this option no contacts are recorded.
 
     Attributes:
         cell: Objects around the arm; None without a cell.
-        clearance: The same clearance; None without a cell.
+        clearance: The same clearance; None if no contacts are recorded.
     """
 
-    def __init__(self, clearance: Clearance | None) -> None:
+    def __init__(self, clearance: Clearance | None, *, itself: bool = False) -> None:
         self.cell = None if clearance is None else clearance.cell
-        self.clearance = None if self.cell is None else clearance
+        self.clearance = None if self.cell is None and not itself else clearance
         self._contact_by_pair: dict[tuple[str, str], tuple[float, float]] = {}
 
     def record_contacts(self, model: Any, data: Any, time: float) -> None:
@@ -124,15 +160,17 @@ class ContactLog:
             )
 
     def _identify_pair(self, model: Any, contact: Any) -> tuple[str, str]:
-        """Return the names of the link and of the object of a contact."""
+        """Return the names of the link and of the object, or of both links, of a contact."""
         assert self.clearance is not None
-        assert self.cell is not None
-        numbers = {}
+        links, objects = [], []
         for geom_id in contact.geom:
             kind, number = model.geom(int(geom_id)).name.split()
-            numbers[kind] = int(number)
-        link_number = self.clearance.capsules.parts[numbers["part"]].link
-        return link_name(self.clearance.arm, link_number), self.cell.objects[numbers["object"]].name
+            if kind == "part":
+                links.append(self.clearance.capsules.parts[int(number)].link)
+            elif self.cell is not None:
+                objects.append(self.cell.objects[int(number)].name)
+        first, second = [*(link_name(self.clearance.arm, link) for link in sorted(links)), *objects]
+        return first, second
 
     def list_contacts(self) -> tuple[Contact, ...] | None:
         """Return the first contact of each pair, in order of time; None if none were checked."""

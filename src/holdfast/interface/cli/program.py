@@ -41,6 +41,7 @@ COMMAND_MODULES = {  # module of each command, in the order of the help; it defi
     "compare-arms": "before.compare_arms",
     "susceptibility": "before.measures:susceptibility",
     "holds": "before.holds",
+    "stow": "before.stow",
     "optimise": "before.optimise",
     "follow": "before.follow",
     "plan-motion": "before.plan_motion",

@@ -143,7 +143,7 @@ class _Roadmap:
         self.arm, self.metric, self.tolerance, self.monotone = stow.arm, metric, tolerance, monotone
         self.options: dict[str, Any] = {"friction": stow.friction, "clearance": stow.clearance, "duration": duration}
         self.q = np.stack([start, stow.q])  # the first two nodes are the ends of the path
-        self.space = FreeSpace(stow.arm, np.ones(stow.arm.n, dtype=bool), stow.clearance, 0.0, self.q)
+        self.space = FreeSpace(stow.arm, np.ones(stow.arm.n, dtype=bool), stow.clearance, stow.margin, self.q)
         self.drop = self.simulate_drops(self.q)
         self.bound = float(self.drop[0]) + tolerance
         self.rng = np.random.default_rng(stow.seed)

@@ -52,6 +52,7 @@ class StowPose(Result):
         samples: Number of configurations that were sampled.
         friction: Friction as requested; None as the arm states.
         clearance: Collision model; None if collisions are not checked.
+        margin: Smallest clearance, m.
     """
 
     arm: Arm
@@ -66,6 +67,7 @@ class StowPose(Result):
     seed: int
     friction: Friction | None
     clearance: Clearance | None
+    margin: float
     _metric: JointMetric | None = field(repr=False, compare=False)
 
     @property
@@ -96,6 +98,7 @@ def stow(
     where: Region | None = None,
     cell: CellLike | None = None,
     clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
     speeds: JointNumbers | None = None,
     samples: int = 200_000,
     seed: int = 1,
@@ -115,6 +118,7 @@ def stow(
         cell: Objects that the arm must not touch, or their file.
         clearance: Collision model. Default: that of :meth:`holdfast.Clearance.by_default`; False: the arm is not checked
             against itself.
+        margin: Smallest clearance, m.
         speeds: Speed limits, rad/s and m/s, one number or n. Default: those of the arm.
         samples: Number of sampled configurations.
         seed: Seed of the search; the same seed gives the same result.
@@ -128,6 +132,8 @@ def stow(
         raise InputError(f"factor is {factor:g}; it must be 1 or more")
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be 1 or more")
+    if not (np.isfinite(margin) and margin >= 0):
+        raise InputError(f"margin is {margin:g} m; it must be a finite number of 0 or more")
     if where is not None and where.kind != "joints":
         raise InputError(f"region '{where.name}' contains poses; give a region of joint values (Region.joints)")
     resting = (friction or Friction()).of_joints(arm)
@@ -147,7 +153,7 @@ def stow(
         return np.asarray((check.available / factor - check.need).min(axis=1))
 
     def is_clear(q: FloatArray) -> BoolArray:
-        return np.ones(len(q), dtype=bool) if model is None else np.asarray(model.margin_left(q) > 0)
+        return np.ones(len(q), dtype=bool) if model is None else np.asarray(model.margin_left(q) > margin)
 
     q = sample_with_stops(rng, samples, lower, upper)
     if start is not None and ((start >= lower) & (start <= upper)).all():
@@ -186,6 +192,7 @@ def stow(
         seed=seed,
         friction=friction,
         clearance=model,
+        margin=float(margin),
         _metric=metric,
     )
 
