@@ -7,7 +7,7 @@ import casadi as ca
 from holdfast.core.errors import InputError
 from holdfast.kernels.linalg import dot_product, jacobi_sweep
 from holdfast.kernels.program import SX
-from holdfast.model.arm.dynamics import inertial_torques
+from holdfast.model.arm import statics
 from holdfast.model.arm.machine import ArmData
 
 _JACOBI_SWEEPS = 6
@@ -27,8 +27,7 @@ def compute_inertia_matrix(arm: ArmData, q: SX) -> SX:
     Raises:
         ArmError: Inertial data are missing or impossible.
     """
-    acceleration = ca.SX.sym("qdd", arm.n)
-    return ca.jacobian(inertial_torques(arm, q, ca.SX.zeros(arm.n), acceleration), acceleration)
+    return statics.inertia_matrix(arm, q)
 
 
 def compute_singular_values(matrix: SX) -> SX:

@@ -15,7 +15,6 @@ import numpy as np
 from holdfast.core.registry import Parameter, constructor
 from holdfast.kernels.linalg import Cholesky
 from holdfast.kernels.program import SX
-from holdfast.kinematics.indices.matrices import compute_inertia_matrix
 from holdfast.kinematics.indices.susceptibility.formulas import DEGENERATE_RATIO, SusceptibilityFormula, Total, require_inertia
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 from holdfast.model.arm import kinematics, statics
@@ -61,7 +60,7 @@ class FreeSetSusceptibility(Susceptibility):
 
 def _accelerations(arm: Arm, q: SX, free: tuple[int, ...]) -> tuple[SX, SX]:
     """Return the accelerations of all joints, NaN if the free joints can move without moving a mass."""
-    bodies, inertia = statics.composite_bodies(arm, q), compute_inertia_matrix(arm, q)
+    bodies, inertia = statics.composite_bodies(arm, q), statics.inertia_matrix(arm, q)
     torques = statics.gravity_torques(arm, bodies)
     factor = Cholesky([[inertia[i, k] for k in free] for i in free])
     lengths = [1.0 if arm.joints[k].prismatic else statics.length_scale(arm) for k in free]
