@@ -12,6 +12,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
@@ -20,8 +21,9 @@ from holdfast.model.collision.segments import LineSegment, closest_parameters
 
 CHECK_SPACING_S = 0.01  # simulated time between two computations of the distances
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
+TIME_RESOLUTION_S = 1e-3  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
-INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # of a span of time in which a contact is possible, where it is split
+MIN_BLOCK_ROWS = 1024
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,18 +76,18 @@ class _Instant:
     rates: FloatArray
     distances: FloatArray
 
+    @property
+    def motion(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Times, configurations, and rates."""
+        return self.time, self.q, self.rates
+
     def select(self, rows: IndexArray | BoolArray) -> _Instant:
         """Return some of the falls."""
         return _Instant(**{name: value[rows] for name, value in vars(self).items()})
 
-    @classmethod
-    def join(cls, first: _Instant, second: _Instant, count: int) -> _Instant:
-        """Return the instants of ``count`` spans in order: those of a span in the first, then those in the second."""
-        joined = {}
-        for name, value in vars(first).items():
-            parts = [part.reshape(count, -1, *value.shape[1:]) for part in (value, getattr(second, name))]
-            joined[name] = np.concatenate(parts, axis=1).reshape(-1, *value.shape[1:])
-        return cls(**joined)
+    def join(self, other: _Instant) -> _Instant:
+        """Return these instants and, after them, those of the other one."""
+        return _Instant(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
 
 
 class ContactSearch:
@@ -93,8 +95,8 @@ class ContactSearch:
 
     The distances are computed every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
     at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
-    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the distances are
-    computed at a quarter of the spacing, until L is below half a millimetre. Only a contact that is less than a quarter of a
+    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the span is halved,
+    until L is below half a millimetre. Only a contact that is less than a quarter of a
     millimetre deep may be missed.
 
     Args:
@@ -111,6 +113,8 @@ class ContactSearch:
         travel = 0.0 if simulator.has_stops else float(np.linalg.norm(arm.gravity)) * duration**2
         lower, upper = np.min([lower, *starts], axis=0) - travel, np.max([upper, *starts], axis=0) + travel
         self.change_bounds = clearance.lipschitz_bounds(lower, upper)
+        own, objects = np.split(self.change_bounds, [len(clearance.pairs)])
+        self.nearest_change_bounds = np.concatenate([own, objects.max(axis=0, keepdims=True)]) if len(objects) else own
         self.block_rows = max(1, BLOCK_DISTANCES // max(1, len(clearance.pair_names)))
 
     def find_initial_contacts(self, q: FloatArray, rows: IndexArray) -> BoolArray:
@@ -148,9 +152,13 @@ class ContactSearch:
             step: (N,) longest steps, s.
         """
         time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
-        blocks = [slice(start, start + self.block_rows) for start in range(0, len(q), self.block_rows)]
-        for b in track("blocks of falls until contact", blocks):
-            time[b], pair[b] = self._run_block(q[b], rates[b], until[b], step[b])
+        workers = 1 if in_pool() else thread_count()
+        block_rows = min(self.block_rows, max(MIN_BLOCK_ROWS, -(-len(q) // workers)))
+        blocks = [slice(start, start + block_rows) for start in range(0, len(q), block_rows)]
+        mapped = map if workers == 1 or len(blocks) == 1 else shared_pool().map
+        results = mapped(lambda b: self._run_block(q[b], rates[b], until[b], step[b]), blocks)
+        for b, result in zip(track("blocks of falls until contact", blocks), results, strict=True):
+            time[b], pair[b] = result
         return time, pair
 
     def _run_block(
@@ -160,19 +168,19 @@ class ContactSearch:
         time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
         calls = max(1, int(CHECK_SPACING_S / step.max(initial=0.0)))
-        before = self._make_instant(np.zeros(len(q)), q, rates)
-        ignored = before.distances < 0
+        before, ignored = self._look(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
         for _ in range(most_calls // calls + 1):
             if not rows.size:
                 break
             result = stepper.loop.run(states, parameters, 0.5, calls)
             parts = stepper.layout.view_parts(result.state)
-            after = self._make_instant(parts["time"][:, 0], parts["q"], parts["rates"])
-            doubtful = np.flatnonzero(self._find_possible_contacts(before, after, ignored)[0].any(axis=1))
+            after = self._look(parts["time"][:, 0], parts["q"], parts["rates"])
+            possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
+            doubtful = np.flatnonzero(possible.any(axis=1) | ignored.any(axis=1))
             if doubtful.size:
-                spans = before.select(doubtful), after.select(doubtful)
+                spans = [self._make_instant(*instant.select(doubtful).motion) for instant in (before, after)]
                 time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(*spans, ignored[doubtful])
-            ignored = ignored & (after.distances < REQUIRED_GAP_M)
+                ignored[doubtful] &= spans[1].distances < REQUIRED_GAP_M
             remaining = np.flatnonzero(~result.done & (pair[rows] < 0))
             rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
             states, parameters = result.state[remaining], parameters[remaining]
@@ -181,13 +189,12 @@ class ContactSearch:
     def _make_instant(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
         return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
 
-    def _find_possible_contacts(self, before: _Instant, after: _Instant, ignored: BoolArray) -> tuple[BoolArray, FloatArray]:
-        """Return which pairs may touch between two instants, and the bounds of the changes of their distances, m, (R, P)."""
-        half = (after.time - before.time)[:, None] / 2
-        travel = half * (np.abs(before.rates) + np.abs(after.rates))
-        travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
-        change = travel @ self.change_bounds.T
-        return ~ignored & ((before.distances + after.distances < change) | (after.distances < 0)), change
+    def _look(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
+        """Return an instant with the distances of all pairs of links, and of the nearest object, which are fast to compute."""
+        distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
+        if obstacles is not None:
+            distances = np.column_stack([distances, obstacles.smallest_distance(q)])
+        return _Instant(time=time, q=q, rates=rates, distances=distances)
 
     def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
         """Return the time (R,) and the pair (R,) of the first contact of each fall between two instants; NaN and -1 for none.
@@ -198,25 +205,43 @@ class ContactSearch:
         falls, before, after = np.arange(len(ignored)), start, end
         latest = np.full(len(ignored), np.inf)  # times at which a contact has begun
         while True:
-            possible, change = self._find_possible_contacts(before, after, ignored[falls])
+            possible, is_coarse = _find_possible_contacts(before, after, self.change_bounds, ignored[falls])
             touching = possible & (after.distances < 0)
             np.minimum.at(latest, falls, np.where(touching.any(axis=1), after.time, np.inf))
-            is_long = (possible & (change >= MIN_DISTANCE_CHANGE_M)).any(axis=1)
-            found = np.flatnonzero(~is_long & touching.any(axis=1))[::-1]
-            for_pairs = before.distances[found] / np.maximum(before.distances[found] - after.distances[found], 1e-300)
-            fractions = np.where(touching[found], for_pairs, np.inf)
+            is_coarse &= ~touching.any(axis=1) | (after.time - before.time > TIME_RESOLUTION_S)
+            found = np.flatnonzero(~is_coarse & touching.any(axis=1))
+            drops = np.where(touching[found], before.distances[found] - after.distances[found], 1.0)
+            fractions = np.where(touching[found], before.distances[found] / drops, np.inf)
             instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
-            found, fractions, instants = (value[instants < time[falls[found]]] for value in (found, fractions, instants))
-            time[falls[found]], pair[falls[found]] = instants, fractions.argmin(axis=1)  # the earliest is assigned last
-            open_spans = np.flatnonzero(is_long & (before.time < latest[falls]))
-            if not open_spans.size:
+            order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
+            order = order[instants[order] < time[falls[found[order]]]]
+            time[falls[found[order]]], pair[falls[found[order]]] = instants[order], fractions[order].argmin(axis=1)
+            split = np.flatnonzero(is_coarse & (before.time < latest[falls]))
+            if not split.size:
                 return np.where(pair < 0, np.nan, time), pair
-            falls, before, after = falls[open_spans], before.select(open_spans), after.select(open_spans)
-            owners = np.repeat(falls, len(INNER_FRACTIONS))
-            instants = before.time[:, None] + (after.time - before.time)[:, None] * INNER_FRACTIONS
-            inner = self._make_instant(*_interpolate(start.select(owners), end.select(owners), instants.ravel()))
-            before, after = (_Instant.join(*pair_of, len(falls)) for pair_of in ((before, inner), (inner, after)))
-            falls = np.repeat(falls, len(INNER_FRACTIONS) + 1)
+            falls, before, after = falls[split], before.select(split), after.select(split)
+            middle_time = (before.time + after.time) / 2
+            middle = self._make_instant(*_interpolate(start.select(falls), end.select(falls), middle_time))
+            before, after, falls = before.join(middle), middle.join(after), np.concatenate([falls, falls])
+
+
+def _find_possible_contacts(
+    before: _Instant, after: _Instant, change_bounds: FloatArray, ignored: BoolArray | bool = False
+) -> tuple[BoolArray, BoolArray]:
+    """Return which distances (R, P) may reach 0 between two instants, and in which falls (R,) one of them may change far."""
+    half = (after.time - before.time)[:, None] / 2
+    travel = half * (np.abs(before.rates) + np.abs(after.rates))
+    travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
+    sums, touching = before.distances + after.distances, after.distances < 0
+    # Most pairs are excluded by the largest bound of all pairs.
+    largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
+    falls, pairs = np.nonzero(((sums < largest_change[:, None]) | touching) & np.logical_not(ignored))
+    change = np.sum(travel[falls] * change_bounds[pairs], axis=1)
+    is_possible = (sums[falls, pairs] < change) | touching[falls, pairs]
+    possible, is_coarse = np.zeros(sums.shape, dtype=np.bool_), np.zeros(len(sums), dtype=np.bool_)
+    possible[falls[is_possible], pairs[is_possible]] = True
+    is_coarse[falls[is_possible & (change >= MIN_DISTANCE_CHANGE_M)]] = True
+    return possible, is_coarse
 
 
 def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
