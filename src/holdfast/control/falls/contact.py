@@ -20,7 +20,7 @@ from holdfast.model.collision.segments import LineSegment, closest_parameters
 
 CHECK_SPACING_S = 0.01  # simulated time between two computations of the distances
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
-TIME_RESOLUTION_S = 1e-3  # of a contact; the distances are straight lines over a shorter span
+TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
 MIN_BLOCK_ROWS = 1024
 
