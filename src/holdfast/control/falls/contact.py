@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
 
-from holdfast.control.falls.simulator import FallSimulator
-from holdfast.core.errors import InputError
+from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
@@ -20,8 +20,9 @@ from holdfast.model.collision.segments import LineSegment, closest_parameters
 
 CHECK_SPACING_S = 0.01  # simulated time between two computations of the distances
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
+TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
-INNER_FRACTIONS = np.array([0.25, 0.5, 0.75])  # of a span of time in which a contact is possible, where it is split
+MIN_BLOCK_ROWS = 1024
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,13 +57,11 @@ class FallContacts:
     kinetic_energy: FloatArray
     initial: BoolArray
 
-    def first(self, row: int = 0) -> Contact | None:
-        """Return the contact of one fall, with its sentence; None for a fall without contact."""
-        pair = int(np.atleast_1d(self.pair)[row])
-        if pair < 0:
-            return None
+    def select_contact(self, row: int = 0) -> Contact | None:
+        """Return the contact of one fall, which has a sentence; None for a fall without contact."""
+        pair, time = int(np.atleast_1d(self.pair)[row]), float(np.atleast_1d(self.time)[row])
         link, _, other = self.pair_names[pair].partition(" & ")
-        return Contact(run=row, time=float(np.atleast_1d(self.time)[row]), link=link, object=other, depth=0.0)
+        return Contact(run=row, time=time, link=link, object=other, depth=0.0) if pair >= 0 else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,24 +77,18 @@ class _Instant:
         """Return some of the falls."""
         return _Instant(**{name: value[rows] for name, value in vars(self).items()})
 
-    @classmethod
-    def join(cls, first: _Instant, second: _Instant, count: int) -> _Instant:
-        """Return the instants of ``count`` spans in order: those of a span in the first, then those in the second."""
-        joined = {}
-        for name, value in vars(first).items():
-            parts = [part.reshape(count, -1, *value.shape[1:]) for part in (value, getattr(second, name))]
-            joined[name] = np.concatenate(parts, axis=1).reshape(-1, *value.shape[1:])
-        return cls(**joined)
+    def join(self, other: _Instant) -> _Instant:
+        """Return these instants and, after them, those of the other one."""
+        return _Instant(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
 
 
 class ContactSearch:
-    """Search for the first contact of each fall of one arm.
+    """Falls of one arm up to their first contacts.
 
     The distances are computed every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
     at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
-    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the distances are
-    computed at a quarter of the spacing, until L is below half a millimetre. Only a contact that is less than a quarter of a
-    millimetre deep may be missed.
+    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the span is halved,
+    until L is below half a millimetre. Only a contact that is less than a quarter of a millimetre deep may be missed.
 
     Args:
         simulator: Simulator of the falls.
@@ -106,88 +99,64 @@ class ContactSearch:
 
     def __init__(self, simulator: FallSimulator, clearance: Clearance, starts: FloatArray, duration: float) -> None:
         self.simulator, self.clearance, arm = simulator, clearance, simulator.arm
-        lower, upper = sampling_limits(arm)
-        # Only the travel of prismatic joints matters. Without stops it is assumed to be at most that of twice a free fall.
-        travel = 0.0 if simulator.has_stops else float(np.linalg.norm(arm.gravity)) * duration**2
-        lower, upper = np.min([lower, *starts], axis=0) - travel, np.max([upper, *starts], axis=0) + travel
-        self.change_bounds = clearance.lipschitz_bounds(lower, upper)
-        self.block_rows = max(1, BLOCK_DISTANCES // max(1, len(clearance.pair_names)))
+        limits = np.array(sampling_limits(arm))
+        # Only the travel of prismatic joints matters. Without a stop it is assumed to be at most that of twice a free fall.
+        is_stopped = simulator.has_stops & np.isfinite(arm.lower) & np.isfinite(arm.upper)
+        travel = np.where(is_stopped, 0.0, np.linalg.norm(arm.gravity) * duration**2)
+        reached = np.concatenate([limits, starts])
+        self.change_bounds = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel)
+        own, objects = np.split(self.change_bounds, [len(clearance.pairs)])
+        self.nearest_change_bounds = np.concatenate([own, objects.max(axis=0, keepdims=True)]) if len(objects) else own
 
-    def find_initial_contacts(self, q: FloatArray, rows: IndexArray) -> BoolArray:
-        """Return which pairs touch at the power loss, (N, P).
-
-        Args:
-            q: (N, n) finite configurations, rad and m.
-            rows: (N,) numbers of the rows, for messages.
-
-        Raises:
-            InputError: A link is more than 1 mm inside an object of the cell.
-        """
-        own, initial = len(self.clearance.pairs), np.zeros((len(q), len(self.clearance.pair_names)), dtype=np.bool_)
-        for start in range(0, len(q), self.block_rows):
-            distances = self.clearance.by_pair(q[start : start + self.block_rows])
-            initial[start : start + self.block_rows] = distances < 0
-            inside = np.argwhere(distances[:, own:] < -REQUIRED_GAP_M)
-            if inside.size:
-                row, pair = inside[0]
-                link, _, name = self.clearance.pair_names[own + pair].partition(" & ")
-                raise InputError(
-                    f"q puts link '{link}' {-distances[row, own + pair]:.3g} m into object '{name}' of the cell"
-                    + (f" in row {rows[start + row]}" if len(q) > 1 else "")
-                    + "; start outside it, or add the pair to may_touch of the cell"
-                )
-        return initial
-
-    def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> tuple[FloatArray, IndexArray]:
-        """Return the time (N,) of the first contact of each fall, s, and its pair (N,); NaN and -1 for none.
-
-        Args:
-            q: (N, n) finite configurations at the power loss, rad and m.
-            rates: (N, n) finite joint rates at the power loss, rad/s and m/s.
-            until: (N,) times since the power loss, above 0, s.
-            step: (N,) longest steps, s.
-        """
+    def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
+        """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
+        workers = 1 if in_pool() else thread_count()
+        block_rows = min(BLOCK_DISTANCES // (1 + len(self.clearance.pair_names)), max(MIN_BLOCK_ROWS, -(-len(q) // workers)))
+        blocks = [slice(start, start + block_rows) for start in range(0, len(q), block_rows)]
+        mapped = map if workers == 1 or len(blocks) <= 1 else shared_pool().map
+        found = mapped(lambda b: self._find_contacts(q[b], rates[b], until[b], step[b]), blocks)
         time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
-        blocks = [slice(start, start + self.block_rows) for start in range(0, len(q), self.block_rows)]
-        for b in track("blocks of falls until contact", blocks):
-            time[b], pair[b] = self._run_block(q[b], rates[b], until[b], step[b])
-        return time, pair
+        for b, (block_time, block_pair) in zip(track("blocks of falls until contact", blocks), found, strict=True):
+            time[b], pair[b] = block_time, block_pair
+        return replace(self.simulator.run(q, rates, np.fmin(time, until), step), pair=pair)
 
-    def _run_block(
+    def _find_contacts(
         self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
     ) -> tuple[FloatArray, IndexArray]:
+        """Return the time (N,) and the pair (N,) of the first contact of each fall; NaN and -1 for none."""
         stepper, rows = self.simulator.stepper, np.arange(len(q))
         time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
         calls = max(1, int(CHECK_SPACING_S / step.max(initial=0.0)))
-        before = self._make_instant(np.zeros(len(q)), q, rates)
-        ignored = before.distances < 0
+        before, ignored = self._measure_nearest(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
         for _ in range(most_calls // calls + 1):
             if not rows.size:
                 break
             result = stepper.loop.run(states, parameters, 0.5, calls)
             parts = stepper.layout.view_parts(result.state)
-            after = self._make_instant(parts["time"][:, 0], parts["q"], parts["rates"])
-            doubtful = np.flatnonzero(self._find_possible_contacts(before, after, ignored)[0].any(axis=1))
+            after = self._measure_nearest(parts["time"][:, 0], parts["q"], parts["rates"])
+            possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
+            doubtful = np.flatnonzero(possible.any(axis=1) | ignored.any(axis=1))
             if doubtful.size:
-                spans = before.select(doubtful), after.select(doubtful)
-                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(*spans, ignored[doubtful])
-            ignored = ignored & (after.distances < REQUIRED_GAP_M)
+                start, end = (
+                    self._measure(part.time, part.q, part.rates) for part in (before.select(doubtful), after.select(doubtful))
+                )
+                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
+                ignored[doubtful] &= end.distances < REQUIRED_GAP_M
             remaining = np.flatnonzero(~result.done & (pair[rows] < 0))
             rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
             states, parameters = result.state[remaining], parameters[remaining]
         return time, pair
 
-    def _make_instant(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
+    def _measure(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
         return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
 
-    def _find_possible_contacts(self, before: _Instant, after: _Instant, ignored: BoolArray) -> tuple[BoolArray, FloatArray]:
-        """Return which pairs may touch between two instants, and the bounds of the changes of their distances, m, (R, P)."""
-        half = (after.time - before.time)[:, None] / 2
-        travel = half * (np.abs(before.rates) + np.abs(after.rates))
-        travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
-        change = travel @ self.change_bounds.T
-        return ~ignored & ((before.distances + after.distances < change) | (after.distances < 0)), change
+    def _measure_nearest(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
+        """Return instants with the distances of all pairs of links, and of the nearest object, which are fast to compute."""
+        distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
+        if obstacles is not None:
+            distances = np.column_stack([distances, obstacles.smallest_distance(q)])
+        return _Instant(time=time, q=q, rates=rates, distances=distances)
 
     def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
         """Return the time (R,) and the pair (R,) of the first contact of each fall between two instants; NaN and -1 for none.
@@ -198,25 +167,43 @@ class ContactSearch:
         falls, before, after = np.arange(len(ignored)), start, end
         latest = np.full(len(ignored), np.inf)  # times at which a contact has begun
         while True:
-            possible, change = self._find_possible_contacts(before, after, ignored[falls])
+            possible, is_coarse = _find_possible_contacts(before, after, self.change_bounds, ignored[falls])
             touching = possible & (after.distances < 0)
             np.minimum.at(latest, falls, np.where(touching.any(axis=1), after.time, np.inf))
-            is_long = (possible & (change >= MIN_DISTANCE_CHANGE_M)).any(axis=1)
-            found = np.flatnonzero(~is_long & touching.any(axis=1))[::-1]
-            for_pairs = before.distances[found] / np.maximum(before.distances[found] - after.distances[found], 1e-300)
-            fractions = np.where(touching[found], np.clip(for_pairs, 0, 1), np.inf)
+            is_coarse &= ~touching.any(axis=1) | (after.time - before.time > TIME_RESOLUTION_S)
+            found = np.flatnonzero(~is_coarse & touching.any(axis=1))
+            drops = np.where(touching[found], before.distances[found] - after.distances[found], 1.0)
+            fractions = np.where(touching[found], np.clip(before.distances[found] / drops, 0, 1), np.inf)
             instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
-            found, fractions, instants = (value[instants < time[falls[found]]] for value in (found, fractions, instants))
-            time[falls[found]], pair[falls[found]] = instants, fractions.argmin(axis=1)  # the earliest is assigned last
-            open_spans = np.flatnonzero(is_long & (before.time < latest[falls]))
-            if not open_spans.size:
+            order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
+            order = order[instants[order] < time[falls[found[order]]]]
+            time[falls[found[order]]], pair[falls[found[order]]] = instants[order], fractions[order].argmin(axis=1)
+            split = np.flatnonzero(is_coarse & (before.time < latest[falls]))
+            if not split.size:
                 return np.where(pair < 0, np.nan, time), pair
-            falls, before, after = falls[open_spans], before.select(open_spans), after.select(open_spans)
-            owners = np.repeat(falls, len(INNER_FRACTIONS))
-            instants = before.time[:, None] + (after.time - before.time)[:, None] * INNER_FRACTIONS
-            inner = self._make_instant(*_interpolate(start.select(owners), end.select(owners), instants.ravel()))
-            before, after = (_Instant.join(*pair_of, len(falls)) for pair_of in ((before, inner), (inner, after)))
-            falls = np.repeat(falls, len(INNER_FRACTIONS) + 1)
+            falls, before, after = falls[split], before.select(split), after.select(split)
+            middle_time = (before.time + after.time) / 2
+            middle = self._measure(*_interpolate(start.select(falls), end.select(falls), middle_time))
+            before, after, falls = before.join(middle), middle.join(after), np.concatenate([falls, falls])
+
+
+def _find_possible_contacts(
+    before: _Instant, after: _Instant, change_bounds: FloatArray, ignored: BoolArray | bool = False
+) -> tuple[BoolArray, BoolArray]:
+    """Return which distances (R, P) may reach 0 between two instants, and in which falls (R,) one of them may change far."""
+    half = (after.time - before.time)[:, None] / 2
+    travel = half * (np.abs(before.rates) + np.abs(after.rates))
+    travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
+    sums, touching = before.distances + after.distances, after.distances < 0
+    # Most pairs are excluded by the largest bound of all pairs.
+    largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
+    falls, pairs = np.nonzero(((sums < largest_change[:, None]) | touching) & np.logical_not(ignored))
+    change = np.sum(travel[falls] * change_bounds[pairs], axis=1)
+    is_possible = (sums[falls, pairs] < change) | touching[falls, pairs]
+    possible, is_coarse = np.zeros(sums.shape, dtype=np.bool_), np.zeros(len(sums), dtype=np.bool_)
+    possible[falls[is_possible], pairs[is_possible]] = True
+    is_coarse[falls[is_possible & (change >= MIN_DISTANCE_CHANGE_M)]] = True
+    return possible, is_coarse
 
 
 def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -229,20 +216,9 @@ def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[Floa
     return time, q, (first + s * (2 * second + 3 * s * third)) / duration
 
 
-def collect_contact_fields(
-    simulator: FallSimulator, clearance: Clearance, q: FloatArray, rates: FloatArray, time: FloatArray, pair: IndexArray
-) -> Rows:
-    """Return the fields of :class:`FallContacts` with numbers.
-
-    Args:
-        simulator: Simulator of the falls.
-        clearance: Collision model.
-        q: (N, n) configurations at the contact, rad and m.
-        rates: (N, n) joint rates just before the contact, rad/s and m/s.
-        time: (N,) times of the contacts, s; NaN for none.
-        pair: (N,) touching pairs; -1 for none.
-    """
-    arm, free = simulator.arm, np.asarray(simulator.conditions["free"]) > 0
+def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:
+    """Return the fields of :class:`FallContacts` that have rows, for falls from ``starts`` (N, n) to their contacts."""
+    arm, free, q, pair = simulator.arm, np.asarray(simulator.conditions["free"]) > 0, states.q, states.pair
     frames, joints = arm.frames(q), np.arange(arm.n)
     point, normal = np.full((len(q), 3), np.nan), np.full((len(q), 3), np.nan)
     side = np.zeros((len(q), arm.n))  # 1 if the joint moves only the link, -1 if it moves only the other link
@@ -251,23 +227,23 @@ def collect_contact_fields(
         point[rows], normal[rows], link, other = _locate_contact_points(clearance, int(index), frames[rows])
         side[rows] = (joints <= link).astype(float) - (joints <= other)
     axes = np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], [joint.axis for joint in arm.joints])
-    lever = np.cross(axes, point[:, None] - frames[:, 1:-1, :3, 3])
-    gradient = side * np.einsum("nki,ni->nk", np.where(arm.prismatic[:, None], axes, lever), normal)
-    inertia = simulator.energy_kernel.rows(q)[:, 1:].reshape(-1, arm.n, arm.n)
-    coupled = np.where(np.outer(free, free), inertia, np.eye(arm.n))
-    mobility = np.sum(gradient * free * np.linalg.solve(coupled, (gradient * free)[:, :, None])[:, :, 0], axis=1)
-    speed = -np.sum(gradient * rates, axis=1)
-    has_contact = pair >= 0
-    mass = np.divide(1.0, mobility, out=np.full(len(q), np.inf), where=mobility > 0)
+    levers = np.cross(axes, point[:, None] - frames[:, 1:-1, :3, 3])
+    gradient = side * np.einsum("nki,ni->nk", np.where(arm.prismatic[:, None], axes, levers), normal)
+    speed, free_gradient = -np.sum(gradient * states.rates, axis=1), (gradient * free)[:, :, None]
+    inertia = np.where(np.outer(free, free), simulator.inertia_matrices(q), np.eye(arm.n))
+    mobility = np.sum(free_gradient * np.linalg.solve(inertia, free_gradient), axis=(1, 2))  # NaN without contact
+    mass = 1 / np.where(mobility == 0, np.nan, mobility)
+    block_count = 1 + pair.size * len(clearance.pair_names) // BLOCK_DISTANCES
     return {
         "pair": pair,
-        "time": time,
+        "time": np.where(pair < 0, np.nan, states.time),
         "point": point,
         "normal": normal,
         "normal_speed": speed,
-        "effective_mass": np.where(has_contact, mass, np.nan),
-        "energy_lost": np.where(speed != 0, mass / 2 * speed**2, 0.0),
-        "kinetic_energy": np.where(has_contact, simulator.energies(q, rates)[1], np.nan),
+        "effective_mass": mass,
+        "energy_lost": mass / 2 * speed**2,
+        "kinetic_energy": np.where(pair < 0, np.nan, simulator.energies(q, states.rates)[1]),
+        "initial": np.concatenate([clearance.by_pair(block) < 0 for block in np.array_split(starts, block_count)]),
     }
 
 
@@ -282,18 +258,14 @@ def _locate_contact_points(clearance: Clearance, pair: int, frames: FloatArray) 
         point, _, normal = clearance.obstacles.find_closest_points(pair - own, frames[:, link + 1])
         return point, normal, link, BASE_LINK
     parts = [clearance.capsules.parts[index] for index in clearance.pairs[pair]]
-    ends = [
-        np.array([part.start, part.end]) @ frames[:, part.link + 1, :3, :3].swapaxes(1, 2)
-        + frames[:, part.link + 1, None, :3, 3]
-        for part in parts
-    ]
-    symbols = [ca.SX.sym("ends", 3, 2) for _ in parts]
-    axes = [
-        LineSegment(symbol[:, 0], symbol[:, 1] - symbol[:, 0], part.length**2)
-        for symbol, part in zip(symbols, parts, strict=True)
-    ]
-    closest = [axis.point_at(parameter) for axis, parameter in zip(axes, closest_parameters(*axes), strict=True)]
+    ends, symbols, segments = [], [], []
+    for part in parts:
+        pose, symbol = frames[:, part.link + 1], ca.SX.sym("ends", 2, 3)
+        ends.append(np.array([part.start, part.end]) @ pose[:, :3, :3].swapaxes(1, 2) + pose[:, None, :3, 3])
+        segments.append(LineSegment(symbol[0, :].T, (symbol[1, :] - symbol[0, :]).T, part.length**2))
+        symbols.append(symbol)
+    closest = [segment.point_at(s) for segment, s in zip(segments, closest_parameters(*segments), strict=True)]
     kernel = Kernel("closest points of two capsules", symbols, closest, backend="casadi")
-    first, second = np.split(kernel.rows(*(values.swapaxes(1, 2) for values in ends)), 2, axis=1)
+    first, second = np.split(kernel.rows(*ends), 2, axis=1)
     normal = (first - second) / np.maximum(np.linalg.norm(first - second, axis=1, keepdims=True), 1e-300)
     return first - parts[0].radius * normal, normal, parts[0].link, parts[1].link

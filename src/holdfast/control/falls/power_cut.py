@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
-from holdfast.control.falls.contact import ContactSearch, FallContacts, collect_contact_fields
+from holdfast.control.falls.contact import REQUIRED_GAP_M, ContactSearch, FallContacts, collect_contact_fields
 from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
 from holdfast.control.falls.simulator import FallSimulator, FallStates, never
 from holdfast.core.errors import ArmError, InputError
@@ -107,12 +107,12 @@ def power_loss(
     steps = np.full(len(starts), float(step))
     rows = np.flatnonzero(is_finite)
     model = chosen_clearance(arm, clearance, cell, looks=False)
-    search = None if model is None else ContactSearch(simulator, model, starts[rows], duration)
-    initial = None if search is None else search.find_initial_contacts(starts[rows], rows)
-    simulated = _simulate(simulator, search, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
-    states, errors, steps[rows], contact_time, pair = simulated
+    runner: FallSimulator | ContactSearch = simulator
+    if model is not None:
+        _check_start_contacts(model, starts[rows], rows)
+        runner = ContactSearch(simulator, model, starts[rows], duration)
+    states, errors, steps[rows] = _simulate(simulator, runner, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
     fields = _collect_fields(simulator, starts[rows], start_rates[rows], states)
-    fields["code"][pair >= 0] = FallOutcome.CONTACT
     fields["error"] = errors
     fields["status"] = np.where(states.is_finished, Status.OK, Status.INACCURATE).astype(np.uint8)
     if accuracy is not None:
@@ -124,8 +124,8 @@ def power_loss(
     values["code"][~is_finite] = FallOutcome.UNKNOWN
     values |= {"q": starts, "rates": start_rates, "step": steps}
     contacts: Rows = {}
-    if model is not None and initial is not None:
-        contacts = collect_contact_fields(simulator, model, states.q, states.rates, contact_time, pair) | {"initial": initial}
+    if model is not None:
+        contacts = collect_contact_fields(simulator, model, starts[rows], states)
         contacts = {name: _spread_rows(value, rows, len(starts)) for name, value in contacts.items()}
         contacts["pair"][~is_finite] = -1
     if is_single:
@@ -146,45 +146,39 @@ def power_loss(
 
 def _simulate(
     simulator: FallSimulator,
-    search: ContactSearch | None,
+    runner: FallSimulator | ContactSearch,
     q: FloatArray,
     rates: FloatArray,
     duration: float,
     step: FloatArray,
     accuracy: float | None,
-) -> tuple[FallStates, FloatArray, FloatArray, FloatArray, IndexArray]:
-    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s.
-
-    The other results are the times (N,) of the first contacts, s, and their pairs (N,): NaN and -1 for none.
-    """
-    time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
-    if search is not None:
-        time, pair = search.run(q, rates, np.full(len(q), float(duration)), step)
-    until = np.fmin(time, duration)
-    coarse, states = (simulator.run(q, rates, until, size) for size in (2 * step, step))
+) -> tuple[FallStates, FloatArray, FloatArray]:
+    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s."""
+    until = np.full(len(q), float(duration))
+    states = runner.run(q, rates, until, step)
+    coarse = simulator.run(q, rates, np.where(states.pair < 0, until, states.time), 2 * step)
     errors = 2 * np.linalg.norm(states.tool - coarse.tool, axis=1)
     for _ in range(0 if accuracy is None else MOST_HALVINGS):
         rows = np.flatnonzero(~(errors <= accuracy))
         if not rows.size:
             break
         step[rows] /= 2
-        coarse_tool = states.tool[rows]
-        if search is not None:
-            time[rows], pair[rows] = search.run(q[rows], rates[rows], np.full(len(rows), float(duration)), step[rows])
-            until[rows] = np.fmin(time[rows], duration)
-            coarse_tool = simulator.run(q[rows], rates[rows], until[rows], 2 * step[rows]).tool
-        finer = simulator.run(q[rows], rates[rows], until[rows], step[rows])
+        finer, coarse_tool = runner.run(q[rows], rates[rows], until[rows], step[rows]), states.tool[rows]
+        if runner is not simulator:  # the times of the contacts differ
+            ends = np.where(finer.pair < 0, until[rows], finer.time)
+            coarse_tool = simulator.run(q[rows], rates[rows], ends, 2 * step[rows]).tool
         errors[rows] = 2 * np.linalg.norm(finer.tool - coarse_tool, axis=1)
         for name, value in vars(states).items():
             value[rows] = getattr(finer, name)
-    return states, errors, step, time, pair
+    return states, errors, step
 
 
 def _collect_fields(simulator: FallSimulator, q: FloatArray, rates: FloatArray, states: FallStates) -> Rows:
     """Return the fields of the result for falls from q (N, n)."""
     potential, kinetic = simulator.energies(q, rates)
     is_still = states.is_at_rest & (states.time == 0)
-    outcome = np.select([is_still, states.is_at_rest], [FallOutcome.HOLDS, FallOutcome.REST], FallOutcome.MOVING)
+    cases = {FallOutcome.CONTACT: states.pair >= 0, FallOutcome.HOLDS: is_still, FallOutcome.REST: states.is_at_rest}
+    outcome = np.select([*cases.values()], [*cases], FallOutcome.MOVING)
     return {
         "q_final": states.q,
         "rates_final": states.rates,
@@ -254,6 +248,20 @@ def _check_limits(arm: Arm, q: FloatArray, rows: IndexArray, is_free: FloatArray
             f"q puts joint '{arm.joint_names[joint]}' {excess:.4g} {unit} outside its limits {arm.lower[joint]:g} to "
             f"{arm.upper[joint]:g} {unit}" + (f" in row {rows[row]}" if len(q) > 1 else "") + "; start inside them, or give "
             "stops=False"
+        )
+
+
+def _check_start_contacts(clearance: Clearance, q: FloatArray, rows: IndexArray) -> None:
+    if clearance.obstacles is None:
+        return
+    inside = np.flatnonzero(clearance.obstacles.smallest_distance(q) < -REQUIRED_GAP_M)
+    if inside.size:
+        distances = clearance.obstacles.pair_distances(q[inside[:1]])[0]
+        link, _, name = clearance.obstacles.names[distances.argmin()].partition(" & ")
+        raise InputError(
+            f"q puts link '{link}' {-distances.min():.3g} m into object '{name}' of the cell"
+            + (f" in row {rows[inside[0]]}" if len(q) > 1 else "")
+            + "; start outside it, or add the pair to may_touch of the cell"
         )
 
 

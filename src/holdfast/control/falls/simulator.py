@@ -12,7 +12,7 @@ from holdfast.control.falls.smooth import SmoothStepper
 from holdfast.control.falls.stepping import DryFrictionStepper
 from holdfast.control.simulation.system import LARGE_NUMBER, STATE_AT_REST
 from holdfast.core.progress import track
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.kernel import Kernel
 from holdfast.model.arm.model import Arm
 
@@ -33,6 +33,7 @@ class FallStates:
         residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N.
         is_at_rest: (N,) True if no joint moves any more.
         is_finished: (N,) False if the simulation was given up.
+        pair: (N,) pair of the clearance that touches at this time; -1 for none.
     """
 
     q: FloatArray
@@ -43,6 +44,7 @@ class FallStates:
     residual: FloatArray
     is_at_rest: BoolArray
     is_finished: BoolArray
+    pair: IndexArray
 
 
 class FallSimulator:
@@ -107,6 +109,7 @@ class FallSimulator:
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
             is_finished=result.done,
+            pair=np.full(len(q), -1, dtype=np.int64),
         )
 
     def tool_points(self, q: FloatArray) -> FloatArray:
@@ -115,9 +118,11 @@ class FallSimulator:
 
     def energies(self, q: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return potential and kinetic energies (N,), J, of states (N, n); the first up to a constant."""
-        values = self.energy_kernel.rows(q)
-        inertia = values[:, 1:].reshape(-1, self.arm.n, self.arm.n)
-        return values[:, 0], np.einsum("ni,nij,nj->n", rates, inertia, rates) / 2
+        return self.energy_kernel.rows(q, first=1)[:, 0], np.einsum("ni,nij,nj->n", rates, self.inertia_matrices(q), rates) / 2
+
+    def inertia_matrices(self, q: FloatArray) -> FloatArray:
+        """Return the inertia matrices (N, n, n), kg m^2, of configurations (N, n)."""
+        return self.energy_kernel.rows(q)[:, 1:].reshape(-1, self.arm.n, self.arm.n)
 
 
 @lru_cache(maxsize=16)
