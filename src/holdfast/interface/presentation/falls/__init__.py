@@ -1,0 +1,1 @@
+"""Reports of falls of an arm that lost its power."""
