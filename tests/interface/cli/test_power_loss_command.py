@@ -68,11 +68,11 @@ def test_brakes_and_the_band_are_compared(ask, cli, planar):
 
 
 def test_people_read_the_answer_and_the_joints(cli, planar):
-    code, out, err = cli("power-loss", "planar-3r", "--q", "10 20 30", "--degrees", "--coulomb", "30")
+    code, out, err = cli(*CALL, "--brake-after", "50", "--brake-torque", "70")
     assert (code, err) == (0, "")
-    fall = hf.power_loss(planar, Q, friction=hf.Friction(coulomb=30.0))
+    fall = hf.power_loss(planar, Q, friction=FRICTION, brakes=hf.Brakes(after=0.05, torque=70.0))
     words = " ".join(out.split())
-    assert f"The tool falls {100 * fall.drop:.3g} cm, and the arm is at rest after {fall.rest_time:.3g} s" in words
+    assert f"The tool falls {1000 * fall.drop:.3g} mm, and the arm is at rest after {fall.rest_time:.3g} s" in words
     assert f"{1000 * fall.drop_at(0.1):.4g} mm" in out
     assert f"{planar.gravity_torque(Q)[0]:.2f} N m" in out
     assert "Neither the arm nor the options state" not in out
