@@ -27,7 +27,7 @@ import harness
 from harness import Spread
 
 HERE = Path(__file__).resolve().parents[1]
-SINGLE = ("arms", "describe", "index", "susceptibility", "optimise", "follow", "free-swing", "simulate", "recover")
+SINGLE = ("arms", "describe", "index", "susceptibility", "optimise", "follow", "power-loss", "simulate", "recover")
 SINGLE += ("stationary-points",)
 SINGLE += ("self-motion", "export", "report", "help", "import holdfast", "study new", "study status", "study verify")
 SINGLE += ("cell check", "certificate show", "certify structural-zero", "ceiling", "faults draw", "records list")

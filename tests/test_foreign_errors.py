@@ -144,9 +144,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "path": g["timed"], "maximise": index, "method": "gradient-projection", "q": q, "gain": 0.1}
             | {"wanted": None, "rate_cap": None, "task": "planar", "samples": 3, "damping": 0.05, "seed": 0, "spacing": 0.1},
         ),
-        "free_swing": (
-            hf.free_swing,
-            {"arm": arm, "q": q, "joint": 1, "damping": 1.0, "duration": 0.1, "brake_after": [50], "step": 0.01},
+        "holds": (hf.holds, {"arm": arm, "q": q, "free": [1], "friction": None, "effort": 0.0, "stops": False}),
+        "power_loss": (
+            hf.power_loss,
+            {"arm": arm, "q": q, "rates": q, "free": [1], "friction": None, "brakes": None, "restitution": 0.0, "stops": False}
+            | {"duration": 0.1, "step": 0.01, "accuracy": None},
         ),
         "joint_bounds": (hf.joint_bounds, {**at_planar, "target": target, "seed": 0, "starts": 4}),
         "load": (hf.load, {"path": folder / "none"}),

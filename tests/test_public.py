@@ -74,7 +74,7 @@ def test_the_names_a_user_needs():
         "Assessment",
         "Status",
         "HoldfastError",
-        "FreeSwing",
+        "PowerLoss",
         "Trajectory",
     }
     needed |= {
@@ -86,7 +86,7 @@ def test_the_names_a_user_needs():
         "susceptibility",
         "paths",
         "set_threads",
-        "free_swing",
+        "power_loss",
         "follow",
         "plan_motion",
         "evaluate_motion",

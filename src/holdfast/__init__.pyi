@@ -27,13 +27,10 @@ from holdfast.control.falls import power_loss as power_loss
 from holdfast.control.falls import power_loss_along as power_loss_along
 from holdfast.control.falls import power_loss_probability as power_loss_probability
 from holdfast.control.physics import Body as Body
-from holdfast.control.physics import BrakedDrop as BrakedDrop
 from holdfast.control.physics import Execution as Execution
-from holdfast.control.physics import FreeSwing as FreeSwing
 from holdfast.control.physics import PhysicalRun as PhysicalRun
 from holdfast.control.physics import Servos as Servos
 from holdfast.control.physics import execute as execute
-from holdfast.control.physics import free_swing as free_swing
 from holdfast.control.physics import simulate_physics as simulate_physics
 from holdfast.control.simulation import Runs as Runs
 from holdfast.control.simulation import simulate as simulate

@@ -375,7 +375,7 @@ CALLS = {
     "executing the motion": lambda arm, law, x: hf.execute(arm, [x, x + 0.1], [0.0, 1.0]),
     "simulating the physics": lambda arm, law, x: hf.simulate_physics(law, x, [1.5, 1.5], time_limit=1.0),
     "simulating power losses": lambda arm, law, x: hf.power_loss(arm, x, duration=0.1),
-    "simulating the swing": lambda arm, law, x: hf.free_swing(arm, x, "joint2", duration=1.0),
+    "simulating a fall in MuJoCo": lambda arm, law, x: hf.power_loss(arm, x).physical(clearance=False),
 }
 
 

@@ -31,12 +31,13 @@ def named(classes):
 RESULTS = named(
     {
         "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
-        "FaultRun FreeSwing HoldCheck LawChoice LawComparison Optima PhysicalRun PoseExplanation ReachabilityMap "
+        "FaultRun HoldCheck LawChoice LawComparison Optima PhysicalRun PoseExplanation PowerLoss ReachabilityMap "
         "Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
         "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",
         "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
+        "control.falls": "PhysicalFall",
         "studies.designs": "RecordBook ArmComparison DesignRecord RecordCheck",
         "core.sweeps": "MergeReport Study StudyVerification",
         "response.diagnosis": "Bounds Diagnosis Examination ExportedMonitor Identification Observability ProbingMotion",
@@ -52,7 +53,7 @@ RESULTS = named(
 # Numbers with their names: plain frozen dataclasses, parts of results, or made in a control cycle.
 VALUES = named(
     {
-        "": "BrakedDrop PoseSolutions PowerLoss",
+        "": "PoseSolutions",
         "model.arms": "Builtin DHTable",
         "studies.assessment": "Structure Upgrade WeakJoint",
         "control": "Deviations",

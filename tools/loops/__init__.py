@@ -3,7 +3,7 @@
 # Each is a module of this name; the value is the seed of what it draws at random, if anything.
 LOOPS = {
     "studio": None,
-    "free-swing": None,
+    "power-loss": None,
     "two-laws": None,
     "self-motion": 0,
     "basins": 0,

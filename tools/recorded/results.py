@@ -77,7 +77,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
         control.damped(PANDA, 0.1, "position", gain=0.1), HOME, [0.5, 0.2, 0.4], locked=[3], cycles=True, time=4
     ),
     "physical_run": lambda: hf.simulate_physics(LAW, AT, [1.5, 1.5], locked=[1], time=0.5),
-    "free_swing": lambda: hf.free_swing(PANDA, HOME, 3, brake_after=[0.05, 0.1]),
+    "power_loss": lambda: hf.power_loss(PANDA, HOME, free=[3], brakes=hf.Brakes(after=0.05, torque=40.0)),
+    "physical_fall": lambda: hf.power_loss(PANDA, HOME, duration=0.2).physical(),
     "motions": lambda: hf.point_to_point(PANDA, 5, distance=(0.2, 0.8), task="position", failures="single"),
     "law_comparison": lambda: hf.compare_laws(
         [LAW, control.weighted(FLAT, [1, 2, 3], "planar")], [AT, -AT], [[1.5, 1.5], [1.0, 1.0]]

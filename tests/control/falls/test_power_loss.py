@@ -1,4 +1,4 @@
-"""Falls against closed forms, an event-driven reference, MuJoCo, scipy, and free swings; properties; bad inputs."""
+"""Falls against closed forms, an event-driven reference, MuJoCo, and scipy; properties; bad inputs."""
 
 from __future__ import annotations
 
@@ -193,17 +193,6 @@ def test_without_dry_friction_and_stops_the_panda_falls_as_in_mujoco(panda):
         for _ in range(600):
             mujoco.mj_step(compiled, data)
         np.testing.assert_allclose(end, data.qpos, atol=2e-6)
-
-
-def test_one_free_joint_moves_as_in_a_free_swing(panda):
-    q = np.array([0.1, -0.4, 0.2, -1.7, 0.3, 1.6, 0.5])
-    swing = hf.free_swing(panda, q, "panda_joint2", damping=2.0, duration=1.0, brake_after=())
-    fall = hf.power_loss(panda, q, free=["panda_joint2"], friction=hf.Friction(viscous=2.0), stops=False, duration=1.0)
-    sample = slice(0, None, 250)
-    moved = fall.q_at(swing.time[sample]) - q
-    np.testing.assert_allclose(moved[:, 1], swing.angle[sample], atol=1e-4)
-    assert not np.delete(moved, 1, axis=1).any()
-    np.testing.assert_allclose(fall.tool_at(0.5), swing.tool_position[500], atol=1e-4)
 
 
 # ---- laws ------------------------------------------------------------------------------------------------------------

@@ -223,7 +223,7 @@ CALLS = {
     "convergence-map": ("planar-3r", "--target", "1.5,1.5", "--starts", 2),
     "plan-motion": ("panda", "line.yaml"),
     "follow": ("panda", "line.yaml", "--minimise", "torque"),
-    "free-swing": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--joint", 2),
+    "power-loss": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--physics"),
     "optimise": BEST[1:],
     "recover": ("panda", "--lock", "panda_joint4=-1.2", "--goal", "0.5,0.2,0.4"),
     "self-motion": ("planar-3r", "--target", "1.5,1.5"),

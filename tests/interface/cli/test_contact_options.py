@@ -1,4 +1,4 @@
-"""--cell of simulate, free-swing and follow: what is touched or kept clear of, in words, JSON, CSV and on the page."""
+"""--cell of simulate and follow: what is touched or kept clear of, in words, JSON, CSV and on the page."""
 
 from __future__ import annotations
 
@@ -58,22 +58,6 @@ def test_what_has_nothing_to_touch_is_refused(refused, around, tmp_path):
     assert "--capsules describes an arm that touches an environment" in refused(*CALL, *around[2:])
     assert "--radius describes an arm that touches" in refused(*CALL, "--radius", "0.1")
     assert "missing.yaml" in refused(*CALL, "--cell", tmp_path / "missing.yaml")
-
-
-def test_a_swing_ends_on_what_it_falls_on(cli, ask, tmp_path):
-    cell = tmp_path / "cell.yaml"
-    cell.write_text("objects:\n  table: {box: [2, 2, 0.1], pose: {xyz: [1.4, 0, 0.2]}}\n")
-    call = ["free-swing", "panda", "--q", "0 -10 0 -90 0 90 45", "--degrees", "--joint", "2"]
-    around = ["--cell", cell, "--radius", "0.04"]
-    data = ask(*call, *around)
-    assert data["outcome"] == "contact"
-    assert data["contacts"][0]["object"] == "table"
-    code, out, _ = cli(*call, *around, "--out", tmp_path / "swing")
-    assert code == 0
-    assert "falls until panda_joint7 lies against table" in " ".join(out.split())
-    page = (tmp_path / "swing" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
-    check(page)
-    assert "lies against table" in page
 
 
 def test_a_path_is_followed_clear_of_a_cell(cli, refused, tmp_path):

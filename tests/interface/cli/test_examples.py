@@ -64,7 +64,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "reachability-map": "--samples 2000",
     "recover": "--samples 0",
     "simulate-logs": "--records 1 --duration 0.2",
-    "free-swing": "--duration 0.2",
+    "power-loss": "--duration 0.2",
     "teleop run": "--operators 2",
     "teleop tasks": "--per-joint 20 --select 4 --no-special",
     "tolerant-workspace": "--points 50",
@@ -72,7 +72,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 APART = {"studio", "teleop serve", "teleop analyse"}  # servers; what test_teleop_commands runs word for word
-QUICK = {"arms", "upper-bound", "describe", "faults draw", "index", "susceptibility", "stationary-points", "free-swing"}
+QUICK = {"arms", "upper-bound", "describe", "faults draw", "index", "susceptibility", "stationary-points", "power-loss"}
 QUICK |= {
     "certify reach",
     "certify ceiling",

@@ -54,7 +54,7 @@ LEAN = [
 FEW = ["--starts", "2", "--configurations", "2", "--points", "1"]
 RICHER = [
     (["assess", "planar-3r", "--task", "planar", "--poses", "64", "--json"], FILES | {"scipy"}),
-    (["free-swing", "planar-3r", *Q, "--joint", "2"], FILES | {"mujoco"}),
+    (["power-loss", "planar-3r", *Q, "--physics"], FILES | {"mujoco"}),
     (["workspace", *PLANAR, *FEW], FILES | {"scipy"}),
     (["trade-off", "planar-3r", "--samples", "10"], FILES | {"scipy", "scipy.stats"}),
     (["compare-laws", "planar-3r", *LAWS], FILES | {"scipy", "scipy.stats"}),

@@ -94,6 +94,7 @@ MADE = {
     "RecordCheck": found(lambda: hf.designs.record_design("pose-9R-k2-001").check()),
     "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
     "LockSurvival": found(lambda: hf.plan_motion(arm(), timed(), task="planar", samples=5, spacing=0.3)),
+    "HoldCheck": found(lambda: hf.holds(arm(), X)),
     "Law": law,
     "LawChoice": found(
         lambda: hf.compare_laws([law(), hf.control.damped(arm(), 0.3, "planar")], 2, 1, best=True, configurations=1)
@@ -109,6 +110,8 @@ MADE = {
     ),
     "PoseExplanation": found(lambda: hf.explain_ik(arm(), TARGET, task="planar", starts=5)),
     "ReachabilityMap": found(lambda: hf.reachability_map(arm(), samples=2000, lock_values=2, cell_size=0.3)),
+    "PowerLoss": found(lambda: hf.power_loss(arm(), X, friction=hf.Friction(coulomb=3.0), duration=0.3)),
+    "PhysicalFall": lambda: MADE["PowerLoss"]().physical(),
     "Recovery": recovered,
     "Proof": lambda: proof(),
     "Refutation": found(lambda: hf.certify(hf.certificates.out_of_reach_claim(arm(), (2.9, 1.4), 0.1))),
@@ -132,7 +135,15 @@ MADE = {
     "RemainingWorkspace": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"CellCheck", "CertificateCheck", "Configurations", "Optima", "PoseExplanation", "StationaryPoints"}
+WITHOUT_FIGURE = {
+    "CellCheck",
+    "HoldCheck",
+    "CertificateCheck",
+    "Configurations",
+    "Optima",
+    "PoseExplanation",
+    "StationaryPoints",
+}
 WITHOUT_FIGURE |= {
     "RecordBook",
     "UpperBound",
@@ -143,7 +154,7 @@ WITHOUT_FIGURE |= {
     "DesignRecord",
     "RecordCheck",
 }
-WITHOUT_FIGURE |= {"StructuralZero", "WaypointCheck", "WorkingRanges"}
+WITHOUT_FIGURE |= {"HoldCheck", "StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
     "Examination",
     "PoseExplanation",
@@ -159,7 +170,6 @@ ELSEWHERE = {
     "Observability",
     "ProbingMotion",
     "FaultRun",
-    "FreeSwing",
     "MergeReport",
     "Orbit",
     "PhysicalRun",

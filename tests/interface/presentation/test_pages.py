@@ -14,6 +14,7 @@ import pytest
 from test_notebook import INPUTS, MADE, X
 
 import holdfast as hf
+from holdfast.control.falls import FallOutcome
 from holdfast.control.simulation.runs import Reason, RunOutcome
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.status import Status
@@ -131,28 +132,33 @@ def test_how_a_recovery_ended(ending):
         says_something(call_presenter(each, "present").answer)
 
 
-@pytest.mark.parametrize("outcome", ["rest", "stop", "balanced", "moving"])
-def test_how_a_joint_swings(outcome):
-    drop = hf.BrakedDrop(after_ms=50.0, angle=0.1, speed=1.0, drop=0.002, distance=0.003)
-    still = outcome == "balanced"
-    found = hf.FreeSwing(
-        arm=MADE["Arm"](),
-        q=X,
-        joint=1,
-        damping=0.1,
-        time=np.linspace(0, 1, 5),
-        angle=np.zeros(5) if still else np.linspace(0, 1, 5),
-        velocity=np.zeros(5),
-        tool_position=np.zeros((5, 3)),
-        rest_angle=np.nan if outcome == "moving" else 0.0 if still else 1.0,
-        peak=0.0 if still else 1.2,
-        initial_acceleration=0.0 if still else -2.0,
-        outcome=outcome,
-        drops=(drop,),
-    )
-    presentation = call_presenter(found, "present")
+@pytest.mark.parametrize("outcome", list(FallOutcome))
+def test_how_a_fall_ended(outcome):
+    found = MADE["PowerLoss"]()
+    rest = found.duration if outcome == FallOutcome.REST else np.nan
+    numbers = {"code": np.uint8(outcome), "rest_time": rest, "status": np.uint8(Status.OK)}
+    if outcome == FallOutcome.UNKNOWN:
+        numbers |= {"drop": np.nan, "error": np.nan, "released": np.nan, "status": np.uint8(Status.NO_INERTIA)}
+    presentation = call_presenter(replace(found, **numbers), "present")
     says_something(presentation.answer)
     assert all(not value.startswith("0 ") for value, _ in build_page(presentation).facts)
+
+
+def test_many_falls_have_a_page(tmp_path):
+    rows = np.array([X, X + 0.2, X * np.nan, X - 0.4])
+    falls = hf.power_loss(MADE["Arm"](), rows, friction=hf.Friction(coulomb=3.0), duration=0.3)
+    presentation = call_presenter(falls, "present")
+    says_something(presentation.answer)
+    worst = np.nanargmax(falls.drop)
+    assert presentation.answer.startswith("Of 4 falls, 3 ")
+    assert f"(row {worst})" in presentation.answer
+    (table,) = presentation.list_tables()
+    assert table.rows[0][0] == worst
+    assert len(table.rows) == 4
+    check(falls.report(tmp_path / "falls.html").read_text(encoding="utf-8"))
+    assert falls.to_dict()["drop_m"][2] is None
+    lost = hf.power_loss(MADE["Arm"](), rows[2:3], duration=0.3)
+    says_something(call_presenter(lost, "present").answer)
 
 
 def test_where_nothing_is_found_the_answer_says_so():

@@ -114,12 +114,16 @@ def test_arms_without_dry_friction_keep_their_fingerprint_and_files(stated, tmp_
         assert ' friction="' not in text
 
 
-def test_a_free_swing_does_not_change(stated):
+def test_a_power_loss_uses_the_stated_friction(stated):
     arm = hf.arms.load("panda")
     rough = replace(arm, joints=tuple(replace(j, coulomb_friction=3.0) for j in arm.joints))
     q = np.array(hf.arms.about("panda").home)
-    swings = [hf.free_swing(each, q, 3, duration=0.2) for each in (arm, rough)]
-    np.testing.assert_array_equal(swings[0].angle, swings[1].angle)
+    stated, given = (
+        hf.power_loss(rough, q, duration=0.2),
+        hf.power_loss(arm, q, friction=hf.Friction(coulomb=3.0), duration=0.2),
+    )
+    np.testing.assert_array_equal(stated.q_final, given.q_final)
+    assert stated.drop < hf.power_loss(arm, q, duration=0.2).drop
 
 
 @pytest.mark.parametrize(

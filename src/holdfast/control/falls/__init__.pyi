@@ -6,6 +6,7 @@ from holdfast.control.falls.brakes import Brakes as Brakes
 from holdfast.control.falls.contact import FallContacts as FallContacts
 from holdfast.control.falls.fall import FallOutcome as FallOutcome
 from holdfast.control.falls.fall import PowerLoss as PowerLoss
+from holdfast.control.falls.physical import PhysicalFall as PhysicalFall
 from holdfast.control.falls.power_cut import power_loss as power_loss
 from holdfast.control.falls.probability import DropProbability as DropProbability
 from holdfast.control.falls.probability import power_loss_probability as power_loss_probability

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -125,6 +126,20 @@ class PowerLoss(Result):
         start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
         return np.asarray((displacement - start) @ self._simulator.stepper.down)
 
+    def to_csv(self, file: str | Path, interval: float = 0.01) -> Path:
+        """Write the motion of a single fall to ``file`` as rows every ``interval`` s, as :meth:`PhysicalFall.to_csv` does.
+
+        Raises:
+            InputError: There are several falls, or the interval is not above 0.
+            StoreError: The file cannot be written.
+        """
+        from holdfast.control.falls.physical import write_fall
+
+        if self.q.ndim > 1 or not interval > 0:
+            raise InputError(f"a file holds one fall at an interval above 0; there are {len(self)}, and it is {interval:g} s")
+        time = np.linspace(0.0, self.duration, 1 + max(1, round(self.duration / interval)))
+        return write_fall(file, self.arm, time, self.q_at(time), self.rates_at(time), self.tool_at(time))
+
     @check_arguments
     def physical(
         self,
@@ -177,6 +192,12 @@ class PowerLoss(Result):
             clearance=chosen_clearance(self.arm, clearance, cell),
             step=step,
         )
+
+    def energies_at(self, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Return the energy released and the kinetic energy (T,), J, of a single fall at times (T,), s."""
+        initial, kinetic = self._simulator.energies(np.atleast_2d(self.q), np.atleast_2d(self.rates))
+        potential, current = self._simulator.energies(self.q_at(time), self.rates_at(time))
+        return initial[0] + kinetic[0] - potential, current
 
     def require_ok(self) -> Self:
         """Return the result itself, or raise :class:`holdfast.HoldfastError` that names the first fall without an answer."""

@@ -14,7 +14,7 @@ from holdfast.control.falls.brakes import Brakes
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects, add_link_contacts
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import write_table
-from holdfast.core.progress import track
+from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import require_real_numbers
@@ -98,6 +98,7 @@ def tool_drops(arm: Arm, tool: FloatArray) -> FloatArray:
 
 
 @silence_mujoco()
+@reports_progress("simulating a fall in MuJoCo")
 def simulate_contacts(
     arm: Arm,
     q: FloatArray,

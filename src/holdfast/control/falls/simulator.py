@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -63,6 +64,10 @@ class FallSimulator:
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
         self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry else compiled_smooth_stepper(arm)
         self.energy_kernel: Kernel = compiled_energy_kernel(arm)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Leave the compiled loops out of a pickle."""
+        return FallSimulator, (self.arm, self.has_stops, self.conditions)
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to given times.

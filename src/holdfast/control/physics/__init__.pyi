@@ -1,9 +1,6 @@
 from holdfast.control.physics.body import Body as Body
 from holdfast.control.physics.execution import Execution as Execution
-from holdfast.control.physics.fall import BrakedDrop as BrakedDrop
-from holdfast.control.physics.fall import FreeSwing as FreeSwing
 from holdfast.control.physics.joint_motion import execute as execute
 from holdfast.control.physics.loop import simulate_physics as simulate_physics
 from holdfast.control.physics.run import PhysicalRun as PhysicalRun
 from holdfast.control.physics.servos import Servos as Servos
-from holdfast.control.physics.swing import free_swing as free_swing

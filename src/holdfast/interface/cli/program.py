@@ -66,7 +66,7 @@ COMMAND_MODULES = {  # module of each command, in the order of the help; it defi
     "self-motion": "known.self_motion",
     "tolerant-workspace": "known.tolerant_workspace",
     "reachability-map": "known.reachability_map",
-    "free-swing": "known.free_swing",
+    "power-loss": "known.power_loss",
     "study": "larger.study",
     "teleop": "larger.teleop",
     "export": "larger.export",

@@ -48,11 +48,14 @@ def current_command() -> str:
     return f"holdfast {shlex.join(sys.argv[1:])}"
 
 
-def write_outputs(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
-    """Write the first figure of the result as the PNG file ``plot``, and its report into the folder ``out``, if given."""
+def write_outputs(result: Result, plot: Path | None, out: Path | None = None, **options: Any) -> list[Path]:
+    """Write the first figure of the result as the PNG file ``plot``, and its report into the folder ``out``, if given.
+
+    The options are parameters of the presentation.
+    """
     files = []
     if plot is not None:
         from holdfast.interface.report.figures import save_png
 
-        files.append(save_png(next(iter(result.figures().values())), plot))
-    return files if out is None else [*files, *result.save(out, command=current_command())]
+        files.append(save_png(next(iter(result.figures(**options).values())), plot))
+    return files if out is None else [*files, *result.save(out, command=current_command(), **options)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,17 +17,22 @@ if TYPE_CHECKING:
 
 FILM_FRAMES = 161
 TIME_LABEL = "time since the power loss, s"
-_LARGEST_MM = 0.1  # m: longer distances are printed in cm
+_FRICTION_LABELS = {
+    "coulomb": "Dry friction while moving, N m (N)",
+    "stiction": "Dry friction at rest, N m (N)",
+    "viscous": "Viscous friction, N m s/rad (N s/m)",
+    "load": "Friction as a fraction of the gravity torque",
+}
 
 
 def format_distance(distance: float) -> str:
-    """Format a distance in m as mm or cm."""
-    factor, unit = (1000, "mm") if abs(distance) < _LARGEST_MM else (100, "cm")
+    """Format a distance in m as mm, cm, or m."""
+    factor, unit = (1000, "mm") if abs(distance) < 0.1 else (100, "cm") if abs(distance) < 1 else (1, "m")
     return f"{format_number(factor * distance, 3)} {unit}"
 
 
 def describe_drop(drop: float) -> str:
-    """Describe the largest drop of the tool."""
+    """Describe the largest drop of the tool, m."""
     return f"The tool falls {format_distance(drop)}" if drop >= 5e-5 else "The tool does not fall"
 
 
@@ -39,40 +44,27 @@ def describe_free_joints(fall: PowerLoss | PhysicalFall) -> str:
     return f"Without torque: {names}{'' if is_whole else '; all others are held'}{brakes}"
 
 
-def list_friction(fall: PowerLoss | PhysicalFall) -> list[tuple[str, Any]]:
-    """List the friction and the brakes as entries of a method."""
-    brakes, friction = fall.brakes, fall.friction
-    entries = [
-        ("Dry friction, moving", friction.coulomb),
-        ("Dry friction, at rest", friction.stiction),
-        ("Viscous friction", friction.viscous),
-        ("Friction per gravity torque", friction.load),
-        *([] if brakes is None else [("Brake torque", np.broadcast_to(brakes.torque, (fall.arm.n,)))]),
-    ]
-    units = {False: ("N m", "N m", "N m s/rad", "", "N m"), True: ("N", "N", "N s/m", "", "N")}
-    texts = []
-    for index, (label, values) in enumerate(entries):
-        numbers = [
-            f"{format_number(value, 3)} {units[joint.prismatic][index]}".strip()
-            for value, joint in zip(values, fall.arm.joints, strict=True)
-        ]
-        texts.append((label, numbers[0] if len(set(numbers)) == 1 else ", ".join(numbers)))
-    return [entry for entry in texts if entry[0] != "Friction per gravity torque" or friction.load.any()]
+def list_friction(fall: PowerLoss | PhysicalFall) -> list[tuple[str, str]]:
+    """List the friction and the torque of the brakes as entries of a method."""
+    values = {label: getattr(fall.friction, name) for name, label in _FRICTION_LABELS.items()}
+    if fall.brakes is not None:
+        values["Torque of the brakes, N m (N)"] = np.atleast_1d(fall.brakes.torque)
+    texts = {label: [format_number(number, 3) for number in numbers] for label, numbers in values.items()}
+    return [(label, numbers[0] if len(set(numbers)) == 1 else ", ".join(numbers)) for label, numbers in texts.items()]
 
 
-def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray, caption: str) -> Section:
+def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray) -> Section:
     """Build the view of motions (F, n) over times (F,), the first opaque, next to a ghost at the power loss."""
     from holdfast.interface.presentation.arm.view import build_view_section
 
-    start = np.tile(np.atleast_2d(fall.q)[0], (len(time), 1))
-    shown = {**motions, "at the power loss": start}
+    shown = {**motions, "at the power loss": np.tile(np.atleast_2d(fall.q)[0], (len(time), 1))}
     return build_view_section(
         "The fall",
         fall.arm,
         np.array(list(shown.values())),
-        caption,
+        "The simulated fall, and the arm at the power loss.",
         labels=list(shown),
-        free=list(fall.free),
+        free=fall.free if len(fall.free) < fall.arm.n else (),
         time=time,
         readings=[f"{instant:.2f} s" for instant in time],
         cell=getattr(fall, "cell", None),

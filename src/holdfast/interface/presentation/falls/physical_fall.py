@@ -1,0 +1,70 @@
+"""Presentation of a fall in MuJoCo."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.control.falls.physical import PhysicalFall, tool_drops
+from holdfast.core.formatting import capitalise_first, format_number
+from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
+from holdfast.interface.presentation.falls import motion
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+
+
+def to_dict(fall: PhysicalFall) -> dict[str, Any]:
+    """Return the drop, the outcome, the final configuration, and the contacts."""
+    return {
+        **fall.arm.entry(),
+        "free": [fall.arm.joint_names[joint] for joint in fall.free],
+        "outcome": fall.outcome,
+        "drop_m": fall.drop,
+        "simulated_s": fall.time[-1],
+        "q": fall.q[0],
+        "q_final": fall.q[-1],
+        "contacts": None if fall.contacts is None else list_contacts(fall.contacts),
+    }
+
+
+def present(fall: PhysicalFall) -> Presentation:
+    """Present the drop of the tool and the contacts."""
+    return Presentation(
+        f"Fall of {fall.arm.name} in MuJoCo",
+        f"{motion.describe_drop(fall.drop)}, and the arm {describe_end(fall)}.",
+        about=f"Arm {fall.arm.title}. {motion.describe_free_joints(fall)}.",
+        lines=["The arm touches nothing."] if fall.contacts == () else [],
+        notices=[Notice(f"{capitalise_first(fall.contacts[0].sentence())}.")] if fall.contacts else [],
+        facts=[Fact("largest drop of the tool", 1000 * fall.drop, "mm"), Fact("simulated time", float(fall.time[-1]), "s")],
+        tables=[tabulate_contacts(fall.contacts)] if fall.contacts else [],
+        figures={"fall": FigureSpec(partial(_draw_figure, fall), "Over time", "Drop of the tool, and first contacts.")},
+        sections=partial(_animate_fall, fall),
+        method=[("Simulation", f"MuJoCo, {len(fall.time) - 1:,} time steps"), *motion.list_friction(fall)],
+        arm=fall.arm,
+    )
+
+
+def describe_end(fall: PhysicalFall) -> str:
+    """Describe the state at the end."""
+    return f"{'is at rest' if fall.outcome == 'rest' else 'still moves'} after {format_number(float(fall.time[-1]), 3)} s"
+
+
+def _animate_fall(fall: PhysicalFall) -> list[Section]:
+    rows = np.linspace(0, len(fall.time) - 1, min(motion.FILM_FRAMES, len(fall.time))).astype(int)
+    return [motion.build_film(fall, {"fall": fall.q[rows]}, np.linspace(0.0, float(fall.time[-1]), len(rows)))]
+
+
+def _draw_figure(fall: PhysicalFall) -> Figure:
+    from holdfast.interface.report.motions import TimePanel, motion_figure
+
+    drops = 1000 * tool_drops(fall.arm, fall.tool_position)
+    contacts = [(contact.time, f"{contact.link} & {contact.object}") for contact in fall.contacts or ()][:3]
+    moments = tuple((time, float(np.interp(time, fall.time, drops)), label) for time, label in contacts)
+    panel = TimePanel(fall.time, drops, "drop of the tool, mm", "Tool", moments=moments)
+    return motion_figure([panel], f"{fall.arm.name} without power, MuJoCo", motion.TIME_LABEL, panel_width=7)

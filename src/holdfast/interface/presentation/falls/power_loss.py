@@ -1,0 +1,262 @@
+"""Presentation of falls of an arm that lost its power."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.control.falls.fall import FallOutcome, PowerLoss
+from holdfast.control.falls.physical import PhysicalFall, tool_drops
+from holdfast.core.formatting import capitalise_first, format_count, format_number
+from holdfast.core.status import Status
+from holdfast.interface.presentation.collision.contacts import tabulate_contacts
+from holdfast.interface.presentation.falls import motion
+from holdfast.interface.presentation.falls.physical_fall import describe_end
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.kinematics.holding.static_check import holds
+from holdfast.model.arm.friction import Friction
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.interface.report.page import Section
+
+Others = Mapping[str, PowerLoss | PhysicalFall]
+BAND_LABELS = ("without friction", "with twice the friction")
+CHECKED_TIMES_S = (0.05, 0.1, 0.2, 0.5)
+START_S = 1e-3  # duration over which the initial accelerations are measured
+QUANTILES = (0.5, 0.9, 0.99)
+WORST_ROWS = 10
+MOST_MARKED_STOPS = 4
+INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
+_DROP = Header("drop", "drop of the tool", "mm", aligned=False)
+_OUTCOME_WORDS = {
+    "holds": "do not begin",
+    "rest": "come to rest",
+    "contact": "end at a contact",
+    "moving": "still move at the end",
+    "unknown": "have no answer",
+}
+_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Any thick line is from MuJoCo."
+
+
+def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> dict[str, Any]:
+    """Return the numbers of every fall, the drops of a single fall over time, and the falls under other conditions."""
+    names, others = fall.arm.joint_names, _name_others(compared, band)
+    times = _list_checked_times(fall)
+    return {
+        **fall.arm.entry(),
+        "free": [names[joint] for joint in fall.free],
+        **{key: dict(zip(names, values, strict=True)) for key, values in vars(fall.friction).items()},
+        "outcome": fall.outcome,
+        **{f"{key}_m": getattr(fall, key) for key in ("drop", "error")},
+        "released_J": fall.released,
+        "rest_time_s": fall.rest_time,
+        **{key: getattr(fall, key) for key in ("q", "q_final")},
+        "drops": [{"time_s": time, "drop_m": drop} for time, drop in zip(times, fall.drop_at(times), strict=True)]
+        if fall.q.ndim == 1
+        else None,
+        "compared": {label: other.to_dict() for label, other in others.items()},
+    }
+
+
+def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> Presentation:
+    """Present the fall, or the distribution of several falls.
+
+    Args:
+        fall: One fall or several.
+        compared: Falls from the same state under other conditions, by the name of the condition.
+        band: Falls from the same state without friction and with twice the friction.
+    """
+    single, others = fall.q.ndim == 1, _name_others(compared, band)
+    touching = [other.contacts for other in others.values() if isinstance(other, PhysicalFall) and other.contacts]
+    return Presentation(
+        f"Power loss of {fall.arm.name}",
+        f"{_compose_answer(fall, band)}." if single else _count_outcomes(fall),
+        about=f"Arm {fall.arm.title}. {motion.describe_free_joints(fall)}.",
+        notices=[
+            *_list_notices(fall),
+            *[Notice(f"{capitalise_first(contacts[0].sentence())}.", title="MuJoCo") for contacts in touching],
+        ],
+        facts=_list_facts(fall),
+        tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
+        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _CAPTION)} if single else {},
+        sections=partial(_animate_fall, fall, others) if single else tuple,
+        method=[
+            ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
+            *motion.list_friction(fall),
+            ("Stops", f"joint limits, with a restitution of {fall.restitution:g}" if fall.stops else "none"),
+        ],
+        arm=fall.arm,
+    )
+
+
+def _name_others(compared: Others | None, band: Sequence[PowerLoss]) -> Others:
+    return {**(compared or {}), **dict(zip(BAND_LABELS, band, strict=False))}
+
+
+def _list_checked_times(fall: PowerLoss) -> list[float]:
+    return [time for time in CHECKED_TIMES_S if time <= fall.duration]
+
+
+def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
+    contact = _describe_contact(fall)
+    if fall.outcome == "unknown":
+        return f"The fall was not simulated to its end: {Status(int(fall.status)).sentence}"
+    if fall.outcome == "holds":
+        return "The arm stays where it is, because friction and stops hold every joint without torque"
+    answer = motion.describe_drop(float(fall.drop))
+    if contact:
+        answer += f" until {contact}"
+    elif np.isfinite(fall.rest_time):
+        answer += f", and the arm is at rest after {format_number(float(fall.rest_time), 3)} s"
+    else:
+        answer += f" within {format_number(fall.duration, 3)} s, and the arm still moves then"
+    if band:
+        low, high = (motion.format_distance(pick(float(other.drop) for other in (fall, *band))) for pick in (min, max))
+        answer += f"; from no friction to twice the friction: {low} to {high}"
+    return answer
+
+
+def _describe_contact(fall: PowerLoss) -> str:
+    """Describe the first contact that ended a fall; empty if there is none."""
+    contacts: Any = getattr(fall, "contacts", None)
+    contact = None if contacts is None else contacts.first()
+    if contact is None:
+        return ""
+    numbers = (contact.time, contacts.normal_speed, contacts.energy_lost)
+    time, speed, energy = (format_number(float(number), 3) for number in numbers)
+    return f"{contact.link} touches {contact.object} after {time} s, at {speed} m/s along the normal and with {energy} J"
+
+
+def _count_outcomes(fall: PowerLoss) -> str:
+    counts = [(int((fall.outcome == outcome).sum()), words) for outcome, words in _OUTCOME_WORDS.items()]
+    parts = " and ".join(f"{count:,} {words}" for count, words in counts if count)
+    answer = f"Of {format_count(len(fall), 'fall')}, {parts}."
+    if np.isnan(fall.drop).all():
+        return answer
+    median, worst = (motion.format_distance(float(pick(fall.drop))) for pick in (np.nanmedian, np.nanmax))
+    return f"{answer} The median drop is {median}, and the largest is {worst} (row {np.nanargmax(fall.drop)})."
+
+
+def _list_notices(fall: PowerLoss) -> list[Notice]:
+    friction, notices = fall.friction, []
+    if not (friction.coulomb.any() or friction.stiction.any() or friction.load.any()):
+        viscous = "" if friction.viscous.any() else ", nor viscous friction, so the joints swing on"
+        notices.append(Notice(f"Neither the arm nor the options state dry friction{viscous}.", "note"))
+    if np.any(fall.error > INACCURATE_FRACTION * fall.drop + 1e-3):
+        notices.append(Notice("Small differences grow fast in a fall. Compare the estimated error with the drop."))
+    return notices
+
+
+def _list_facts(fall: PowerLoss) -> list[Fact]:
+    drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
+    if fall.q.ndim > 1:
+        quantiles = zip(QUANTILES, np.quantile(drops, QUANTILES) if drops.size else (), strict=False)
+        return [Fact(f"largest drop of {fraction:.0%} of the falls", float(drop), "mm") for fraction, drop in quantiles]
+    facts = [
+        Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
+        Fact("energy released", float(fall.released), "J", phrase="released until the end"),
+        Fact("time to rest", float(fall.rest_time), "s", phrase="until the arm is at rest"),
+        Fact("estimated error of the tool at the end", 1000 * float(fall.error), "mm", digits=2),
+    ]
+    return [fact for fact in facts if np.isfinite(fact.value)]
+
+
+def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
+    if fall.outcome == "unknown":
+        return []
+    times = np.array(_list_checked_times(fall))
+    speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
+    drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
+    columns = [Header("time", "after"), _DROP, Header("speed", "speed of the tool", "m/s")]
+    title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
+    tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
+    if others:
+        rows = [(label, 1000 * float(other.drop), _describe_outcome(other)) for label, other in others.items()]
+        columns = [Header("condition", "condition"), _DROP, Header("end", "the arm")]
+        tables.append(TableSpec("The same state under other conditions", columns, rows))
+    physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
+    return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
+
+
+def _describe_outcome(fall: PowerLoss | PhysicalFall) -> str:
+    return describe_end(fall) if isinstance(fall, PhysicalFall) else FallOutcome(int(fall.code)).sentence
+
+
+def _tabulate_joints(fall: PowerLoss) -> TableSpec:
+    arm, start_time = fall.arm, min(START_S, fall.duration)
+    check = holds(arm, fall.q, free=fall.free, friction=Friction(**vars(fall.friction)), stops=fall.stops)
+    accelerations = (fall.rates_at(start_time) - fall.rates) / start_time
+    torques = ["N" if joint.prismatic else "N m" for joint in arm.joints]
+    labels = {"torque": "gravity torque", "available": "friction at rest", "margin": "margin"}
+    columns = [
+        Header("joint", "joint"),
+        *(Header(key, label, torques) for key, label in labels.items()),
+        Header("acceleration", "starts with", [f"{joint.unit}/s^2" for joint in arm.joints]),
+        Header("note", ""),
+    ]
+    places = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops"}
+    notes = [places.get(int(stop), "") if k in fall.free else "held" for k, stop in enumerate(check.stop)]
+    numbers = zip(check.torque, check.available, check.available - check.need, accelerations, strict=True)
+    rows = [(name, *values, note) for name, values, note in zip(arm.joint_names, numbers, notes, strict=True)]
+    return TableSpec("Joints at the power loss", columns, rows)
+
+
+def _tabulate_worst(fall: PowerLoss) -> TableSpec:
+    columns = [
+        Header("row", "row"),
+        _DROP,
+        Header("released", "energy released", "J", aligned=False),
+        Header("error", "estimated error", "mm", digits=2, aligned=False),
+        Header("outcome", "outcome"),
+    ]
+    worst = np.argsort(-np.nan_to_num(fall.drop, nan=-np.inf))[:WORST_ROWS]
+    rows = [(int(k), 1000 * fall.drop[k], fall.released[k], 1000 * fall.error[k], str(fall.outcome[k])) for k in worst]
+    return TableSpec("Falls with the largest drops", columns, rows)
+
+
+def _find_end(fall: PowerLoss) -> float:
+    """Return the time until which the motion is shown, s."""
+    return fall.duration if not fall.rest_time > 0 else min(1.2 * float(fall.rest_time), fall.duration)
+
+
+def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
+    if fall.outcome in ("unknown", "holds"):
+        return []
+    time = np.linspace(0.0, _find_end(fall), motion.FILM_FRAMES)
+    motions = {"fall": fall.q_at(time)}
+    for label, other in others.items():
+        if isinstance(other, PhysicalFall):
+            motions[label] = np.stack([np.interp(time, other.time, values) for values in other.q.T], axis=1)
+    return [motion.build_film(fall, motions, time)]
+
+
+def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
+    """Draw the drop of the tool, the energies, and the joint rates over time."""
+    from holdfast.interface.report.motions import TimePanel, motion_figure
+
+    arm, time = fall.arm, np.linspace(0.0, _find_end(fall), 401)
+    q, rates = fall.q_at(time), fall.rates_at(time)
+    released, kinetic = fall.energies_at(time)
+    energies = {"released": released, "kinetic": kinetic, "dissipated": released - kinetic}
+    factors, units = zip(*[joint.display_unit for joint in arm.joints], strict=True)
+    shown_rates = rates * factors
+    is_at_stop = fall.stops & ((q <= arm.lower) | (q >= arm.upper))
+    arrivals = sorted((int(is_at_stop[:, k].argmax()), k) for k in fall.free if is_at_stop[1:, k].any())
+    stops = tuple(
+        (float(time[row]), shown_rates[row - 1, k], f"joint {k + 1}") for row, k in arrivals[:MOST_MARKED_STOPS] if row
+    )
+    physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
+    compared = [(other.time, 1000 * tool_drops(arm, other.tool_position)) for other in physical]
+    speeds = {arm.joint_names[k]: shown_rates[:, k] for k in fall.free}
+    label = f"joint rate, {' or '.join(sorted({f'{units[k]}/s' for k in fall.free}))}"
+    panels = [
+        TimePanel(time, 1000 * fall.drop_at(time), "drop of the tool, mm", "Tool", compared=compared[0] if compared else None),
+        TimePanel(time, energies, "energy, J", "Energy"),
+        TimePanel(time, speeds, label, "Joints", moments=stops),
+    ]
+    return motion_figure(panels, f"{arm.name} without power, simulated", motion.TIME_LABEL)
