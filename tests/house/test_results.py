@@ -30,7 +30,8 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs LockSurvival Execution "
+        "": "Assessment BrakeComparison CellCheck Comparison Configurations ConvergenceDesigns ConvergenceMap Designs "
+        "DropCurve DropProbability LockSurvival Execution StowPath StowPose "
         "FaultRun HoldCheck LawChoice LawComparison Optima PhysicalRun PoseExplanation PowerLoss ReachabilityMap "
         "Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
@@ -60,6 +61,7 @@ VALUES = named(
         "model.collision": "CheckedObject Contact",
         "kinematics.index_bounds": "AverageBound",
         "control.convergence": "Case HealthyCost Measures",
+        "control.falls": "FallContacts",
         "studies.designs": "HeldOutCheck HeldOutResult Evaluated ArmMeasures Radial Sensitivity",
         "certificates": "SearchState",
         "response.lock_survival": "Approach BaselineMotion SearchBounds LockTests VelocityJump",
@@ -102,7 +104,7 @@ INPUTS = named(
         "response.diagnosis": "ExternalForce RecordedEpisode Recording Sensors",
         "kinematics.indices": "Index",
         "kinematics.tool_constraints": "ToolConstraint",
-        "kinematics.indices.susceptibility": "SusceptibilityFormula Susceptibility",
+        "kinematics.indices.susceptibility": "SusceptibilityFormula Susceptibility SwingEnergy",
         "kinematics.paths": "Constant Path TimedPath Trapezoid",
         "studies": "StudyFile",
         "interface.studio": "State Studio",

@@ -111,6 +111,13 @@ MADE = {
     "PoseExplanation": found(lambda: hf.explain_ik(arm(), TARGET, task="planar", starts=5)),
     "ReachabilityMap": found(lambda: hf.reachability_map(arm(), samples=2000, lock_values=2, cell_size=0.3)),
     "PowerLoss": found(lambda: hf.power_loss(arm(), X, friction=hf.Friction(coulomb=3.0), duration=0.3)),
+    "BrakeComparison": found(
+        lambda: hf.compare_brakes(arm(), X, torque=[3.0, 9.0], after=[0.0, 0.1], friction=hf.Friction(coulomb=1.0))
+    ),
+    "DropCurve": found(lambda: hf.power_loss_along(arm(), X + np.linspace(0, 0.3, 6)[:, None], np.arange(6.0), duration=0.3)),
+    "DropProbability": found(lambda: hf.power_loss_probability(arm(), 0.1, samples=100, duration=0.3)),
+    "StowPose": found(lambda: hf.stow(arm(), X, friction=hf.Friction(coulomb=9.0), speeds=1.0, samples=500)),
+    "StowPath": lambda: MADE["StowPose"]().plan_path(nodes=50, tolerance=3.0, duration=0.3),
     "PhysicalFall": lambda: MADE["PowerLoss"]().physical(),
     "Recovery": recovered,
     "Proof": lambda: proof(),
@@ -154,7 +161,7 @@ WITHOUT_FIGURE |= {
     "DesignRecord",
     "RecordCheck",
 }
-WITHOUT_FIGURE |= {"HoldCheck", "StructuralZero", "WaypointCheck", "WorkingRanges"}
+WITHOUT_FIGURE |= {"HoldCheck", "StowPose", "StructuralZero", "WaypointCheck", "WorkingRanges"}
 ELSEWHERE = {
     "Examination",
     "PoseExplanation",

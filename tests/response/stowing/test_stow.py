@@ -74,7 +74,7 @@ def dense(path, count=40):
 
 @pytest.mark.parametrize("monotone", [False, True])
 def test_a_path_stays_clear_and_below_its_bound(panda, stowed, monotone):
-    path = stowed.plan_path(monotone=monotone, nodes=300, tolerance=0.1, duration=1.0)
+    path = stowed.plan_path(monotone=monotone, nodes=300, tolerance=0.3, duration=1.0)
     assert path.found
     np.testing.assert_array_equal(path.q[[0, -1]], [START, stowed.q])
     limits = np.array([joint.velocity for joint in panda.joints])
@@ -84,7 +84,7 @@ def test_a_path_stays_clear_and_below_its_bound(panda, stowed, monotone):
     fall = hf.power_loss(panda, q, rates, friction=FRICTION, clearance=stowed.clearance, duration=1.0)
     assert fall.drop.max() <= path.bound + 0.01
     if monotone:
-        assert (fall.drop - np.minimum.accumulate(fall.drop)).max() <= 0.1 + 0.02
+        assert (fall.drop - np.minimum.accumulate(fall.drop)).max() <= 0.3 + 0.02
 
 
 def test_a_path_around_an_obstacle(panda, stowed):

@@ -83,7 +83,7 @@ class StowPose(Result):
         from holdfast.response.stowing.path import plan_stow_path
 
         if self.at is None or self._metric is None:
-            raise InputError("the path needs a start; give it to stow as at")
+            raise InputError("the path needs a start; give it to stow as at (--from)")
         return plan_stow_path(self, self.at, self._metric, monotone=monotone, tolerance=tolerance, **options)
 
 
@@ -148,9 +148,13 @@ def stow(
     rng = np.random.default_rng(seed)
 
     def measure_excess(q: FloatArray) -> FloatArray:
-        """Return the smallest surplus (N,) of friction over the required torque, N m; 0 or more if the arm holds."""
+        """Return the smallest surplus (N,) of friction over the required torque, N m; 0 or more if the arm holds.
+
+        With a start, a surplus above 0 counts as 0, because then only the way to the configuration matters.
+        """
         check = holds(arm, q, friction=friction)
-        return np.asarray((check.available / factor - check.need).min(axis=1))
+        excess = np.asarray((check.available / factor - check.need).min(axis=1))
+        return excess if start is None else np.minimum(excess, 0.0)
 
     def is_clear(q: FloatArray) -> BoolArray:
         return np.ones(len(q), dtype=bool) if model is None else np.asarray(model.margin_left(q) > margin)

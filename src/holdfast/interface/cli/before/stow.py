@@ -18,6 +18,7 @@ def command(
     path: Annotated[bool, typer.Option("--path", help="Plan the path with the smallest drops from --from.")] = False,
     monotone: Annotated[bool, typer.Option("--monotone", help="Admit only paths along which the drop never rises.")] = False,
     tolerance: Annotated[float, "Tolerance of the drop along the path in m."] = 0.01,
+    nodes: Annotated[int, "Number of nodes of the roadmap of the path."] = 3000,
     factor: Annotated[float, "Required ratio of the friction of each joint to the torque that it must hold."] = 1.5,
     speeds: Annotated[
         str | None, "Speed limits in rad/s (m/s): one number or one per joint. Default: those of the arm."
@@ -52,7 +53,7 @@ def command(
         samples=samples,
         seed=seed,
     )
-    planned = stow.plan_path(monotone=monotone, tolerance=tolerance) if path or monotone else None
+    planned = stow.plan_path(monotone=monotone, tolerance=tolerance, nodes=nodes) if path or monotone else None
     output.print_result(stow if planned is None else planned)
     if not stow.holds or (planned is not None and not planned.found):
         raise typer.Exit(NOT_MET_EXIT_CODE)

@@ -41,7 +41,7 @@ def present(curve: DropCurve) -> Presentation:
         f"A power loss at {format_number(curve.time[worst], 4)} s is the worst of {format_count(len(curve.time), 'instant')}: "
         f"the tool falls {format_distance(curve.drop[worst])}"
     )
-    contact = None if fall.contacts is None else fall.contacts.first()
+    contact = None if fall.contacts is None else fall.contacts.select_contact()
     if contact is not None:
         answer += f" until {contact.link} touches {contact.object}, at {format_number(curve.impact_speed[worst], 3)} m/s"
     rows = [(1000 * limit, curve.find_hold_up_time(limit)) for limit in _LIMITS_M]
