@@ -35,7 +35,7 @@ INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginnin
 _DROP_COLUMN = Header("drop", "drop of the tool", "mm", aligned=False)
 _OUTCOME_WORDS = {
     "holds": "do not begin",
-    "rest": "come to rest",
+    "rest": "end at rest",
     "contact": "end at a contact",
     "moving": "still move at the end",
     "unknown": "have no answer",
