@@ -92,8 +92,8 @@ def test_region_is_coloured_by_the_index_of_its_configurations(aside, arm, tmp_p
 
 
 def test_errors_come_back_and_the_process_goes_on(aside, arm):
-    with pytest.raises(hf.HoldfastError, match="no joint is free"):
-        go(aside, "swing", state_of(arm))
+    with pytest.raises(hf.HoldfastError, match="all joints are locked"):
+        go(aside, "fall", state_of(arm, conditions=("locked",) * arm.n))
     with pytest.raises(hf.HoldfastError, match="no target"):
         go(aside, "laws", state_of(arm))
     with pytest.raises(hf.HoldfastError, match="nowhere"):

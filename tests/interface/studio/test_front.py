@@ -23,7 +23,7 @@ VISER = ("Save Canvas", "Reset View", "Reset Panel Layout")
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 ASLEEP = {  # in the first state: what there is nothing to do for
     "Move": ["Back to the start"],
-    "Fail": ["All healthy", "Let the free joint swing"],
+    "Fail": ["All healthy"],
     "Choose": ["Take the green one", "Take the orange one", "Clear"],
     "Motion": ["Move under both laws", "Play", "Clear"],
     "Region": ["Clear"],
@@ -80,9 +80,11 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
                 window.request_action(what)
             calm()
     # What a client asks that does not keep to its buttons is said, not done.
-    window.request_action("swing")
+    for joint in range(3):
+        window.request_action("fail", (joint, "locked"))
+    window.request_action("fall")
     wait_for(page, lambda: page.locator("[data-bad]").count() == 1)
-    assert "No joint is free" in said(page)
+    assert "All joints are locked" in said(page)
     window.request_action("take0")
     wait_for(page, lambda: "no such ghost arm" in said(page))
 
@@ -95,7 +97,7 @@ def test_buttons_wake_when_they_can_work_and_toggles_show_the_state(studio, visi
     wait_for(page, lambda: page.get_by_role("button", name="✓ free", pressed=True).count() == 1)
     wait_for(page, lambda: page.get_by_role("button", name="healthy", exact=True, pressed=False).count() == 1)
     assert window.stage._joint_labels[1].text == "2 free"
-    wait_for(page, page.get_by_role("button", name="Let the free joint swing").is_enabled)
+    wait_for(page, page.get_by_role("button", name="Cut the power").is_enabled)
     page.get_by_role("button", name="All healthy").click()
     wait_for(page, lambda: page.get_by_role("button", name="✓ healthy").count() == 3)
     window.request_action("best-worst")

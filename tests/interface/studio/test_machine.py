@@ -108,7 +108,7 @@ def test_a_target_beside_the_arm_is_within_its_limits_and_away(rng):
             assert machine.pose_error_norm(q, machine.tool_pose(near)) > REACH_TOLERANCE
 
 
-def test_only_what_has_a_weight_swings():
+def test_only_arms_with_masses_fall():
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0)] * 3)
-    assert not CompiledArm(arm, as_task(arm, "planar")).can_swing
-    assert CompiledArm(hf.arms.load("panda"), as_task(hf.arms.load("panda"), "pose")).can_swing
+    assert not CompiledArm(arm, as_task(arm, "planar")).has_masses
+    assert CompiledArm(hf.arms.load("panda"), as_task(hf.arms.load("panda"), "pose")).has_masses

@@ -214,11 +214,11 @@ def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
     assert second.wait_until_done(60)
 
 
-def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit):
+def test_a_fall_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit):
     conditions = ("healthy", "free", *["healthy"] * 5)
     page, window = visit(studio("iiwa14", q=hf.arms.about("iiwa14").home, conditions=conditions))
     page.get_by_role("tab", name="Fail").click()
-    page.get_by_role("button", name="Let the free joint swing").click()
+    page.get_by_role("button", name="Cut the power").click()
     wait_for(page, lambda: window.player.is_playing and window.state.time > 0.1)
     before = np.array(window.player.ghosts[0])
     wait_for(page, lambda: np.abs(window.player.ghosts[0] - before).max() > 0.01)

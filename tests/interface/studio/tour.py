@@ -122,10 +122,10 @@ def crane(browser, folder):
     served, page, window = open_page(browser, CRANE, (0.1, 0.5, 0.3, 1.2, 0.4, 0.7, 0.2))
     window.request_action("fail", (2, "free"))
     window.wait_until_done(60)
-    window.request_action("swing")
+    window.request_action("fall")
     window.wait_until_done(240)
     window.request_action("time", 0.35)
-    take(page, window, "Fail", folder / "crane-swing.png")
+    take(page, window, "Fail", folder / "crane-fall.png")
     served.stop()
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.interface.studio.monitor_demo import simulate_monitor_demo
-from holdfast.interface.studio.motions import PlayedMotion, simulate_law_motions, simulate_swing_motion
+from holdfast.interface.studio.motions import PlayedMotion, simulate_fall_motion, simulate_law_motions
 from holdfast.interface.studio.scene.cloud import RegionCloud, assess_around_tool, read_cloud
 from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
@@ -72,10 +72,10 @@ def simulate_both_laws(machine: CompiledArm, state: State, progress: Progress) -
     return simulate_law_motions(machine, state, progress)
 
 
-def simulate_swing(machine: CompiledArm, state: State, progress: Progress) -> list[PlayedMotion]:
-    """Simulate the free swing of the free joint; see :func:`holdfast.interface.studio.motions.simulate_swing_motion`."""
+def simulate_fall(machine: CompiledArm, state: State, progress: Progress) -> list[PlayedMotion]:
+    """Simulate the fall after a power loss; see :func:`holdfast.interface.studio.motions.simulate_fall_motion`."""
     progress(0, 1)
-    return [simulate_swing_motion(machine.arm, state)]
+    return [simulate_fall_motion(machine.arm, state)]
 
 
 def load_or_assess_region(machine: CompiledArm, state: State, progress: Progress) -> RegionCloud:
@@ -95,7 +95,7 @@ def load_or_assess_region(machine: CompiledArm, state: State, progress: Progress
 JOB_FUNCTIONS: dict[str, Callable[[CompiledArm, State, Progress], object]] = {
     "best-worst": find_best_and_worst,
     "laws": simulate_both_laws,
-    "swing": simulate_swing,
+    "fall": simulate_fall,
     "region": load_or_assess_region,
     "watch": simulate_monitor_demo,
 }

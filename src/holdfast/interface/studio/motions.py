@@ -13,10 +13,12 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 
 TIME_COLUMNS = ("time_s", "time_cycles", "travel_rad")
 MOTION_SAMPLES = 240
+FALL_S = 3.0  # s: simulated duration of a fall
 SHOWN_TIME_CONSTANTS = 15.0  # duration of a shown motion, in time constants 1/Ke of the law
 
 
@@ -111,30 +113,18 @@ def simulate_law_motions(machine: CompiledArm, state: State, progress: Callable[
     return motions
 
 
-def simulate_swing_motion(arm: Arm, state: State) -> PlayedMotion:
-    """Simulate the free swing of the first free joint with the physics engine, with the other joints fixed.
+def simulate_fall_motion(arm: Arm, state: State) -> PlayedMotion:
+    """Simulate the fall after a power loss of the free joints, or of all joints that are not locked.
 
     Raises:
-        InputError: No joint is free.
-        HoldfastError: MuJoCo is not installed, or the arm's bodies are not known.
+        InputError: All joints are locked, or the configuration is outside the limits.
+        ArmError: The arm's bodies are not known.
     """
-    from holdfast.control.physics.swing import free_swing
+    from holdfast.control.falls.power_cut import power_loss
 
-    if not state.free:
-        raise InputError("no joint is free; set one free first")
-    joint = state.free[0]
-    free_motion = free_swing(arm, np.array(state.q), joint)
-    q = np.tile(np.array(state.q), (len(free_motion.time), 1))
-    q[:, joint] += free_motion.angle
-    stride = max(1, len(q) // (8 * MOTION_SAMPLES))
-    factor, unit = arm.joints[joint].display_unit
-    rest_note = f", at rest {factor * free_motion.rest_angle:.3g} {unit} from its start" if free_motion.is_settled else ""
-    drop_notes = "".join(
-        f"; with brakes after {drop.after_ms:g} ms it moves {factor * drop.angle:.3g} {unit} and the tool "
-        f"{1000 * drop.distance:.3g} mm"
-        for drop in free_motion.drops
-    )
-    label = (
-        f"{arm.joint_names[joint]} swings: largest displacement {factor * free_motion.peak:.3g} {unit}{rest_note}{drop_notes}"
-    )
-    return PlayedMotion(label, free_motion.time[::stride], "s", q[::stride])
+    if not state.powerless:
+        raise InputError("all joints are locked, so the arm cannot fall; make one healthy or free")
+    friction = Friction(coulomb=state.friction)
+    fall = power_loss(arm, np.array(state.q), free=state.powerless, friction=friction, duration=FALL_S)
+    time = np.linspace(0.0, FALL_S, 4 * MOTION_SAMPLES + 1)
+    return PlayedMotion(f"power loss: {' '.join(fall.describe())}", time, "s", fall.q_at(time))

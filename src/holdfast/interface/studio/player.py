@@ -97,7 +97,7 @@ class Player:
         end = max(float(motion.time[-1]) for motion in self._motions)
         if self._current_time >= end * (1 - 1e-9):
             self._current_time = 0.0
-        # Motions longer than ten seconds are played in ten seconds; a free swing is clearest in real time.
+        # Motions longer than ten seconds are played in ten seconds; a fall is clearest in real time.
         pace = max(end / 10.0, 1.0) if self._motions[0].unit == "s" else end / 10.0
 
         def advance() -> None:

@@ -97,7 +97,7 @@ class Studio:
         machine, state, parts, note = read_uploaded_arm(name, content)
         q = np.array(state.q)
         # Everything is prepared first, so that an arm that cannot be shown changes nothing.
-        machine.evaluate_live_reading(q, (), state.index, state.susceptibility)
+        machine.evaluate_live_reading(q, (), state.index, state.susceptibility, state.powerless)
         self._close_window(client.client_id)
         client.gui.reset()
         client.scene.reset()

@@ -9,9 +9,9 @@ from typing import Literal
 from holdfast.core.errors import InputError
 
 Condition = Literal["healthy", "locked", "free"]
-Show = Literal["arm", "best-worst", "laws", "swing", "region", "file", "watch"]
+Show = Literal["arm", "best-worst", "laws", "fall", "region", "file", "watch"]
 JOINT_CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
-DISPLAY_MODES: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file", "watch")
+DISPLAY_MODES: tuple[Show, ...] = ("arm", "best-worst", "laws", "fall", "region", "file", "watch")
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class State:
         laws: Two control laws to compare, as ``slug`` or ``slug:setting``.
         target: Target of the end effector under these laws: x, y, z (m) and quaternion x, y, z, w. None: not chosen.
         show: Content in addition to the arm: none (``arm``), ghosts in the ``best-worst`` configuration of this pose, a motion
-            under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
+            under two ``laws``, the ``fall`` after a power loss, the cloud of a ``region``, or the motion of a ``file``.
         file: File of a motion from ``follow``, ``simulate`` or ``recover``, or None.
         region: Results folder of ``assess``. None: a region around the end effector.
         time: Time of the shown motion, s (or the unit of its first column).
@@ -40,6 +40,8 @@ class State:
         meshes: Folder that is searched first for meshes of the arm's file, or None.
         fault: Injected fault: kind, joint and onset, s. An empty joint name means the middle joint. The fault is not part of
             the command line.
+        friction: Dry friction of every joint in a power loss, N m or N. None: as the arm states. It is not part of the command
+            line.
         moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
@@ -65,6 +67,7 @@ class State:
     meshes: str | None = None
     moved: tuple[tuple[str, tuple[float, ...]], ...] = ()
     fault: tuple[str, str, float] = ("locked", "", 1.0)
+    friction: float | None = None
 
     def __post_init__(self) -> None:
         n = len(self.names)
@@ -92,6 +95,11 @@ class State:
     def free(self) -> tuple[int, ...]:
         """Indices from 0 of the joints that swing freely."""
         return tuple(k for k, c in enumerate(self.conditions) if c == "free")
+
+    @property
+    def powerless(self) -> tuple[int, ...]:
+        """Indices from 0 of the joints that fall in a power loss: the free ones, or all that are not locked if none is free."""
+        return self.free or tuple(k for k, condition in enumerate(self.conditions) if condition != "locked")
 
     def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
         """Return the same view with the object ``name`` of the cell at ``numbers``: x, y, z (m) and quaternion x, y, z, w."""

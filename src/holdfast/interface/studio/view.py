@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -72,7 +73,9 @@ class StudioView:
         with self.client.atomic():
             self.stage.move_arm(frames, moves_gizmo=self.dragged != "hand")
             self.panel.move_sliders(q, self.dragged if isinstance(self.dragged, int) else None)
-        reading = self._reading = self.machine.evaluate_live_reading(q, state.failed_joints, state.index, state.susceptibility)
+        reading = self._reading = self.machine.evaluate_live_reading(
+            q, state.failed_joints, state.index, state.susceptibility, state.powerless, state.friction
+        )
         with self.client.atomic():
             self.stage.show_reading(reading, frames[-1])
             self.panel.show_reading(reading, state)
@@ -91,14 +94,14 @@ class StudioView:
         return {
             "home": state.q != self._initial_state.q,
             "heal": bool(state.failed_joints),
-            "swing": bool(state.free) and machine.can_swing,
+            "fall": bool(state.powerless) and machine.has_masses,
             "best-worst": not isinstance(machine.get_objectives(state.objective), str),
             "take0": ghosts > 0,
             "take1": ghosts > 1,
             "target": state.target is None,
             "laws": state.target is not None and not self._is_at_target(),
             "region": not isinstance(reading.bars, str),
-            "watch": machine.can_swing and not state.failed_joints,
+            "watch": machine.has_masses and find_spec("mujoco") is not None and not state.failed_joints,
             "inject": state.show == "watch" and self.monitor_demo is not None and not self._is_busy,
             "clear": has_extras or self._is_busy,
             "tour": True,

@@ -31,7 +31,7 @@ from holdfast.model.arm.poses import pose_from_quaternion, pose_numbers
 Check = Callable[[], None]
 Load = Callable[[Any, str, bytes], None]
 
-STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "swing", "watch")  # results that depend on the configuration and the failures
+STATE_DEPENDENT_SHOWS = ("best-worst", "laws", "fall", "watch")  # results that depend on the configuration and the failures
 INDEX_ROUNDING = 1e-9  # of an index: smaller values are rounding errors
 
 
@@ -301,10 +301,12 @@ class Window(StudioView):
 
         self._start_work("Simulating the motion under both laws", "laws", show_law_motions)
 
-    def _on_swing(self, _: Any) -> None:
-        self._start_work(
-            "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE_RGB,), found[0].label)
-        )
+    def _on_fall(self, _: Any) -> None:
+        self._start_work("Simulating the fall", "fall", lambda found: self._show_motions(found, (PURPLE_RGB,), found[0].label))
+
+    def _on_friction(self, value: float) -> None:
+        self.state = replace(self.state, friction=value)
+        self._refresh()
 
     def _on_inject(self, _: Any) -> None:  # until now the motion is the same for every fault
         self.state = replace(self.state, fault=(*self.state.fault[:2], self.state.time))

@@ -9,7 +9,7 @@ import typer
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions, FrictionOptions, MountingOptions
-from holdfast.interface.cli.options import ArmArgument, DegreesOption, JsonOption, MotionCsvOption, OutOption, PlotOption
+from holdfast.interface.cli.options import ArmArgument, JsonOption, MotionCsvOption, OutOption, PlotOption
 from holdfast.interface.cli.values import read_configuration, read_numbers
 from holdfast.interface.presentation.results import print_result, write_outputs
 
@@ -30,7 +30,7 @@ def command(
     physics: Annotated[bool, "Also simulate in MuJoCo, with contacts (needs the extra 'physics')."] = False,
     touched: ContactOptions = ContactOptions(),
     placement: MountingOptions = MountingOptions(),
-    degrees: DegreesOption = False,
+    degrees: Annotated[bool, "Read --q and --rates in degrees (prismatic joints: m)."] = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
     plot: PlotOption = None,

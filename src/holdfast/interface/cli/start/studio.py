@@ -48,7 +48,7 @@ def command(
     move: Annotated[list[str] | None, "Object of the environment to move: NAME=x,y,z[,qx,qy,qz,qw], m. Repeatable."] = None,
     time: Annotated[float, "Time in the motion of --file that is shown first, s."] = 0.0,
     show: Annotated[
-        str | None, "View to open: arm, best-worst, laws, swing, region or file.", "file or region if given, else arm"
+        str | None, "View to open: arm, best-worst, laws, fall, region or file.", "file or region if given, else arm"
     ] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
 ) -> None:

@@ -28,19 +28,19 @@ Others = Mapping[str, PowerLoss | PhysicalFall]
 BAND_LABELS = ("without friction", "with twice the friction")
 CHECKED_TIMES_S = (0.05, 0.1, 0.2, 0.5)
 START_S = 1e-3  # duration over which the initial accelerations are measured
-QUANTILES = (0.5, 0.9, 0.99)
+DROP_QUANTILES = (0.5, 0.9, 0.99)
 WORST_ROWS = 10
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
-_DROP = Header("drop", "drop of the tool", "mm", aligned=False)
+_DROP_COLUMN = Header("drop", "drop of the tool", "mm", aligned=False)
 _OUTCOME_WORDS = {
     "holds": "do not begin",
-    "rest": "come to rest",
+    "rest": "end at rest",
     "contact": "end at a contact",
     "moving": "still move at the end",
     "unknown": "have no answer",
 }
-_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Any thick line is from MuJoCo."
+_FIGURE_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
 def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> dict[str, Any]:
@@ -83,7 +83,7 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         ],
         facts=_list_facts(fall),
         tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
-        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _CAPTION)} if single else {},
+        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if single else {},
         sections=partial(_animate_fall, fall, others) if single else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
@@ -155,7 +155,7 @@ def _list_notices(fall: PowerLoss) -> list[Notice]:
 def _list_facts(fall: PowerLoss) -> list[Fact]:
     drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
     if fall.q.ndim > 1:
-        quantiles = zip(QUANTILES, np.quantile(drops, QUANTILES) if drops.size else (), strict=False)
+        quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
         return [Fact(f"largest drop of {fraction:.0%} of the falls", float(drop), "mm") for fraction, drop in quantiles]
     facts = [
         Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
@@ -172,12 +172,12 @@ def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
-    columns = [Header("time", "after"), _DROP, Header("speed", "speed of the tool", "m/s")]
+    columns = [Header("time", "after"), _DROP_COLUMN, Header("speed", "speed of the tool", "m/s")]
     title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
     tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
     if others:
         rows = [(label, 1000 * float(other.drop), _describe_outcome(other)) for label, other in others.items()]
-        columns = [Header("condition", "condition"), _DROP, Header("end", "the arm")]
+        columns = [Header("condition", "condition"), _DROP_COLUMN, Header("end", "the arm")]
         tables.append(TableSpec("The same state under other conditions", columns, rows))
     physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
     return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
@@ -209,7 +209,7 @@ def _tabulate_joints(fall: PowerLoss) -> TableSpec:
 def _tabulate_worst(fall: PowerLoss) -> TableSpec:
     columns = [
         Header("row", "row"),
-        _DROP,
+        _DROP_COLUMN,
         Header("released", "energy released", "J", aligned=False),
         Header("error", "estimated error", "mm", digits=2, aligned=False),
         Header("outcome", "outcome"),

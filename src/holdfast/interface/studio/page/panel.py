@@ -93,7 +93,7 @@ class ControlPanel:
 
     def _add_fail_tab(self, arm: Arm, state: State) -> None:
         self.gui.add_html(
-            _message_html("A locked joint cannot move; a free joint swings. You can also click a joint in the scene.")
+            _message_html("A locked joint cannot move; a free joint has no torque. You can also click a joint in the scene.")
         )
         self.conditions = []
         for index, joint in enumerate(arm.joints):
@@ -101,7 +101,13 @@ class ControlPanel:
             self._attach_action(group.on_click, "fail", partial(_read_condition, index))
             self.conditions.append(group)
         self._add_button("All healthy", "heal")
-        self._add_button("Let the free joint swing", "swing")
+        stated_friction = max(joint.coulomb_friction for joint in arm.joints)
+        friction = self.gui.add_number(
+            "dry friction, N m", stated_friction, min=0.0, step=0.1, hint="Friction of every joint in a power loss."
+        )
+        self._attach_action(friction.on_update, "friction", lambda h: max(float(h.value), 0.0))
+        self._add_button("Cut the power", "fall")
+        self.power_loss = self.gui.add_html("")
         self.susceptibility = self.gui.add_dropdown(
             "susceptibility",
             self._list_choices(state.susceptibility, SUSCEPTIBILITY_REGISTRY),
@@ -217,6 +223,7 @@ class ControlPanel:
             (self.bars, bars_html(reading.bars, "if the joint locks", names, state.conditions)),
             (self.losses, losses_html(arm, self.machine.task, reading, state.failed_joints)),
             (self.weights, bars_html(reading.weights, "if the joint swings free", names, state.conditions)),
+            (self.power_loss, _message_html(reading.power_loss)),
             (self.command, command_html(state)),
         )
         for handle, content in pieces:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.util import find_spec
 
 import casadi as ca
 import numpy as np
@@ -13,11 +12,13 @@ import numpy as np
 from holdfast.control.laws.law import Law
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import ArmError, HoldfastError, InputError, TaskError
+from holdfast.core.formatting import format_number
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.body import stretched_length
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
+from holdfast.kinematics.holding.static_check import holds
 from holdfast.kinematics.indices import susceptibility
 from holdfast.kinematics.indices.index import Index, by_name
 from holdfast.kinematics.indices.lost_directions import (
@@ -30,6 +31,7 @@ from holdfast.kinematics.indices.lost_directions import (
 from holdfast.kinematics.indices.objective import Objective
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.model.arm import kinematics
+from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import pose_from_quaternion
 from holdfast.model.arm.task import Task
@@ -72,6 +74,7 @@ class LiveReading:
         failure_joints: Joints whose failure ``failed_ellipsoid`` and ``losses`` show: the failed ones, or the worst one if none
             has failed.
         losses: Directions in which speed is lost.
+        power_loss: Sentences on the beginning of the fall after a power loss.
     """
 
     bars: JointBars | str
@@ -80,6 +83,7 @@ class LiveReading:
     failed_ellipsoid: Ellipsoid
     failure_joints: tuple[int, ...]
     losses: list[DirectionLoss]
+    power_loss: str
 
 
 class CompiledArm:
@@ -91,6 +95,7 @@ class CompiledArm:
         self._susceptibilities: dict[str, susceptibility.Susceptibility | str] = {}
         self._objectives: dict[str, tuple[Objective, Objective] | str] = {}
         self._laws: dict[str, Law] = {}
+        self._tool_drops: dict[tuple[int, ...], susceptibility.Susceptibility] = {}
         self._clearance: Clearance | None = None
         self._compile_lock = threading.RLock()
 
@@ -172,9 +177,15 @@ class CompiledArm:
             return self._laws[text]
 
     def evaluate_live_reading(
-        self, q: FloatArray, failed: Sequence[int], index_name: str, susceptibility_name: str
+        self,
+        q: FloatArray,
+        failed: Sequence[int],
+        index_name: str,
+        susceptibility_name: str,
+        powerless: tuple[int, ...] = (),
+        friction: float | None = None,
     ) -> LiveReading:
-        """Evaluate all live values at q (n,)."""
+        """Evaluate all live values at q (n,), and with dry ``friction``, N m or N, for a power loss of the joints."""
         bars = self._evaluate_index_bars(q, index_name)
         failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
         linear_jacobian = self.arm.jacobian(q)[:3]
@@ -186,6 +197,26 @@ class CompiledArm:
             manipulability_ellipsoid(linear_jacobian, failure_joints),
             failure_joints,
             find_speed_losses(task_jacobian, failure_joints),
+            self._describe_power_loss(q, powerless, friction),
+        )
+
+    def _describe_power_loss(self, q: FloatArray, powerless: tuple[int, ...], friction: float | None) -> str:
+        if not powerless or not self.has_masses:
+            return ""
+        try:
+            with self._compile_lock:
+                if powerless not in self._tool_drops:
+                    self._tool_drops[powerless] = susceptibility.tool_drop(self.arm, powerless)
+            acceleration = float(self._tool_drops[powerless](q))
+            check = holds(self.arm, q, free=powerless, friction=Friction(coulomb=friction))
+        except HoldfastError as error:
+            return str(error)
+        joint = self.arm.joints[check.joint]
+        early, late = (format_number(1000 * acceleration * time**2 / 2, 3) for time in (0.05, 0.1))
+        return (
+            f"Without torque the arm {'holds' if check.holds else 'falls'}: {joint.name} has a margin of "
+            f"{format_number(float(check.margin), 3)} {'N' if joint.prismatic else 'N m'}. Without dry friction the tool "
+            f"accelerates down with {format_number(acceleration, 3)} m/s^2: {early} mm after 50 ms, {late} mm after 100 ms."
         )
 
     def _evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
@@ -235,9 +266,9 @@ class CompiledArm:
         return np.asarray(np.clip(np.where(is_within_limits, q + offsets, q - offsets), self.arm.lower, self.arm.upper))
 
     @cached_property
-    def can_swing(self) -> bool:
-        """True if a free joint can be simulated: the physics engine is installed and the bodies have masses."""
-        return find_spec("mujoco") is not None and all(link is not None for link in self.arm.links)
+    def has_masses(self) -> bool:
+        """True if the masses of all links are known, so that the arm can fall."""
+        return all(link is not None for link in self.arm.links)
 
     def step_self_motion(self, q: FloatArray, step: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, FloatArray]:
         """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is its length.
