@@ -128,10 +128,10 @@ def power_loss_probability(
     if q is not None:
         rows, description = np.atleast_2d(arm.check_configurations(q)), "the given configurations"
     elif where is None:
-        rows, description = np.random.default_rng(seed).uniform(*sampling_limits(arm), (samples, arm.n)), "the joint limits"
+        rows, description = np.random.default_rng(seed).uniform(*sampling_limits(arm), (samples, arm.n)), "random configurations within the joint limits"
     else:
         rows, unreached = _sample_region(arm, where, samples, seed)
-        description = where.name
+        description = f"random configurations of region '{where.name}'"
     usable = np.array(np.isfinite(rows).all(axis=1))
     if model is not None and usable.any():
         usable[usable] = model.margin_left(rows[usable]) > 0

@@ -2,35 +2,61 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import holdfast as hf
 from holdfast.core.errors import InputError
 from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions, FrictionOptions, MountingOptions
-from holdfast.interface.cli.options import ArmArgument, JsonOption, MotionCsvOption, OutOption, PlotOption
+from holdfast.interface.cli.options import (
+    ArmArgument,
+    DegreesOption,
+    JsonOption,
+    MotionCsvOption,
+    OutOption,
+    PlotOption,
+    SeedOption,
+)
 from holdfast.interface.cli.values import read_configuration, read_numbers
 from holdfast.interface.presentation.results import print_result, write_outputs
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 def command(
     arm: ArmArgument,
-    q: Annotated[str, "Joint values at the power loss in rad and m, separated by commas or spaces."],
+    q: Annotated[str | None, "Joint values at the power loss in rad and m, separated by commas or spaces."] = None,
+    along: Annotated[
+        Path | None, "Motion (CSV with time_s and one column per joint) or recording: a power loss at each of its instants."
+    ] = None,
+    episode: Annotated[int, "Number of the episode of a recording, from 0."] = 0,
+    anywhere: Annotated[bool, "Lose the power in random configurations, within the joint limits or --region."] = False,
+    below: Annotated[float | None, "Limit whose probability --anywhere estimates, in the unit of --measure."] = None,
+    measure: Annotated[str, "Measure: drop (m), released (J), impact_speed (m/s) or impact_energy (J)."] = "drop",
+    region: Annotated[
+        Path | None, "Region file (YAML) of joint values or tool poses, for --anywhere. Default: the joint limits."
+    ] = None,
+    samples: Annotated[int, "Number of random configurations."] = 20_000,
+    seed: SeedOption = 1,
     rates: Annotated[str | None, "Joint rates at the power loss in rad/s and m/s. Default: the arm is at rest."] = None,
     free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
     friction: FrictionOptions = FrictionOptions(),
     brake_after: Annotated[list[float] | None, "Delay of the brakes in ms. Repeatable, to compare delays."] = None,
-    brake_torque: Annotated[str | None, "Torque of the brakes in N m (N): one number or one per joint."] = None,
+    brake_torque: Annotated[
+        list[str] | None, "Torque of the brakes in N m (N): one number or one per joint. Repeatable, to compare torques."
+    ] = None,
     restitution: Annotated[float, "Ratio of the joint speeds after and before the impact on a stop, 0 to 1."] = 0.0,
     stops: Annotated[bool, typer.Option("--stops/--no-stops", help="Let the joint limits stop the joints.")] = True,
     duration: Annotated[float, "Simulated time in s."] = 2.0,
     accuracy: Annotated[float | None, "Largest estimated error of the tool in m. Default: no limit, steps of 2 ms."] = None,
     band: Annotated[bool, "Also simulate without friction and with twice the friction."] = False,
-    physics: Annotated[bool, "Also simulate in MuJoCo, with contacts (needs the extra 'physics')."] = False,
+    physics: Annotated[bool, "Also simulate in MuJoCo, beyond the first contact (needs the extra 'physics')."] = False,
     touched: ContactOptions = ContactOptions(),
     placement: MountingOptions = MountingOptions(),
-    degrees: Annotated[bool, "Read --q and --rates in degrees (prismatic joints: m)."] = False,
+    degrees: DegreesOption = False,
     chain: ArmSourceOptions = ArmSourceOptions(),
     csv: MotionCsvOption = None,
     plot: PlotOption = None,
@@ -39,41 +65,80 @@ def command(
 ) -> None:
     """Simulate how the arm falls when its joints lose their torque.
 
-    The joints fall under gravity, with friction, stops, and brakes. A brake does not stop a joint at once, so the tool drops
-    further after the delay.
+    The joints fall under gravity, with friction, stops, and brakes, until the first contact with the environment. Give one
+    configuration, --along a motion, or --anywhere.
 
     Example: holdfast power-loss panda --q "0 -45 0 -135 0 90 45" --degrees --coulomb 0.5 --brake-after 50 --brake-torque 40
     """
+    if (q is not None) + (along is not None) + anywhere != 1:
+        raise InputError("give one of --q, --along, and --anywhere")
     model = placement.mount_arm(chain.resolve_arm(arm))
-    stated = friction.read_friction(model)
     options: dict[str, Any] = {"free": free, "restitution": restitution, "stops": stops, "duration": duration}
-    options |= {"accuracy": accuracy, "rates": None if rates is None else read_configuration(model, rates, degrees, "--rates")}
+    options |= {"accuracy": accuracy, "friction": friction.read_friction(model)}
+    options["clearance"] = touched.build_contact_clearance(model)
+    delays, torques = _read_brakes(brake_after, brake_torque)
+    if len(delays) > 1 or len(torques) > 1:
+        if q is None:
+            raise InputError("several brakes are compared in one configuration; give --q")
+        start_rates = None if rates is None else read_configuration(model, rates, degrees, "--rates")
+        compared = hf.compare_brakes(
+            model, read_configuration(model, q, degrees), start_rates, torque=torques, after=delays, **options
+        )
+        print_result(compared, json_, write_outputs(compared, plot, out))
+        return
+    if delays:
+        options["brakes"] = hf.Brakes(after=delays[0], torque=torques[0])
+    if along is not None:
+        time, motion = _read_motion(model, along, episode)
+        curve = hf.power_loss_along(model, motion, time, **options)
+        print_result(curve, json_, write_outputs(curve, plot, out))
+        return
+    if anywhere:
+        if below is None:
+            raise InputError("--anywhere estimates the probability of a limit; give --below")
+        where = None if region is None else hf.Region.load(region)
+        choice: Any = measure
+        chance = hf.power_loss_probability(model, below, measure=choice, where=where, samples=samples, seed=seed, **options)
+        print_result(chance, json_, write_outputs(chance, plot, out))
+        return
+    assert q is not None
+    options["rates"] = None if rates is None else read_configuration(model, rates, degrees, "--rates")
     start = read_configuration(model, q, degrees)
-    brakes = _read_brakes(brake_after, brake_torque)
-    clearance = touched.build_contact_clearance(model)
-    if clearance is not None and not physics:
-        raise InputError("--cell applies to the simulation in MuJoCo; add --physics")
-
-    def simulate(joint_friction: hf.Friction, joint_brakes: hf.Brakes | None) -> hf.PowerLoss:
-        return hf.power_loss(model, start, friction=joint_friction, brakes=joint_brakes, **options)
-
-    fall = simulate(stated, brakes[0] if brakes else None)
-    compared: dict[str, Any] = {}
-    if len(brakes) > 1:
-        compared = {f"brakes after {1000 * each.after:g} ms": simulate(stated, each) for each in brakes}
-    if physics:
-        compared["in MuJoCo"] = fall.physical(clearance=clearance)
+    fall = hf.power_loss(model, start, **options)
     files = [] if csv is None else [fall.to_csv(csv)]
     factors = (0, 2) if band else ()
     frictions = [hf.Friction(**{name: factor * values for name, values in vars(fall.friction).items()}) for factor in factors]
-    others: dict[str, Any] = {"compared": compared, "band": [simulate(other, fall.brakes) for other in frictions]}
+    others: dict[str, Any] = {
+        "compared": {"in MuJoCo": fall.physical(clearance=options["clearance"])} if physics else {},
+        "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
+    }
     print_result(fall, json_, [*files, *write_outputs(fall, plot, out, **others)], **others)
 
 
-def _read_brakes(after: list[float] | None, torque: str | None) -> list[hf.Brakes]:
+def _read_brakes(after: list[float] | None, torque: list[str] | None) -> tuple[list[float], list[Any]]:
+    """Return the delays, s, and the torques of the brakes to compare; empty without brakes."""
     if (after is None) != (torque is None):
-        raise InputError("--brake-after and --brake-torque describe one set of brakes; give both")
-    if after is None or torque is None:
-        return []
-    numbers = read_numbers("--brake-torque", torque, "one number or one per joint")
-    return [hf.Brakes(after=delay / 1000, torque=numbers[0] if numbers.size == 1 else numbers) for delay in after]
+        raise InputError("--brake-after and --brake-torque describe brakes together; give both")
+    numbers = [read_numbers("--brake-torque", text, "one number or one per joint") for text in torque or []]
+    return [delay / 1000 for delay in after or []], [values[0] if values.size == 1 else values for values in numbers]
+
+
+def _read_motion(arm: hf.Arm, path: Path, episode: int) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return times (T,), s, and configurations (T, n), rad and m, of a CSV table of joint values or of a recording."""
+    import numpy as np
+
+    from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+    from holdfast.response.diagnosis import read_recording
+
+    if path.is_file() and path.read_bytes()[:6] == b"time_s":
+        numbers = read_joint_table(arm, path, "motion", "time_s").select_columns(["time_s", *joint_columns(arm)])
+        return numbers[:, 0], numbers[:, 1:]
+    recording = read_recording(path, episodes=[episode], joints=None)
+    recorded = recording.episodes[0].q
+    if recording.unit is None or recorded.shape[1] != arm.n:
+        raise InputError(
+            f"'{path}' has {recorded.shape[1]} joints in {recording.unit or 'an unknown unit'}; '{arm.name}' has {arm.n}, in "
+            "rad or deg; write the motion as a CSV table with time_s and one column per joint"
+        )
+    factors = np.where(arm.prismatic | (recording.unit == "rad"), 1.0, np.pi / 180)
+    return recording.episodes[0].t, recorded * factors

@@ -62,7 +62,7 @@ def present(result: DropProbability) -> Presentation:
     ]
     return Presentation(
         f"Power loss of {arm.name} in random configurations",
-        f"The {name} stays at or below {limit} in {format_interval(interval)} of the configurations of {result.where}.",
+        f"The {name} stays at or below {limit} in {format_interval(interval)} of {result.where}.",
         about=f"Arm {arm.title}. {describe_free_joints(result.fall)}",
         lines=[f"{format_count(len(result.value), 'fall')} simulated from rest, of {result.drawn:,} drawn configurations."],
         facts=[Fact("fraction", interval, style="percent", phrase=f"{name} at or below {limit}, estimated")],
@@ -81,11 +81,11 @@ def present(result: DropProbability) -> Presentation:
             "map": FigureSpec(
                 partial(_draw_map, result),
                 "Map",
-                f"Mean {name} over the two joints whose values decide most about it (rank correlation), and number of samples.",
+                f"Mean {name} over the two joints whose values decide most about it, by rank correlation.",
             )
         },
         method=[
-            ("Configurations", f"{result.where}, {result.drawn:,} drawn, those in collision left out"),
+            ("Configurations", f"{result.drawn:,} {result.where}, without those in collision"),
             ("Interval", "Clopper and Pearson, 95 %"),
             ("Simulated", f"{result.fall.duration:g} s after each power loss"),
             *list_friction(result.fall),

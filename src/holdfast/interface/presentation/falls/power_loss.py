@@ -123,9 +123,9 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
 
 def _describe_contact(fall: PowerLoss) -> str:
     """Describe the first contact that ended a fall; empty if there is none."""
-    contacts: Any = getattr(fall, "contacts", None)
-    contact = None if contacts is None else contacts.first()
-    if contact is None:
+    contacts = fall.contacts
+    contact = None if contacts is None else contacts.select_contact()
+    if contacts is None or contact is None:
         return ""
     numbers = (contact.time, contacts.normal_speed, contacts.energy_lost)
     time, speed, energy = (format_number(float(number), 3) for number in numbers)
