@@ -50,21 +50,55 @@ def test_a_moving_start_falls_further(ask, planar):
     assert data["drop_m"] > ask(*CALL)["drop_m"]
 
 
-def test_brakes_and_the_band_are_compared(ask, cli, planar):
-    options = ("--brake-after", "20", "--brake-after", "100", "--brake-torque", "60", "--band")
+def test_the_band_is_compared(ask, cli, planar):
+    options = ("--brake-after", "20", "--brake-torque", "60", "--band")
     data = ask(*CALL, *options)
     drops = {label: entry["drop_m"] for label, entry in data["compared"].items()}
-    for label, delay, factor in (
-        ("brakes after 20 ms", 0.02, 1),
-        ("brakes after 100 ms", 0.1, 1),
-        ("without friction", 0.02, 0),
-        ("with twice the friction", 0.02, 2),
-    ):
+    for label, factor in (("without friction", 0), ("with twice the friction", 2)):
         friction = hf.Friction(coulomb=1.5 * factor, viscous=2.0 * factor)
-        expected = hf.power_loss(planar, Q, friction=friction, brakes=hf.Brakes(after=delay, torque=60.0))
+        expected = hf.power_loss(planar, Q, friction=friction, brakes=hf.Brakes(after=0.02, torque=60.0))
         assert drops[label] == expected.drop, label
-    assert data["drop_m"] == drops["brakes after 20 ms"] < drops["brakes after 100 ms"]
     assert "from no friction to twice the friction" in " ".join(cli(*CALL, *options)[1].split())
+
+
+def test_several_brakes_are_compared(ask, cli, planar):
+    options = ("--brake-after", "20", "--brake-after", "100", "--brake-torque", "60", "--brake-torque", "40,50,60")
+    expected = hf.compare_brakes(planar, Q, torque=[60.0, [40.0, 50, 60]], after=[0.02, 0.1], friction=FRICTION)
+    assert ask(*CALL, *options) == expected.to_dict()
+    assert "stops at once" in cli(*CALL, *options)[1]
+
+
+def test_a_motion_loses_its_power_at_every_instant(ask, cli, tmp_path, planar):
+    time = np.linspace(0, 1, 8)
+    q = Q + 0.3 * np.sin(time)[:, None]
+    table = tmp_path / "motion.csv"
+    header = "time_s,joint1_rad,joint2_rad,joint3_rad"
+    np.savetxt(table, np.column_stack([time, q]), delimiter=",", header=header, comments="", fmt="%.17g")
+    call = ["power-loss", "planar-3r", "--along", table, "--coulomb", "1.5", "--viscous", "2"]
+    assert ask(*call) == hf.power_loss_along(planar, q, time, friction=FRICTION).to_dict()
+    code, out, _ = cli(*call, "--out", tmp_path / "out")
+    assert code == 0
+    assert "is the worst of" in out
+    assert (tmp_path / "out" / "drop.png").is_file()
+
+
+def test_a_recording_in_degrees_is_a_motion(ask, tmp_path, planar):
+    time = np.linspace(0, 1, 9)
+    q = Q + 0.3 * np.sin(time)[:, None]
+    log = hf.faults.Log(t=time, q_ref=q, q=q)
+    data = ask("power-loss", "planar-3r", "--along", log.save(tmp_path / "log.npz"), "--coulomb", "1.5", "--viscous", "2")
+    expected = hf.power_loss_along(planar, q, time, friction=FRICTION)
+    np.testing.assert_allclose(data["drop"], expected.drop, atol=1e-5)  # logs have single precision
+
+
+def test_random_configurations_give_a_probability(ask, cli, tmp_path, planar):
+    call = ["power-loss", "planar-3r", "--anywhere", "--below", "0.5", "--samples", "200", "--coulomb", "1.5", "--viscous", "2"]
+    expected = hf.power_loss_probability(planar, 0.5, samples=200, friction=FRICTION)
+    assert ask(*call) == expected.to_dict()
+    code, out, _ = cli(*call, "--out", tmp_path / "out")
+    assert code == 0
+    assert "stays at or below 0.500 m" in " ".join(out.split())
+    assert (tmp_path / "out" / "map.png").is_file()
 
 
 def test_people_read_the_answer_and_the_joints(cli, planar):
@@ -141,6 +175,13 @@ def test_the_page_shows_both_simulations(cli, tmp_path):
         ([*CALL, "--accuracy", "0"], "accuracy is 0 m"),
         ([*CALL, "--stiction", "1"], "below its coulomb friction"),
         ([*CALL, "--radius", "0.1", "--physics"], "there is none; add --cell"),
+        (["power-loss", "planar-3r"], "give one of --q, --along, and --anywhere"),
+        ([*CALL, "--anywhere"], "give one of --q, --along, and --anywhere"),
+        (["power-loss", "planar-3r", "--anywhere"], "give --below"),
+        (["power-loss", "planar-3r", "--anywhere", "--below", "0"], "below is 0"),
+        (["power-loss", "planar-3r", "--anywhere", "--below", "1", "--measure", "fun"], "measure is"),
+        (["power-loss", "planar-3r", "--along", "/nowhere.csv"], "/nowhere.csv"),
+        ([*CALL[:1], "planar-3r", "--anywhere", "--brake-after", "1", "--brake-after", "2", "--brake-torque", "3"], "give --q"),
         ([*CALL, "--csv", "/nowhere/motion.csv"], "cannot write motion"),
         ([*CALL, "--plot", "/nowhere/motion.png"], "cannot write picture"),
     ],
@@ -152,9 +193,10 @@ def test_bad_input_gives_one_sentence(cli, arguments, sentence):
     assert err.count("\n") == 1
 
 
-def test_a_cell_without_mujoco_is_refused(cli, tmp_path):
+def test_a_fall_ends_at_its_first_contact(ask, tmp_path):
     cell = tmp_path / "cell.yaml"
-    cell.write_text("objects:\n  table: {box: [2, 2, 0.1], pose: {xyz: [1.4, 0, -5]}}\n")
-    code, _, err = cli(*CALL, "--cell", cell)
-    assert code == 2
-    assert "add --physics" in err
+    cell.write_text("objects:\n  table: {box: [2, 2, 0.1], pose: {xyz: [1.4, 0, 0.2]}}\n")
+    call = ["power-loss", "panda", "--q", "0 -10 0 -90 0 90 45", "--degrees", "--free", "2", "--viscous", "5"]
+    data = ask(*call, "--cell", cell, "--radius", "0.04")
+    assert data["outcome"] == "contact"
+    assert data["drop_m"] < ask(*call)["drop_m"]

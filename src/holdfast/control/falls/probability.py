@@ -128,7 +128,8 @@ def power_loss_probability(
     if q is not None:
         rows, description = np.atleast_2d(arm.check_configurations(q)), "the given configurations"
     elif where is None:
-        rows, description = np.random.default_rng(seed).uniform(*sampling_limits(arm), (samples, arm.n)), "random configurations within the joint limits"
+        rows = np.random.default_rng(seed).uniform(*sampling_limits(arm), (samples, arm.n))
+        description = "random configurations within the joint limits"
     else:
         rows, unreached = _sample_region(arm, where, samples, seed)
         description = f"random configurations of region '{where.name}'"
