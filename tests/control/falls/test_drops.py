@@ -36,7 +36,7 @@ def test_every_instant_is_a_fall_with_the_rates_of_the_motion(panda, rng):
     np.testing.assert_array_equal(curve.drop, falls.drop)
     np.testing.assert_array_equal(curve.time, time)
     assert curve.worst == np.argmax(falls.drop)
-    assert curve.worst_fall.drop == falls.drop.max()
+    assert curve.falls.drop.max() == falls.drop[curve.worst]
     assert curve.exposure == pytest.approx(np.sum(np.diff(time) * (falls.drop[1:] + falls.drop[:-1]) / 2))
     assert curve.spacing == np.diff(time).max()
     assert np.isnan(curve.impact_speed).all()
@@ -48,7 +48,7 @@ def test_rates_of_a_parabola_are_exact_at_uneven_times(panda, rng):
     middle = (panda.lower + panda.upper) / 2
     q = middle + np.outer(time, slope) + np.outer(time**2, bend)
     curve = hf.power_loss_along(panda, q, time, refine=False, **SHORT)
-    np.testing.assert_allclose(curve.rates, slope + 2 * np.outer(time, bend), atol=1e-9)
+    np.testing.assert_allclose(curve.falls.rates, slope + 2 * np.outer(time, bend), atol=1e-9)
     assert curve.rates_from == "fitted"
 
 
@@ -61,7 +61,7 @@ def test_instants_are_added_only_where_the_drop_changes(rng):
     added = curve.time[~np.isin(curve.time, time)]
     assert len(added) >= 3
     assert ((added > 0.4) & (added < 0.6)).all()
-    np.testing.assert_array_equal(curve.drop, hf.power_loss(arm, curve.q, curve.rates, friction=FREE).drop)
+    np.testing.assert_array_equal(curve.drop, hf.power_loss(arm, curve.falls.q, curve.falls.rates, friction=FREE).drop)
 
 
 def test_the_hold_up_time_ends_where_the_drop_stays_small():

@@ -12,7 +12,7 @@ from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.measures import measure_fall
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
-from holdfast.core.progress import reports_progress
+from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
@@ -32,29 +32,29 @@ class DropCurve(Result):
     Between these instants nothing was simulated, so the worst instant is the worst of these T.
 
     Attributes:
-        arm: The arm.
         time: (T,) instants, s; those of the motion, and further ones where the drop changes by more than 10 % of its maximum.
-        q: (T, n) configurations, rad and m.
-        rates: (T, n) joint rates, rad/s and m/s.
+        falls: Falls from the T instants.
         rates_from: ``given`` or ``fitted`` (slope of a parabola through 5 configurations).
-        drop: (T,) largest displacement of the tool along gravity after a power loss at this instant, m; until the first contact
-            if contacts are checked.
-        impact_speed: (T,) normal speed at the first contact, m/s; NaN without contact.
-        impact_energy: (T,) kinetic energy that an inelastic first contact takes, J; NaN without contact.
-        error: (T,) estimated error of the tool point at the end of the fall, m.
-        worst_fall: Fall from the instant with the largest drop.
     """
 
-    arm: Arm
     time: FloatArray
-    q: FloatArray
-    rates: FloatArray
+    falls: PowerLoss
     rates_from: Literal["given", "fitted"]
-    drop: FloatArray
-    impact_speed: FloatArray
-    impact_energy: FloatArray
-    error: FloatArray
-    worst_fall: PowerLoss
+
+    @property
+    def drop(self) -> FloatArray:
+        """(T,) largest displacement of the tool along gravity, m; until the first contact if contacts are checked."""
+        return self.falls.drop
+
+    @property
+    def impact_speed(self) -> FloatArray:
+        """(T,) normal speed at the first contact, m/s; NaN without contact."""
+        return measure_fall(self.falls, "impact_speed")
+
+    @property
+    def impact_energy(self) -> FloatArray:
+        """(T,) kinetic energy that an inelastic first contact takes, J; NaN without contact."""
+        return measure_fall(self.falls, "impact_energy")
 
     @property
     def worst(self) -> int:
@@ -70,6 +70,21 @@ class DropCurve(Result):
     def spacing(self) -> float:
         """Largest time between two instants, s; 0 if there is only one."""
         return float(np.diff(self.time).max(initial=0.0))
+
+    def confirm(self, count: int = 25) -> tuple[FloatArray, FloatArray]:
+        """Simulate falls from evenly spaced instants in MuJoCo, with all contacts, also after the first one.
+
+        Args:
+            count: Number of instants.
+
+        Returns:
+            Their times (K,), s, and drops (K,), m.
+
+        Raises:
+            HoldfastError: MuJoCo is not installed.
+        """
+        rows = np.unique(np.linspace(0, len(self.time) - 1, count).round().astype(int))
+        return self.time[rows], np.array([self.falls.physical(row).drop for row in track("falls", rows.tolist())])
 
     def find_hold_up_time(self, below: float) -> float | None:
         """Return the first instant from which on the drop stays at or below a limit in m; None if there is none.
@@ -116,34 +131,20 @@ def power_loss_along(
         )
     free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free")))
 
-    def simulate(rows: FloatArray, row_rates: FloatArray) -> FloatArray:
-        fall = power_loss(arm, rows, row_rates * free, **options).require_ok()
-        return np.column_stack([measure_fall(fall, name) for name in ("drop", "impact_speed", "impact_energy")] + [fall.error])
+    def simulate() -> PowerLoss:
+        return power_loss(arm, motion, speeds * free, **options).require_ok()
 
-    values = simulate(motion, speeds)
+    falls = simulate()
     for _ in range(REFINEMENTS if refine else 0):
-        changes = np.abs(np.diff(values[:, 0]))
-        gaps = np.flatnonzero(changes > REFINED_CHANGE_FRACTION * np.abs(values[:, 0]).max())
+        changes = np.abs(np.diff(falls.drop))
+        gaps = np.flatnonzero(changes > REFINED_CHANGE_FRACTION * np.abs(falls.drop).max())
         if not gaps.size:
             break
         middle_q, middle_rates = _interpolate_middle(instants, motion, speeds, gaps)
-        middle_values = simulate(middle_q, middle_rates)
-        middle_instants = (instants[gaps] + instants[gaps + 1]) / 2
-        instants, motion = np.insert(instants, gaps + 1, middle_instants), np.insert(motion, gaps + 1, middle_q, axis=0)
-        speeds, values = np.insert(speeds, gaps + 1, middle_rates, axis=0), np.insert(values, gaps + 1, middle_values, axis=0)
-    worst = int(np.argmax(values[:, 0]))
-    return DropCurve(
-        arm=arm,
-        time=instants,
-        q=motion,
-        rates=speeds,
-        rates_from="fitted" if rates is None else "given",
-        drop=values[:, 0],
-        impact_speed=values[:, 1],
-        impact_energy=values[:, 2],
-        error=values[:, 3],
-        worst_fall=power_loss(arm, motion[worst], speeds[worst] * free, **options),
-    )
+        instants = np.insert(instants, gaps + 1, (instants[gaps] + instants[gaps + 1]) / 2)
+        motion, speeds = np.insert(motion, gaps + 1, middle_q, axis=0), np.insert(speeds, gaps + 1, middle_rates, axis=0)
+        falls = simulate()
+    return DropCurve(time=instants, falls=falls, rates_from="fitted" if rates is None else "given")
 
 
 def _check_motion(arm: Arm, q: ArrayLike, time: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -22,26 +22,26 @@ _LIMITS_M = (0.01, 0.05, 0.1, 0.2)
 
 def to_dict(curve: DropCurve) -> dict[str, Any]:
     """Return the drops at all instants, and the worst instant."""
-    columns = ("time", "q", "rates", "drop", "impact_speed", "impact_energy", "error")
     return {
-        **curve.arm.entry(),
+        **curve.falls.arm.entry(),
         "worst_time_s": curve.time[curve.worst],
         "worst_drop_m": curve.drop[curve.worst],
         "exposure_m_s": curve.exposure,
         "spacing_s": curve.spacing,
         "rates_from": curve.rates_from,
-        **{name: getattr(curve, name) for name in columns},
+        **{name: getattr(curve, name) for name in ("time", "drop", "impact_speed", "impact_energy")},
+        **{name: getattr(curve.falls, name) for name in ("q", "rates", "error")},
     }
 
 
 def present(curve: DropCurve) -> Presentation:
     """Present the worst instant, the drop over time, and the hold-up times."""
-    fall, worst = curve.worst_fall, curve.worst
+    falls, arm, worst = curve.falls, curve.falls.arm, curve.worst
     answer = (
         f"A power loss at {format_number(curve.time[worst], 4)} s is the worst of {format_count(len(curve.time), 'instant')}: "
         f"the tool falls {format_distance(curve.drop[worst])}"
     )
-    contact = None if fall.contacts is None else fall.contacts.select_contact()
+    contact = None if falls.contacts is None else falls.contacts.select_contact(worst)
     if contact is not None:
         answer += f" until {contact.link} touches {contact.object}, at {format_number(curve.impact_speed[worst], 3)} m/s"
     rows = [(1000 * limit, curve.find_hold_up_time(limit)) for limit in _LIMITS_M]
@@ -52,9 +52,9 @@ def present(curve: DropCurve) -> Presentation:
         [(limit, time) for (limit, _), time in zip(rows, times, strict=True)],
     )
     return Presentation(
-        f"Power loss of {curve.arm.name} along a motion",
+        f"Power loss of {arm.name} along a motion",
         f"{answer}.",
-        about=f"Arm {curve.arm.title}. {describe_free_joints(fall)}",
+        about=f"Arm {arm.title}. {describe_free_joints(falls)}",
         facts=[
             Fact("largest drop", 1000 * float(curve.drop[worst]), "mm", phrase="largest drop, sampled"),
             Fact("mean drop", 1000 * curve.exposure / max(float(np.ptp(curve.time)), 1e-300), "mm", phrase="mean over time"),
@@ -71,10 +71,10 @@ def present(curve: DropCurve) -> Presentation:
         method=[
             ("Instants", f"{len(curve.time)}; between them nothing was simulated"),
             ("Joint rates", "given" if curve.rates_from == "given" else "slopes of parabolas through 5 rows"),
-            ("Simulated", f"{fall.duration:g} s after each power loss"),
-            *list_friction(fall),
+            ("Simulated", f"{falls.duration:g} s after each power loss"),
+            *list_friction(falls),
         ],
-        arm=curve.arm,
+        arm=arm,
     )
 
 
@@ -92,7 +92,7 @@ def draw_curves(curves: dict[str, DropCurve]) -> Figure:
     moment = (float(first.time[first.worst]), 1000 * float(first.drop[first.worst]), "worst")
     values = lines if len(curves) > 1 else lines[next(iter(lines))]
     panel = TimePanel(time, values, "drop of the tool, mm", "", moments=(moment,))
-    caption = f"{first.arm.name}: {len(first.time)} simulated power losses"
+    caption = f"{first.falls.arm.name}: {len(first.time)} simulated power losses"
     return motion_figure([panel], caption, "instant of the power loss, s", panel_width=WIDTH_IN)
 
 
@@ -101,4 +101,4 @@ def _build_film(curve: DropCurve) -> list[Section]:
 
     readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
     caption = "The motion, with the drop of the tool for a power loss at each instant."
-    return [build_view_section("The motion", curve.arm, curve.q, caption, time=curve.time, readings=readings)]
+    return [build_view_section("The motion", curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]

@@ -126,4 +126,4 @@ def _build_view(result: StowPose | StowPath) -> list[Section]:
     curve = result.curve
     readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
     caption = "The path to the stow configuration, with the drop for a power loss at each instant."
-    return [build_view_section("The path", curve.arm, curve.q, caption, time=curve.time, readings=readings)]
+    return [build_view_section("The path", curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]
