@@ -50,8 +50,6 @@ class HoldCheck(Result):
         joint: (N,) index from 0 of the free joint with the smallest margin; -1 in a row of NaN.
         least_effort: (N,) smallest fraction of all effort limits with which motors, friction, and stops hold the arm; NaN if a
             required effort limit is unknown.
-        largest_payload: (N,) largest additional point mass at the tool point, kg, that friction, stops, and motors hold: with
-            the fraction ``effort`` for free joints, and the whole effort limit for others. NaN if no mass, not even 0, is held.
         status: (N,) ``Status.OK``, or ``BAD_INPUT`` in a row of NaN.
     """
 
@@ -69,8 +67,19 @@ class HoldCheck(Result):
     factor: FloatArray
     joint: IndexArray
     least_effort: FloatArray
-    largest_payload: FloatArray
     status: NDArray[np.uint8]
+
+    @property
+    def largest_payload(self) -> FloatArray:
+        """(N,) largest additional point mass at the tool point, kg, that friction, stops, and motors hold.
+
+        The motors have the fraction ``effort`` for free joints, and the whole effort limit for others. NaN if no mass, not even
+        0, is held.
+        """
+        q, torque, available = (np.atleast_2d(values) for values in (self.q, self.torque, self.available))
+        strength = (available - self.friction.load * np.abs(torque)) / (1 - self.friction.load)
+        payload = _largest_payload(self.arm, q, torque, np.atleast_2d(self.stop), strength)
+        return np.asarray(payload[0]) if self.q.ndim == 1 else payload
 
     def require_ok(self) -> HoldCheck:
         """Return the object itself, or raise :class:`holdfast.HoldfastError`, which names the first row of NaN."""
@@ -141,9 +150,6 @@ def holds(
         factor=factor.min(axis=1)[selection],
         joint=np.where(is_valid, joints[first], -1)[selection],
         least_effort=_least_effort(need - own_friction, limits)[selection],
-        largest_payload=_largest_payload(
-            arm, rows, torque, stop, (motors + joint_friction.stiction) / (1 - joint_friction.load)
-        )[selection],
         status=np.where(is_valid, Status.OK, Status.BAD_INPUT).astype(np.uint8)[selection],
     )
 
@@ -198,7 +204,7 @@ def _least_effort(missing: FloatArray, limits: FloatArray) -> FloatArray:
 
 
 def _largest_payload(arm: Arm, q: FloatArray, torque: FloatArray, stop: NDArray[np.int8], strength: FloatArray) -> FloatArray:
-    """Return the largest mass (N,) for which the torque of every joint stays between its bounds, +- ``strength`` (n,)."""
+    """Return the largest mass (N,) for which the torque of every joint stays between its bounds, +- ``strength`` (N, n)."""
     per_kilogram = -np.einsum("rik,i->rk", arm.jacobian(q)[:, :3], arm.gravity)
     is_noise = np.abs(per_kilogram) <= _ROUNDING_RATIO * np.linalg.norm(arm.gravity) * np.where(
         arm.prismatic, 1, arm.length_unit
