@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import casadi as ca
 import numpy as np
@@ -23,6 +24,7 @@ REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once the
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
 MIN_BLOCK_ROWS = 1024
+_Motion: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]  # times (R,), configurations and rates (R, n)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,6 +79,10 @@ class _Instant:
         """Return some of the falls."""
         return _Instant(**{name: value[rows] for name, value in vars(self).items()})
 
+    def select_motion(self, rows: IndexArray) -> _Motion:
+        """Return times, configurations, and rates of some of the falls."""
+        return self.time[rows], self.q[rows], self.rates[rows]
+
     def join(self, other: _Instant) -> _Instant:
         """Return these instants and, after them, those of the other one."""
         return _Instant(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
@@ -112,41 +118,42 @@ class ContactSearch:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
         workers = 1 if in_pool() else thread_count()
         block_rows = min(BLOCK_DISTANCES // (1 + len(self.clearance.pair_names)), max(MIN_BLOCK_ROWS, -(-len(q) // workers)))
-        blocks = [slice(start, start + block_rows) for start in range(0, len(q), block_rows)]
-        mapped = map if workers == 1 or len(blocks) <= 1 else shared_pool().map
-        found = mapped(lambda b: self._find_contacts(q[b], rates[b], until[b], step[b]), blocks)
-        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
-        for b, (block_time, block_pair) in zip(track("blocks of falls until contact", blocks), found, strict=True):
-            time[b], pair[b] = block_time, block_pair
-        return replace(self.simulator.run(q, rates, np.fmin(time, until), step), pair=pair)
+        blocks = [slice(start, start + block_rows) for start in range(0, max(len(q), 1), block_rows)]
+        mapped = map if workers == 1 or len(blocks) == 1 else shared_pool().map
+        parts = mapped(lambda b: self._run_block(q[b], rates[b], until[b], step[b]), blocks)
+        tracked = zip(track("blocks of falls until contact", blocks), parts, strict=True)
+        return FallStates.join([part for _, part in tracked])
 
-    def _find_contacts(
-        self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
-    ) -> tuple[FloatArray, IndexArray]:
-        """Return the time (N,) and the pair (N,) of the first contact of each fall; NaN and -1 for none."""
+    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
-        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
-        calls = max(1, int(CHECK_SPACING_S / step.max(initial=0.0)))
+        done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
+        calls = max(1, int(CHECK_SPACING_S / step.max(initial=1e-9)))
         before, ignored = self._measure_nearest(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
         for _ in range(most_calls // calls + 1):
-            if not rows.size:
-                break
-            result = stepper.loop.run(states, parameters, 0.5, calls)
+            result = stepper.loop.run(states[rows], parameters[rows], 0.5, calls)
             parts = stepper.layout.view_parts(result.state)
             after = self._measure_nearest(parts["time"][:, 0], parts["q"], parts["rates"])
             possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
             doubtful = np.flatnonzero(possible.any(axis=1) | ignored.any(axis=1))
             if doubtful.size:
-                start, end = (
-                    self._measure(part.time, part.q, part.rates) for part in (before.select(doubtful), after.select(doubtful))
-                )
-                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
-                ignored[doubtful] &= end.distances < REQUIRED_GAP_M
-            remaining = np.flatnonzero(~result.done & (pair[rows] < 0))
+                spans = [self._measure(*instant.select_motion(doubtful)) for instant in (before, after)]
+                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(*spans, ignored[doubtful])
+                ignored[doubtful] &= spans[1].distances < REQUIRED_GAP_M
+            is_clear = pair[rows] < 0  # all others keep the state before their contact
+            states[rows[is_clear]], done[rows] = result.state[is_clear], result.done
+            remaining = np.flatnonzero(is_clear & ~result.done)
             rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
-            states, parameters = result.state[remaining], parameters[remaining]
-        return time, pair
+            if not rows.size:
+                break
+        touching = np.flatnonzero(pair >= 0)
+        for name, values in stepper.layout.view_parts(states).items():
+            if name in ("step", "tries", "mode"):
+                values[touching] = 0.0  # the step to the contact is a new one
+        stepper.parameters.view_parts(parameters)["until"][touching, 0] = time[touching]
+        result = stepper.loop.run(states[touching], parameters[touching], 0.5, most_calls)
+        states[touching], done[touching] = result.state, result.done
+        return self.simulator.read_states(q, states, done, pair)
 
     def _measure(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
         return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
@@ -159,7 +166,7 @@ class ContactSearch:
         return _Instant(time=time, q=q, rates=rates, distances=distances)
 
     def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
-        """Return the time (R,) and the pair (R,) of the first contact of each fall between two instants; NaN and -1 for none.
+        """Return the times (R,) and the pairs (R,) of the first contacts between two instants; infinite and -1 for none.
 
         Spans of time in which a contact is possible are split until the bound excludes a contact or they are short enough.
         """
@@ -180,10 +187,10 @@ class ContactSearch:
             time[falls[found[order]]], pair[falls[found[order]]] = instants[order], fractions[order].argmin(axis=1)
             split = np.flatnonzero(is_coarse & (before.time < latest[falls]))
             if not split.size:
-                return np.where(pair < 0, np.nan, time), pair
+                return time, pair
             falls, before, after = falls[split], before.select(split), after.select(split)
             middle_time = (before.time + after.time) / 2
-            middle = self._measure(*_interpolate(start.select(falls), end.select(falls), middle_time))
+            middle = self._measure(*_interpolate(start.select_motion(falls), end.select_motion(falls), middle_time))
             before, after, falls = before.join(middle), middle.join(after), np.concatenate([falls, falls])
 
 
@@ -206,14 +213,14 @@ def _find_possible_contacts(
     return possible, is_coarse
 
 
-def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _interpolate(start: _Motion, end: _Motion, time: FloatArray) -> _Motion:
     """Return times (R,), and configurations and rates (R, n) on the cubic polynomials between two instants."""
-    duration = (end.time - start.time)[:, None]
-    s = (time - start.time)[:, None] / duration
-    chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
+    (start_time, start_q, start_rates), (end_time, end_q, end_rates) = start, end
+    duration = (end_time - start_time)[:, None]
+    s = (time - start_time)[:, None] / duration
+    chord, first, last = end_q - start_q, duration * start_rates, duration * end_rates
     second, third = 3 * chord - 2 * first - last, first + last - 2 * chord
-    q = start.q + s * (first + s * (second + s * third))
-    return time, q, (first + s * (2 * second + 3 * s * third)) / duration
+    return time, start_q + s * (first + s * (second + s * third)), (first + s * (2 * second + 3 * s * third)) / duration
 
 
 def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:
