@@ -182,7 +182,7 @@ def moving_states(clearance, count: int) -> tuple[Array, Array]:
     phase, limit = rng.uniform(0, np.pi, (4 * count, 1)), np.array([joint.velocity for joint in panda.ours().joints])
     q = start + (end - start) * (1 - np.cos(phase)) / 2
     slowest = (np.abs(end - start) / (limit / 2)).max(axis=1, keepdims=True)  # duration at which the fastest is at its limit
-    rates = (end - start) * np.sin(phase) / slowest
+    rates = (end - start) * np.sin(phase) / np.maximum(slowest, 1e-9)
     rows = np.flatnonzero(clearance(q) > 0.01)[:count]
     return q[rows], rates[rows]
 
@@ -251,7 +251,8 @@ def contact_table(chosen: argparse.Namespace) -> str:
         f"| {harness.number(len(seen) / float(np.median(theirs)))} | {harness.Spread.of(ratios)} |",
         "",
         f"{(contact.pair >= 0).mean():.2%} touch, medians: after {medians[0]:.2f} s, at {medians[1]:.1f} m/s, "
-        f"{medians[2]:.1f} kg, {medians[3]:.1f} J lost. Of {len(seen)} falls, MuJoCo sees {np.isfinite(seen).sum()} touch and holdfast "
+        f"{medians[2]:.1f} kg, {medians[3]:.1f} J lost. Of {len(seen)} falls, MuJoCo sees {np.isfinite(seen).sum()} touch and "
+        "holdfast "
         f"{touched.sum()}, {(np.isfinite(seen) & ~touched).sum()} of MuJoCo's are not seen by holdfast. MuJoCo sees a contact "
         f"{np.median(later):.1f} ms later (median; earliest {later.min():.1f} ms), because spheres enclose the capsules.",
     ]

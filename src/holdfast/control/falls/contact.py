@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -24,7 +23,6 @@ REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once the
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
 MIN_BLOCK_ROWS = 1024
-_Motion: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]  # times (R,), configurations and rates (R, n)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +66,7 @@ class FallContacts:
 
 @dataclass(frozen=True, kw_only=True)
 class _Instant:
-    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances of all pairs (R, P), m."""
+    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances (R, P) of pairs, or (R,) of one."""
 
     time: FloatArray
     q: FloatArray
@@ -78,10 +76,6 @@ class _Instant:
     def select(self, rows: IndexArray | BoolArray) -> _Instant:
         """Return some of the falls."""
         return _Instant(**{name: value[rows] for name, value in vars(self).items()})
-
-    def select_motion(self, rows: IndexArray) -> _Motion:
-        """Return times, configurations, and rates of some of the falls."""
-        return self.time[rows], self.q[rows], self.rates[rows]
 
     def join(self, other: _Instant) -> _Instant:
         """Return these instants and, after them, those of the other one."""
@@ -135,11 +129,10 @@ class ContactSearch:
             parts = stepper.layout.view_parts(result.state)
             after = self._measure_nearest(parts["time"][:, 0], parts["q"], parts["rates"])
             possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
-            doubtful = np.flatnonzero(possible.any(axis=1) | ignored.any(axis=1))
-            if doubtful.size:
-                spans = [self._measure(*instant.select_motion(doubtful)) for instant in (before, after)]
-                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(*spans, ignored[doubtful])
-                ignored[doubtful] &= spans[1].distances < REQUIRED_GAP_M
+            doubtful = np.union1d(possible, np.flatnonzero(ignored.any(axis=1)))
+            start, end = (self._measure_pairs(part.select(doubtful)) for part in (before, after))
+            time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
+            ignored[doubtful] &= end.distances < REQUIRED_GAP_M
             is_clear = pair[rows] < 0  # all others keep the state before their contact
             states[rows[is_clear]], done[rows] = result.state[is_clear], result.done
             remaining = np.flatnonzero(is_clear & ~result.done)
@@ -155,8 +148,8 @@ class ContactSearch:
         states[touching], done[touching] = result.state, result.done
         return self.simulator.read_states(q, states, done, pair)
 
-    def _measure(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
-        return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
+    def _measure_pairs(self, instant: _Instant) -> _Instant:
+        return replace(instant, distances=self.clearance.by_pair(instant.q))
 
     def _measure_nearest(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
         """Return instants with the distances of all pairs of links, and of the nearest object, which are fast to compute."""
@@ -168,59 +161,61 @@ class ContactSearch:
     def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
         """Return the times (R,) and the pairs (R,) of the first contacts between two instants; infinite and -1 for none.
 
-        Spans of time in which a contact is possible are split until the bound excludes a contact or they are short enough.
+        A span of time in which a contact of a pair is possible is split until it is excluded or located.
         """
         time, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
-        falls, before, after = np.arange(len(ignored)), start, end
-        latest = np.full(len(ignored), np.inf)  # times at which a contact has begun
-        while True:
-            possible, is_coarse = _find_possible_contacts(before, after, self.change_bounds, ignored[falls])
-            touching = possible & (after.distances < 0)
-            np.minimum.at(latest, falls, np.where(touching.any(axis=1), after.time, np.inf))
-            is_coarse &= ~touching.any(axis=1) | (after.time - before.time > TIME_RESOLUTION_S)
-            found = np.flatnonzero(~is_coarse & touching.any(axis=1))
-            drops = np.where(touching[found], before.distances[found] - after.distances[found], 1.0)
-            fractions = np.where(touching[found], before.distances[found] / drops, np.inf)
-            instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
+        latest = time.copy()  # times at which a contact has begun
+        falls, pairs = _find_possible_contacts(start, end, self.change_bounds, ignored)
+        before, after = (replace(part.select(falls), distances=part.distances[falls, pairs]) for part in (start, end))
+        while falls.size:
+            change = np.sum(_bound_travel(before, after) * self.change_bounds[pairs], axis=1)
+            duration, touching = after.time - before.time, after.distances < 0
+            np.minimum.at(latest, falls[touching], after.time[touching])
+            is_possible = touching | (before.distances + after.distances < change)
+            is_coarse = is_possible & np.where(touching, duration > TIME_RESOLUTION_S, change >= MIN_DISTANCE_CHANGE_M)
+            fraction = before.distances / np.where(touching, before.distances - after.distances, 1.0)
+            instants = np.where(touching & ~is_coarse, before.time + fraction * duration, np.inf)
             order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
-            order = order[instants[order] < time[falls[found[order]]]]
-            time[falls[found[order]]], pair[falls[found[order]]] = instants[order], fractions[order].argmin(axis=1)
-            split = np.flatnonzero(is_coarse & (before.time < latest[falls]))
-            if not split.size:
-                return time, pair
-            falls, before, after = falls[split], before.select(split), after.select(split)
+            order = order[instants[order] < time[falls[order]]]
+            time[falls[order]], pair[falls[order]] = instants[order], pairs[order]
+            split = is_coarse & (before.time < latest[falls])
+            falls, pairs, before, after = falls[split], pairs[split], before.select(split), after.select(split)
             middle_time = (before.time + after.time) / 2
-            middle = self._measure(*_interpolate(start.select_motion(falls), end.select_motion(falls), middle_time))
-            before, after, falls = before.join(middle), middle.join(after), np.concatenate([falls, falls])
+            middle = self._measure_pairs(_interpolate(start.select(falls), end.select(falls), middle_time))
+            middle = replace(middle, distances=middle.distances[np.arange(falls.size), pairs])
+            before, after = before.join(middle), middle.join(after)
+            falls, pairs = np.tile(falls, 2), np.tile(pairs, 2)
+        return time, pair
+
+
+def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
+    """Bound the travel (R, n) of each joint on the cubic polynomials between two instants, rad and m."""
+    half = (after.time - before.time)[:, None] / 2
+    travel = half * (np.abs(before.rates) + np.abs(after.rates))
+    return np.asarray(travel + np.abs(after.q - before.q - half * (before.rates + after.rates)))
 
 
 def _find_possible_contacts(
     before: _Instant, after: _Instant, change_bounds: FloatArray, ignored: BoolArray | bool = False
-) -> tuple[BoolArray, BoolArray]:
-    """Return which distances (R, P) may reach 0 between two instants, and in which falls (R,) one of them may change far."""
-    half = (after.time - before.time)[:, None] / 2
-    travel = half * (np.abs(before.rates) + np.abs(after.rates))
-    travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
-    sums, touching = before.distances + after.distances, after.distances < 0
+) -> tuple[IndexArray, IndexArray]:
+    """Return the falls and the pairs of which the distance may reach 0 between two instants."""
+    travel, sums, touching = _bound_travel(before, after), before.distances + after.distances, after.distances < 0
     # Most pairs are excluded by the largest bound of all pairs.
     largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
     falls, pairs = np.nonzero(((sums < largest_change[:, None]) | touching) & np.logical_not(ignored))
     change = np.sum(travel[falls] * change_bounds[pairs], axis=1)
     is_possible = (sums[falls, pairs] < change) | touching[falls, pairs]
-    possible, is_coarse = np.zeros(sums.shape, dtype=np.bool_), np.zeros(len(sums), dtype=np.bool_)
-    possible[falls[is_possible], pairs[is_possible]] = True
-    is_coarse[falls[is_possible & (change >= MIN_DISTANCE_CHANGE_M)]] = True
-    return possible, is_coarse
+    return falls[is_possible], pairs[is_possible]
 
 
-def _interpolate(start: _Motion, end: _Motion, time: FloatArray) -> _Motion:
-    """Return times (R,), and configurations and rates (R, n) on the cubic polynomials between two instants."""
-    (start_time, start_q, start_rates), (end_time, end_q, end_rates) = start, end
-    duration = (end_time - start_time)[:, None]
-    s = (time - start_time)[:, None] / duration
-    chord, first, last = end_q - start_q, duration * start_rates, duration * end_rates
+def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> _Instant:
+    """Return instants on the cubic polynomials between two others, with the distances of the first."""
+    duration = (end.time - start.time)[:, None]
+    s = (time - start.time)[:, None] / duration
+    chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
     second, third = 3 * chord - 2 * first - last, first + last - 2 * chord
-    return time, start_q + s * (first + s * (second + s * third)), (first + s * (2 * second + 3 * s * third)) / duration
+    q = start.q + s * (first + s * (second + s * third))
+    return replace(start, time=time, q=q, rates=(first + s * (2 * second + 3 * s * third)) / duration)
 
 
 def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:
