@@ -53,6 +53,7 @@ RESULTS = named(
 VALUES = named(
     {
         "": "BrakedDrop PoseSolutions PowerLoss",
+        "control.falls": "FallContacts",
         "model.arms": "Builtin DHTable",
         "studies.assessment": "Structure Upgrade WeakJoint",
         "control": "Deviations",

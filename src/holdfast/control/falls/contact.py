@@ -11,7 +11,6 @@ from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
@@ -22,7 +21,6 @@ CHECK_SPACING_S = 0.01  # simulated time between two computations of the distanc
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
-MIN_BLOCK_ROWS = 1024
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,13 +108,10 @@ class ContactSearch:
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
-        workers = 1 if in_pool() else thread_count()
-        block_rows = min(BLOCK_DISTANCES // (1 + len(self.clearance.pair_names)), max(MIN_BLOCK_ROWS, -(-len(q) // workers)))
+        block_rows = BLOCK_DISTANCES // (1 + len(self.clearance.pair_names))
         blocks = [slice(start, start + block_rows) for start in range(0, max(len(q), 1), block_rows)]
-        mapped = map if workers == 1 or len(blocks) == 1 else shared_pool().map
-        parts = mapped(lambda b: self._run_block(q[b], rates[b], until[b], step[b]), blocks)
-        tracked = zip(track("blocks of falls until contact", blocks), parts, strict=True)
-        return FallStates.join([part for _, part in tracked])
+        tracked = track("blocks of falls", blocks)
+        return FallStates.join([self._run_block(q[b], rates[b], until[b], step[b]) for b in tracked])
 
     def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
