@@ -264,8 +264,7 @@ def contact_table(chosen: argparse.Namespace) -> str:
         "",
         f"{(contact.pair >= 0).mean():.2%} touch, medians: after {medians[0]:.2f} s, at {medians[1]:.1f} m/s, "
         f"{medians[2]:.1f} kg, {medians[3]:.1f} J lost. Of {len(seen)} falls, MuJoCo sees {np.isfinite(seen).sum()} touch and "
-        "holdfast "
-        f"{touched.sum()}, {(np.isfinite(seen) & ~touched).sum()} of MuJoCo's are not seen by holdfast. MuJoCo sees a contact "
+        f"holdfast {touched.sum()}; holdfast misses {(np.isfinite(seen) & ~touched).sum()} of them. MuJoCo sees a contact "
         f"{np.median(later):.1f} ms later (median; earliest {later.min():.1f} ms), because spheres enclose the capsules.",
     ]
     return "\n".join(lines) + "\n"
