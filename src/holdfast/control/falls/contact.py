@@ -162,6 +162,7 @@ class ContactSearch:
         latest = time.copy()  # times at which a contact has begun
         falls, pairs = _find_possible_contacts(start, end, self.change_bounds, ignored)
         before, after = (replace(part.select(falls), distances=part.distances[falls, pairs]) for part in (start, end))
+        start, end = (replace(part, distances=part.time) for part in (start, end))  # only their motion is needed from here on
         while falls.size:
             change = np.sum(_bound_travel(before, after) * self.change_bounds[pairs], axis=1)
             duration, touching = after.time - before.time, after.distances < 0
